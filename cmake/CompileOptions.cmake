@@ -1,0 +1,22 @@
+# -Wno-restrict: g++ 12 reports false overlaps in std::string (GCC bug 105651).
+# Our own code: warnings are errors. The same build on the same kind of CPU gives the same bits (DESIGN 1),
+# so multiplications and additions are never contracted.
+add_library(vesselbench_options INTERFACE)
+target_compile_options(vesselbench_options INTERFACE -Wall -Wextra -Wshadow -Werror -Wno-restrict -ffp-contract=off)
+target_include_directories(vesselbench_options INTERFACE ${CMAKE_SOURCE_DIR})
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+# A library of one folder: vesselbench_library(geometry SOURCES ... PUBLIC ... PRIVATE ...)
+function(vesselbench_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(vb_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(vb_${name} PUBLIC vesselbench_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()

@@ -1,0 +1,36 @@
+# Third-party libraries, all of them Debian packages (scripts/setup).
+find_package(VTK 9.1 REQUIRED COMPONENTS
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore FiltersGeneral FiltersModeling
+  IOGeometry IOPLY IOXML IOImage IOLegacy ImagingCore ImagingGeneral ImagingHybrid ImagingMorphological ImagingStencil)
+find_package(CGAL 5.5 REQUIRED)
+# CGAL's Find modules shadow those of other packages: CONFIG is needed from here on.
+find_package(Eigen3 CONFIG REQUIRED)
+include(CGAL_Eigen3_support)
+find_package(OpenMesh CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(GDCM CONFIG REQUIRED)
+find_package(SQLite3 REQUIRED)
+find_package(zstd CONFIG REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+find_package(spdlog CONFIG REQUIRED)
+find_package(Catch2 2 CONFIG REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS EGL)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+
+# TetGen has no CMake configuration.
+find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
+find_library(TETGEN_LIBRARY tet REQUIRED)
+add_library(tetgen::tetgen UNKNOWN IMPORTED)
+set_target_properties(tetgen::tetgen PROPERTIES
+  IMPORTED_LOCATION ${TETGEN_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${TETGEN_INCLUDE_DIR}
+  INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
+
+# GDCM exports plain library names without their include folder.
+find_path(GDCM_INCLUDE_DIR gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+add_library(gdcm_all INTERFACE)
+target_link_libraries(gdcm_all INTERFACE gdcmMSFF gdcmDSED gdcmCommon)
+target_include_directories(gdcm_all SYSTEM INTERFACE ${GDCM_INCLUDE_DIR})

@@ -1,0 +1,137 @@
+#include "geometry/topology.h"
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+CompressedRows triangles_by_vertex(std::span<const Triangle> triangles, std::size_t vertex_count) {
+    CompressedRows rows;
+    rows.offsets.assign(vertex_count + 1, 0);
+    for (const Triangle& t : triangles)
+        for (const VertexId v : t) ++rows.offsets[v + 1];
+    for (std::size_t v = 0; v < vertex_count; ++v) rows.offsets[v + 1] += rows.offsets[v];
+    rows.values.resize(rows.offsets.back());
+    std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
+    for (TriangleId t = 0; t < triangles.size(); ++t)
+        for (const VertexId v : triangles[t]) rows.values[next[v]++] = t;
+    return rows;
+}
+
+/// Fills `around` with both other corners of every triangle at v, sorted: an inner edge's end
+/// stands there twice.
+void collect_corners(std::span<const Triangle> triangles, std::span<const TriangleId> at,
+                     VertexId v, std::vector<VertexId>& around) {
+    around.clear();
+    for (const TriangleId t : at)
+        for (const VertexId u : triangles[t])
+            if (u != v) around.push_back(u);
+    std::sort(around.begin(), around.end());
+}
+
+bool any_occurs_once(const std::vector<VertexId>& sorted) {
+    for (std::size_t i = 0; i < sorted.size();) {
+        std::size_t end = i + 1;
+        while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
+        if (end - i == 1) return true;
+        i = end;
+    }
+    return false;
+}
+
+}  // namespace
+
+Topology::Topology(std::vector<Triangle> triangles, std::size_t vertex_count)
+    : triangles_(std::move(triangles)), vertex_count_(vertex_count) {
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (const VertexId v : triangles_[t])
+            if (v >= vertex_count_)
+                throw InvalidInput("triangle " + std::to_string(t) + " names vertex " +
+                                   std::to_string(v) + ", but there are only " +
+                                   std::to_string(vertex_count_));
+}
+
+const Topology::Neighbours& Topology::neighbours() const {
+    std::call_once(once_, [this] {
+        auto made = std::make_unique<Neighbours>();
+        made->triangles_at = triangles_by_vertex(triangles_, vertex_count_);
+        made->boundary.assign(vertex_count_, 0);
+        made->rings.offsets.assign(1, 0);
+        made->rings.offsets.reserve(vertex_count_ + 1);
+        made->rings.values.reserve(triangles_.size() * 3 + vertex_count_ / 8);
+        std::vector<VertexId> around;
+        for (VertexId v = 0; v < vertex_count_; ++v) {
+            collect_corners(triangles_, made->triangles_at.row(v), v, around);
+            made->boundary[v] = any_occurs_once(around) ? 1 : 0;
+            around.erase(std::unique(around.begin(), around.end()), around.end());
+            made->rings.values.insert(made->rings.values.end(), around.begin(), around.end());
+            made->rings.offsets.push_back(static_cast<std::uint32_t>(made->rings.values.size()));
+        }
+        neighbours_ = std::move(made);
+    });
+    return *neighbours_;
+}
+
+const CompressedRows& Topology::rings() const {
+    return neighbours().rings;
+}
+
+const CompressedRows& Topology::triangles_at() const {
+    return neighbours().triangles_at;
+}
+
+const std::vector<std::uint8_t>& Topology::boundary_vertices() const {
+    return neighbours().boundary;
+}
+
+std::vector<std::vector<VertexId>> Topology::boundary_loops() const {
+    // next[a] holds the b of every half-edge a -> b whose edge has one triangle only.
+    std::unordered_map<VertexId, std::vector<VertexId>> next;
+    std::vector<VertexId> starts;
+    const auto& at = triangles_at();
+    const auto& boundary = boundary_vertices();
+    const auto triangles_on_edge = [&](VertexId a, VertexId b) {
+        int count = 0;
+        for (const TriangleId t : at.row(a))
+            for (const VertexId v : triangles_[t]) count += v == b ? 1 : 0;
+        return count;
+    };
+    for (const Triangle& t : triangles_)
+        for (int k = 0; k < 3; ++k) {
+            const VertexId a = t[k], b = t[(k + 1) % 3];
+            if (!boundary[a] || !boundary[b] || a == b || triangles_on_edge(a, b) != 1) continue;
+            next[a].push_back(b);
+            starts.push_back(a);
+        }
+    std::vector<std::vector<VertexId>> loops;
+    for (const VertexId start : starts) {
+        std::vector<VertexId> path{start};
+        std::unordered_map<VertexId, std::size_t> place{{start, 0}};
+        while (!next[path.back()].empty()) {
+            auto& out = next[path.back()];
+            const VertexId to = out.back();
+            out.pop_back();
+            if (const auto seen = place.find(to); seen != place.end()) {
+                // A vertex met again closes a loop; what came before it goes on as a path.
+                loops.emplace_back(path.begin() + static_cast<std::ptrdiff_t>(seen->second),
+                                   path.end());
+                while (path.size() > seen->second + 1) {
+                    place.erase(path.back());
+                    path.pop_back();
+                }
+            } else {
+                place[to] = path.size();
+                path.push_back(to);
+            }
+        }
+    }
+    return loops;
+}
+
+}  // namespace vesselbench

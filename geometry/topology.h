@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace vesselbench {
+
+using VertexId = std::uint32_t;
+using TriangleId = std::uint32_t;
+
+/// Vertex indices in counter-clockwise order seen from outside.
+using Triangle = std::array<VertexId, 3>;
+
+/// Rows of indices of different length in one flat array (compressed row storage).
+struct CompressedRows {
+    std::vector<std::uint32_t> offsets;  ///< #rows + 1
+    std::vector<std::uint32_t> values;
+
+    [[nodiscard]] std::span<const std::uint32_t> row(std::size_t i) const {
+        return {values.data() + offsets[i], values.data() + offsets[i + 1]};
+    }
+
+    [[nodiscard]] std::size_t bytes() const {
+        return (offsets.size() + values.size()) * sizeof(std::uint32_t);
+    }
+};
+
+/// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
+/// Neighbour arrays are made on first use, once, from any thread. Degenerate and non-manifold
+/// triangles are allowed here; what needs a manifold says so.
+class Topology {
+public:
+    /// \throw InvalidInput if a triangle names a vertex >= vertex_count
+    Topology(std::vector<Triangle> triangles, std::size_t vertex_count);
+
+    [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+
+    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+
+    [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+
+    /// One-ring neighbours of every vertex, each row ascending and without repetition.
+    [[nodiscard]] const CompressedRows& rings() const;
+
+    /// Triangles at every vertex, each row ascending.
+    [[nodiscard]] const CompressedRows& triangles_at() const;
+
+    /// 1 where a vertex lies on an edge that has exactly one triangle, #V.
+    [[nodiscard]] const std::vector<std::uint8_t>& boundary_vertices() const;
+
+    /// Closed loops of boundary vertices, each in the direction of its triangles' half-edges; where
+    /// several loops meet in one vertex they are separated there.
+    [[nodiscard]] std::vector<std::vector<VertexId>> boundary_loops() const;
+
+private:
+    struct Neighbours {
+        CompressedRows rings;
+        CompressedRows triangles_at;
+        std::vector<std::uint8_t> boundary;
+    };
+
+    const Neighbours& neighbours() const;
+
+    std::vector<Triangle> triangles_;
+    std::size_t vertex_count_ = 0;
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<const Neighbours> neighbours_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+using Tetrahedron = std::array<VertexId, 4>;  ///< positive volume: (b-a) x (c-a) . (d-a) > 0
+
+/// A tetrahedral mesh of the lumen with its boundary triangles (outward) and their patches.
+struct VolumeMesh {
+    Positions points;  ///< [mm]
+    std::vector<Tetrahedron> tetrahedra;
+    std::vector<Triangle> boundary;  ///< outward oriented
+    PatchLabels boundary_patches;    ///< #boundary, index into patches
+    std::vector<Patch> patches;      ///< patches[0] is the wall, then openings, inlet first
+};
+
+/// Sum of the signed volumes of all tetrahedra [mm^3].
+[[nodiscard]] double volume(const VolumeMesh& mesh);
+
+}  // namespace vesselbench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+
+#include "geometry/surface.h"
+
+namespace vesselbench::test {
+
+/// Geodesic sphere: an icosahedron divided `levels` times, 20 * 4^levels triangles, outward.
+[[nodiscard]] Surface icosphere(double radius, int levels, const Vec3& centre = Vec3::Zero());
+
+/// Cylinder wall along +z from z = 0 to `length`, both ends open, outward.
+[[nodiscard]] Surface open_tube(double radius, double length, int around, int along);
+
+/// The same tube closed by flat fans; patches wall, inlet (z = 0), outlet_1 (z = length).
+[[nodiscard]] Surface closed_tube(double radius, double length, int around, int along);
+
+/// Axis-parallel cube from 0 to `edge`, 12 triangles, outward.
+[[nodiscard]] Surface cube(double edge);
+
+/// The surface with every position mapped.
+[[nodiscard]] Surface mapped(const Surface& surface, const std::function<Vec3(const Vec3&)>& map);
+
+/// A rotation that is parallel to no axis.
+[[nodiscard]] Eigen::Matrix3d skew_rotation();
+
+/// Path of ../shared/data/<name> beside the checkout, or empty (after a WARN "skipped: no
+/// ../shared/data").
+[[nodiscard]] std::string shared_data(const std::string& name);
+
+/// A new empty folder for one test, removed when the program ends.
+[[nodiscard]] std::string temporary_folder();
+
+}  // namespace vesselbench::test

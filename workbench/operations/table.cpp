@@ -1,0 +1,12 @@
+#include "workbench/operations/table.h"
+
+#include <vector>
+
+namespace vesselbench {
+
+std::span<const Operation> operation_table() {
+    static const std::vector<Operation> table = {};
+    return table;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "workbench/operation.h"
+
+namespace vesselbench {
+
+// One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
+// ...). An operation is registered by its line here and its line in table.cpp.
+
+}  // namespace vesselbench
