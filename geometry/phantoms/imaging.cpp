@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+#include "geometry/errors.h"
+#include "geometry/phantoms/phantom.h"
+#include "geometry/phantoms/random.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::size_t kLargestImage = std::size_t{512} << 20;
+/// Samples per axis in a voxel on the surface: partial volume to 1/64 of the contrast.
+constexpr int kSupersampling = 4;
+/// Different noise for intensities and for contours of the same phantom.
+constexpr std::uint64_t kContourSeed = 0x636f6e746f7572ULL;
+
+Image empty_grid(const PhantomDescription& description, const PhantomField& field) {
+    const PhantomImaging& imaging = description.imaging;
+    if (!(imaging.spacing.minCoeff() > 0.0))
+        throw InvalidInput("a phantom's voxel spacing must be greater than 0");
+    // The box of the phantom in the image's own axes.
+    const Eigen::AlignedBox3d bounds = field.bounds();
+    Eigen::AlignedBox3d box;
+    for (int corner = 0; corner < 8; ++corner)
+        box.extend(Vec3(imaging.axes.transpose() *
+                        bounds.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
+    Image image;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double extent = box.sizes()[axis] + 2.0 * imaging.margin;
+        const int fitting = static_cast<int>(std::ceil(extent / imaging.spacing[axis]));
+        image.size[static_cast<std::size_t>(axis)] =
+            imaging.size ? (*imaging.size)[static_cast<std::size_t>(axis)] : fitting;
+    }
+    if (*std::min_element(image.size.begin(), image.size.end()) < 2 ||
+        image.voxel_count() > kLargestImage)
+        throw InvalidInput("the phantom's image would have a size that is not usable");
+    const Vec3 steps(image.size[0] - 1, image.size[1] - 1, image.size[2] - 1);
+    const Vec3 first = box.center() - 0.5 * steps.cwiseProduct(imaging.spacing);
+    image.index_to_patient.topLeftCorner<3, 3>() = imaging.axes * imaging.spacing.asDiagonal();
+    image.index_to_patient.topRightCorner<3, 1>() = imaging.axes * first;
+    return image;
+}
+
+template <class Function>
+std::shared_ptr<const std::vector<float>> filled(const Image& grid, const Function& value) {
+    auto voxels = std::make_shared<std::vector<float>>(grid.voxel_count());
+    tbb::parallel_for(0, grid.size[2], [&](int k) {
+        for (int j = 0; j < grid.size[1]; ++j)
+            for (int i = 0; i < grid.size[0]; ++i) (*voxels)[grid.offset(i, j, k)] = value(i, j, k);
+    });
+    return voxels;
+}
+
+/// Part of the voxel (i, j, k) that lies inside, in [0, 1].
+float occupancy(const Image& grid, const PhantomField& field, int i, int j, int k) {
+    const double at_centre = field(grid.to_patient(Vec3(i, j, k)));
+    // The field changes by at most about 1 mm per mm: farther than the half diagonal, the voxel is
+    // full or empty.
+    const double reach = 0.55 * grid.spacing().norm();
+    if (std::abs(at_centre) > reach) return at_centre < 0.0 ? 1.0F : 0.0F;
+    int inside = 0;
+    for (int s = 0; s < kSupersampling * kSupersampling * kSupersampling; ++s) {
+        const Vec3 cell(s % kSupersampling, s / kSupersampling % kSupersampling,
+                        s / (kSupersampling * kSupersampling));
+        const Vec3 offset = (cell + Vec3::Constant(0.5)) / kSupersampling - Vec3::Constant(0.5);
+        inside += field(grid.to_patient(Vec3(i, j, k) + offset)) < 0.0 ? 1 : 0;
+    }
+    return static_cast<float>(inside) / (kSupersampling * kSupersampling * kSupersampling);
+}
+
+std::vector<double> gaussian(double sigma_voxels) {
+    const int reach = std::max(1, static_cast<int>(std::ceil(4.0 * sigma_voxels)));
+    std::vector<double> kernel;
+    double sum = 0.0;
+    for (int i = -reach; i <= reach; ++i) {
+        kernel.push_back(std::exp(-0.5 * i * i / (sigma_voxels * sigma_voxels)));
+        sum += kernel.back();
+    }
+    for (double& weight : kernel) weight /= sum;
+    return kernel;
+}
+
+/// Separable Gaussian along one index axis; the border voxel continues outside.
+std::vector<float> blurred_along(const Image& grid, const std::vector<float>& voxels, int axis,
+                                 double sigma) {
+    const auto kernel = gaussian(sigma / grid.spacing()[axis]);
+    const int reach = static_cast<int>(kernel.size()) / 2;
+    std::vector<float> result(voxels.size());
+    tbb::parallel_for(0, grid.size[2], [&](int k) {
+        for (int j = 0; j < grid.size[1]; ++j)
+            for (int i = 0; i < grid.size[0]; ++i) {
+                std::array<int, 3> at = {i, j, k};
+                const auto a = static_cast<std::size_t>(axis);
+                double sum = 0.0;
+                for (int n = -reach; n <= reach; ++n) {
+                    std::array<int, 3> from = at;
+                    from[a] = std::clamp(at[a] + n, 0, grid.size[a] - 1);
+                    sum += kernel[static_cast<std::size_t>(n + reach)] *
+                           voxels[grid.offset(from[0], from[1], from[2])];
+                }
+                result[grid.offset(i, j, k)] = static_cast<float>(sum);
+            }
+    });
+    return result;
+}
+
+bool deleted(const std::vector<Deletion>& deletions, int i, int j, int k) {
+    return std::any_of(deletions.begin(), deletions.end(), [&](const Deletion& d) {
+        return i >= d.from[0] && i <= d.to[0] && j >= d.from[1] && j <= d.to[1] && k >= d.from[2] &&
+               k <= d.to[2];
+    });
+}
+
+/// Slowly varying loss of contrast in [0, 1], one and a half waves over the image along each axis.
+double contrast_loss(const Image& grid, int i, int j, int k, double phase) {
+    const double waves = 3.0 * 3.14159265358979;
+    const double x = waves * i / grid.size[0], y = waves * j / grid.size[1],
+                 z = waves * k / grid.size[2];
+    return 0.5 + 0.5 * std::sin(x + phase) * std::cos(y - phase) * std::sin(z + 2.0 * phase);
+}
+
+}  // namespace
+
+Image phantom_image(const PhantomDescription& description, const PhantomField& field) {
+    const PhantomImaging& imaging = description.imaging;
+    Image image = empty_grid(description, field);
+    std::vector<float> share = *filled(image, [&](int i, int j, int k) {
+        return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
+    });
+    if (imaging.blur > 0.0)
+        for (int axis = 0; axis < 3; ++axis)
+            share = blurred_along(image, share, axis, imaging.blur);
+    const double phase = 6.283 * uniform_noise(description.seed, 0);
+    image.voxels = filled(image, [&](int i, int j, int k) {
+        const std::size_t at = image.offset(i, j, k);
+        const double contrast =
+            (imaging.inside - imaging.outside) *
+            (1.0 - imaging.inhomogeneity * contrast_loss(image, i, j, k, phase));
+        const double noise =
+            imaging.noise > 0.0 ? imaging.noise * normal_noise(description.seed, at) : 0.0;
+        return static_cast<float>(imaging.outside + contrast * share[at] + noise);
+    });
+    return image;
+}
+
+Image phantom_mask(const PhantomDescription& description, const PhantomField& field) {
+    const PhantomImaging& imaging = description.imaging;
+    Image mask = empty_grid(description, field);
+    const int step = std::max(1, imaging.mask_slice_step);
+    mask.voxels = filled(mask, [&](int i, int j, int k) {
+        const int drawn = std::min(k / step * step + step / 2, mask.size[2] - 1);
+        if (deleted(imaging.deletions, i, j, drawn)) return 0.0F;
+        const Vec3 p = mask.to_patient(Vec3(i, j, drawn));
+        const double offset = imaging.mask_jitter * normal_noise(description.seed ^ kContourSeed,
+                                                                 static_cast<std::uint64_t>(drawn));
+        if (field(p) > offset) return 0.0F;
+        for (const KeptApart& apart : imaging.kept_apart) {
+            const double a = field.part(apart.first, p), b = field.part(apart.second, p);
+            // Only where both are near: on the far side of either vessel nothing is left out.
+            if (std::abs(a - b) < apart.gap && std::min(a, b) > -0.5 * apart.gap) return 0.0F;
+        }
+        return 1.0F;
+    });
+    return mask;
+}
+
+Phantom make_phantom(const PhantomDescription& description) {
+    const PhantomField field(description.parts);
+    const auto surface_box = [&](const PhantomField& f) {
+        Eigen::AlignedBox3d box = f.bounds();
+        return Eigen::AlignedBox3d(box.min() - Vec3::Constant(2.3 * description.surface_edge),
+                                   box.max() + Vec3::Constant(2.3 * description.surface_edge));
+    };
+    Phantom phantom;
+    phantom.image = phantom_image(description, field);
+    phantom.mask = phantom_mask(description, field);
+    phantom.exact = exact_surface(field, surface_box(field), description.surface_edge);
+    if (description.surface_noise > 0.0) {
+        Positions noisy = phantom.exact.points();
+        for (std::size_t v = 0; v < noisy.size(); ++v)
+            noisy[v] += description.surface_noise * normal_noise(description.seed, v) *
+                        field.gradient(noisy[v]).normalized();
+        phantom.noisy = phantom.exact.with_positions(std::move(noisy));
+    }
+    if (!description.neighbours.empty()) {
+        const PhantomField other(description.neighbours);
+        phantom.neighbour = exact_surface(other, surface_box(other), description.surface_edge);
+    }
+    return phantom;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "geometry/image/image.h"
+#include "geometry/phantoms/description.h"
+#include "geometry/phantoms/field.h"
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// A phantom as a scanner, an expert and a geometer see it.
+struct Phantom {
+    Image image;                   ///< blurred, noisy intensities
+    Image mask;                    ///< hand-segmented-looking labels 0 and 1 on the image's grid
+    Surface exact;                 ///< the true surface
+    std::optional<Surface> noisy;  ///< the true surface with noise along its normals, if described
+    std::optional<Surface> neighbour;  ///< another structure beside it, if described
+};
+
+/// Makes everything a description says; the same description gives the same bits.
+/// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image over
+/// 512 Mi voxels)
+[[nodiscard]] Phantom make_phantom(const PhantomDescription& description);
+
+/// The zero set of a field inside `box` as a closed triangle surface, every vertex moved onto it by
+/// Newton steps along the gradient; outward. Open where the field leaves the box. \param edge side
+/// of the sampling cells [mm]
+[[nodiscard]] Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box,
+                                    double edge);
+
+/// Image and mask only.
+[[nodiscard]] Image phantom_image(const PhantomDescription& description, const PhantomField& field);
+[[nodiscard]] Image phantom_mask(const PhantomDescription& description, const PhantomField& field);
+
+}  // namespace vesselbench

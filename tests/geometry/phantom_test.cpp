@@ -1,0 +1,84 @@
+#include "geometry/phantoms/phantom.h"
+
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+double enclosed_volume(const Surface& surface) {
+    double six_fold = 0.0;
+    for (const Triangle& t : surface.triangles())
+        six_fold +=
+            surface.points()[t[0]].dot(surface.points()[t[1]].cross(surface.points()[t[2]]));
+    return six_fold / 6.0;
+}
+
+PhantomDescription sphere_of(double radius) {
+    PhantomDescription description;
+    description.parts = {{"sphere", SphereShape{Vec3(1, 2, 3), radius}, 0.0}};
+    description.surface_edge = 0.4;
+    description.imaging.spacing = Vec3(0.5, 0.5, 1.0);
+    return description;
+}
+
+double mean_intensity_volume(const Image& image, double inside) {
+    double sum = 0.0;
+    for (const float v : *image.voxels) sum += v / inside;
+    return sum * image.spacing().prod();
+}
+
+}  // namespace
+
+SCENARIO("A phantom's exact surface lies on its implicit function", "[geometry][phantom]") {
+    const Phantom phantom = make_phantom(sphere_of(5.0));
+    const double ball = 4.0 / 3.0 * std::numbers::pi * 125.0;
+    THEN("every vertex has the sphere's radius") {
+        for (const Vec3& p : phantom.exact.points())
+            REQUIRE((p - Vec3(1, 2, 3)).norm() == Approx(5.0).margin(1e-9));
+    }
+    THEN("it is closed, outward, and its volume is a little below the ball's") {
+        CHECK(phantom.exact.topology->boundary_loops().empty());
+        CHECK(enclosed_volume(phantom.exact) == Approx(ball).epsilon(0.01));
+    }
+    THEN("partial volumes and mask both measure the ball") {
+        CHECK(mean_intensity_volume(phantom.image, 1000.0) == Approx(ball).epsilon(0.01));
+        CHECK(mean_intensity_volume(phantom.mask, 1.0) == Approx(ball).epsilon(0.03));
+    }
+}
+
+SCENARIO("A phantom is the same each time, and another seed changes the noise",
+         "[geometry][phantom]") {
+    PhantomDescription description = sphere_of(3.0);
+    description.imaging.noise = 10.0;
+    const auto first = make_phantom(description), second = make_phantom(description);
+    CHECK(*first.image.voxels == *second.image.voxels);
+    description.seed = 2;
+    CHECK(*first.image.voxels != *make_phantom(description).image.voxels);
+}
+
+SCENARIO("The field of a blended vessel keeps the vessel's radius away from the blend",
+         "[geometry][phantom]") {
+    const std::vector<PhantomPart> parts = {
+        {"a", VesselShape{{Vec3(0, 0, -20), Vec3(0, 0, 20)}, {2.0, 2.0}}, 0.0},
+        {"b", VesselShape{{Vec3(0, 0, 0), Vec3(15, 0, 0)}, {1.0, 1.0}}, 0.5}};
+    const PhantomField field(parts);
+    CHECK(field(Vec3(0, 2, -12)) == Approx(0.0).margin(1e-12));
+    CHECK(field(Vec3(10, 0, 1)) == Approx(0.0).margin(1e-12));
+    CHECK(field(Vec3(10, 0, 0)) == Approx(-1.0));
+    CHECK_THROWS_AS(field.part("c", Vec3(0, 0, 0)), InvalidInput);
+}
+
+SCENARIO("A phantom that is described badly is refused", "[geometry][phantom]") {
+    CHECK_THROWS_AS(make_phantom(PhantomDescription{}), InvalidInput);
+    CHECK_THROWS_AS(make_phantom(sphere_of(-1.0)), InvalidInput);
+    PhantomDescription flat = sphere_of(1.0);
+    flat.imaging.spacing = Vec3(0.5, 0.5, 0.0);
+    CHECK_THROWS_AS(make_phantom(flat), InvalidInput);
+}
