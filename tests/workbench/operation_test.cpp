@@ -1,0 +1,149 @@
+#include "workbench/operation.h"
+
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "workbench/arguments_json.h"
+#include "workbench/near_names.h"
+
+using namespace vesselbench;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Operation example() {
+    return {
+        .name = "cut-example",
+        .usual_step = Step::Openings,
+        .allowed = {Step::Openings},
+        .summary = "for tests",
+        .parameters = {
+            {.name = "length",
+             .unit = "mm",
+             .default_value = Value(5.0),
+             .help = "how long",
+             .minimum = 0.0,
+             .maximum = 20.0,
+             .above_minimum = true},
+            {.name = "rounds", .type = ParameterType::Integer, .help = "how often", .minimum = 1},
+            {.name = "profile",
+             .type = ParameterType::Choice,
+             .default_value = Value(std::string("keep")),
+             .help = "which shape",
+             .choices = {"keep", "circle"}},
+            {.name = "place", .type = ParameterType::Point, .unit = "mm", .help = "where"},
+            {.name = "labels", .type = ParameterType::List, .help = "which labels"},
+            {.name = "flip", .type = ParameterType::Flag, .help = "other side"},
+            {.name = "name", .type = ParameterType::Text, .help = "whose", .required = true}}};
+}
+
+const Parameter& parameter(const Operation& operation, const std::string& name) {
+    for (const Parameter& p : operation.parameters)
+        if (p.name == name) return p;
+    throw UsageError(name);
+}
+
+}  // namespace
+
+SCENARIO("Arguments given as text are read in the parameter's own type", "[workbench][operation]") {
+    const Operation operation = example();
+    CHECK(parse_value(parameter(operation, "length"), "2.5") == Value(2.5));
+    CHECK(parse_value(parameter(operation, "length"), "3") == Value(3.0));
+    CHECK(parse_value(parameter(operation, "rounds"), "3") == Value(std::int64_t{3}));
+    CHECK(parse_value(parameter(operation, "place"), "1,-2.5,3e2") == Value(Vec3(1, -2.5, 300)));
+    CHECK(parse_value(parameter(operation, "labels"), "1,2") == Value(std::vector<double>{1, 2}));
+    CHECK(parse_value(parameter(operation, "flip"), "true") == Value(true));
+    CHECK(parse_value(parameter(operation, "name"), "") == Value(std::string()));
+}
+
+SCENARIO("A value that is not allowed is refused with its name and range",
+         "[workbench][operation]") {
+    const Operation operation = example();
+    const auto refused = [&](const std::string& name, const std::string& text,
+                             const std::string& why) {
+        INFO(name << "=" << text);
+        CHECK_THROWS_AS(parse_value(parameter(operation, name), text), UsageError);
+        CHECK_THROWS_WITH(
+            parse_value(parameter(operation, name), text),
+            Contains("'" + name + "'") && Contains("'" + text + "'") && Contains(why));
+    };
+    refused("length", "0", "above 0 and at most 20 mm");
+    refused("length", "20.5", "at most 20 mm");
+    refused("length", "nan", "a number");
+    refused("length", "inf", "a number");
+    refused("length", "2mm", "a number");
+    refused("length", "", "a number");
+    refused("rounds", "0", "at least 1");
+    refused("rounds", "1.5", "a whole number");
+    refused("profile", "circel", "did you mean 'circle'");
+    refused("place", "1,2", "x,y,z");
+    refused("place", "1,2,", "x,y,z");
+    refused("labels", "1,,2", "numbers separated by commas");
+    refused("flip", "yes", "true or false");
+}
+
+SCENARIO("Checked arguments have their defaults and no unknown names", "[workbench][operation]") {
+    const Operation operation = example();
+    WHEN("only the needed one is given") {
+        const Arguments checked = checked_arguments(operation, {{"name", std::string("left")}});
+        THEN("defaults are filled in and what the operation decides stays absent") {
+            CHECK(checked.real("length") == 5.0);
+            CHECK(checked.text("profile") == "keep");
+            CHECK_FALSE(checked.has("place"));
+        }
+    }
+    CHECK_THROWS_WITH(checked_arguments(operation, {}),
+                      Contains("cut-example") && Contains("'name' is needed"));
+    CHECK_THROWS_WITH(checked_arguments(operation, {{"lenght", 2.0}}),
+                      Contains("did you mean 'length'") && Contains("rounds"));
+    CHECK_THROWS_AS(checked_arguments(operation, {{"name", std::string("a")}, {"flip", 1.0}}),
+                    UsageError);
+}
+
+SCENARIO("Arguments survive JSON", "[workbench][operation]") {
+    const Operation operation = example();
+    const Arguments given = {{"length", 0.1},
+                             {"rounds", std::int64_t{7}},
+                             {"place", Vec3(1.0 / 3.0, 2, 3)},
+                             {"labels", std::vector<double>{3, 1, 2}},
+                             {"flip", true},
+                             {"name", std::string("a b")}};
+    const auto text = to_json(given).dump();
+    CHECK(arguments_from_json(operation, nlohmann::ordered_json::parse(text)) == given);
+    CHECK_THROWS_AS(arguments_from_json(operation, {{"length", {{"a", 1}}}}), UsageError);
+}
+
+SCENARIO("An unknown operation's text names the near ones", "[workbench][operation]") {
+    CHECK_THROWS_AS(find_operation("no-such-operation"), UsageError);
+    CHECK_THROWS_WITH(find_operation("xyz"), Contains("vesselbench operations"));
+    const std::vector<std::string> names = {"clip-opening", "extrude-opening", "smooth"};
+    CHECK(near_names("clip-openings", names) == std::vector<std::string>{"clip-opening"});
+    CHECK(near_names("clip", names) == std::vector<std::string>{"clip-opening"});
+    CHECK(near_names("smoth", names) == std::vector<std::string>{"smooth"});
+    CHECK(near_names("tetrahedralize", names).empty());
+}
+
+SCENARIO("Every operation of the table is fully described", "[workbench][operation]") {
+    std::set<std::string> names;
+    Step last = Step::Source;
+    for (const Operation& operation : operation_table()) {
+        INFO(operation.name);
+        CHECK(names.insert(operation.name).second);
+        CHECK(operation.usual_step >= last);
+        last = operation.usual_step;
+        CHECK(std::ranges::count(operation.allowed, operation.usual_step) == 1);
+        CHECK_FALSE(operation.summary.empty());
+        REQUIRE(operation.run != nullptr);
+        std::set<std::string> parameters;
+        for (const Parameter& p : operation.parameters) {
+            INFO(p.name);
+            CHECK(parameters.insert(p.name).second);
+            CHECK(p.help.size() > 10);
+            CHECK((p.type == ParameterType::Choice) == !p.choices.empty());
+            if (p.default_value) CHECK_NOTHROW(parse_value(p, to_text(*p.default_value)));
+        }
+    }
+}

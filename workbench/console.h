@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "geometry/progress.h"
+
+namespace vesselbench {
+
+/// Turns SIGINT and SIGTERM into a stop request for as long as it lives; a second signal ends the
+/// program at once.
+class SignalStop {
+public:
+    SignalStop();
+    ~SignalStop();
+    SignalStop(const SignalStop&) = delete;
+    SignalStop& operator=(const SignalStop&) = delete;
+
+    [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+private:
+    struct Listener;
+    std::stop_source source_;
+    std::unique_ptr<Listener> listener_;
+};
+
+/// Shows progress as one changing line on stderr when stderr is a terminal, else shows nothing.
+[[nodiscard]] Progress console_progress(std::stop_token stop);
+
+/// Writes one line to stderr, after clearing the progress line: "vesselbench: text".
+void say(const std::string& text);
+
+/// Rows as left-aligned columns, two spaces apart; the last column is wrapped to the width of 100
+/// letters.
+[[nodiscard]] std::string as_columns(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace vesselbench

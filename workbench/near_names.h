@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vesselbench {
+
+/// The names that a person may have meant by `name`: few letters differ, or one begins with the
+/// other; the nearest first, at most three.
+[[nodiscard]] std::vector<std::string> near_names(const std::string& name,
+                                                  std::span<const std::string> names);
+
+/// "; did you mean 'a' or 'b'?", or nothing when no name is near.
+[[nodiscard]] std::string did_you_mean(const std::string& name, std::span<const std::string> names);
+
+/// "a, b, c"
+[[nodiscard]] std::string joined(std::span<const std::string> names,
+                                 const std::string& separator = ", ");
+
+}  // namespace vesselbench
