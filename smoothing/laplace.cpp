@@ -1,32 +1,26 @@
 #include "smoothing/laplace.h"
 
-#include <string>
 #include <utility>
 
-#include "geometry/errors.h"
+#include "smoothing/filter_support.h"
 
 namespace vesselbench {
 
 Positions laplace(const Topology& topology, const Positions& positions,
-                  std::span<const double> weights, const LaplaceParameters& parameters) {
-    if (!(parameters.lambda >= 0.0 && parameters.lambda <= 1.0))
-        throw InvalidInput("lambda = " + std::to_string(parameters.lambda) + " is not in [0, 1]");
-    if (parameters.iterations < 0) throw InvalidInput("iterations must not be negative");
-    if (!weights.empty() && weights.size() != positions.size())
-        throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
-                           std::to_string(positions.size()) + " vertices");
+                  std::span<const double> weights, const LaplaceParameters& parameters,
+                  const Progress& progress) {
+    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
+    detail::require_filter_input(topology, positions, weights, parameters.iterations);
+    const auto fixed = detail::fixed_vertices(topology, parameters.fixed, parameters.keep_boundary);
     const CompressedRows& rings = topology.rings();
     Positions now = positions, next = positions;
     for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
-        for (std::size_t v = 0; v < now.size(); ++v) {
-            const auto ring = rings.row(v);
-            if (ring.empty()) continue;
-            Vec3 sum = Vec3::Zero();
-            for (const VertexId u : ring) sum += now[u];
+        progress.report(static_cast<double>(iteration) / parameters.iterations, "smoothing");
+        detail::for_each_vertex(now.size(), [&](std::size_t v) {
+            if (fixed[v]) return;
             const double weight = weights.empty() ? 1.0 : weights[v];
-            const Vec3 umbrella = sum / static_cast<double>(ring.size()) - now[v];
-            next[v] = now[v] + weight * parameters.lambda * umbrella;
-        }
+            next[v] = now[v] + weight * parameters.lambda * detail::umbrella(rings, now, v);
+        });
         std::swap(now, next);
     }
     return now;

@@ -38,12 +38,13 @@ enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File 
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::Real;
-    std::string unit;                    ///< "mm", "-", "deg" ...; empty for texts
-    std::optional<Value> default_value;  ///< none: the operation decides by itself, or `required`
-    std::string help;                    ///< one sentence; says what is decided when it is absent
+    std::string unit = {};  ///< "mm", "-", "deg" ...; empty for texts
+    std::optional<Value> default_value =
+        {};            ///< none: the operation decides by itself, or `required`
+    std::string help;  ///< one sentence; says what is decided when it is absent
     double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
     double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
-    std::vector<std::string> choices;                           ///< for Choice
+    std::vector<std::string> choices = {};                      ///< for Choice
     bool required = false;
     bool above_minimum = false;  ///< the minimum itself is not allowed
 };

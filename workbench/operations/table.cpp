@@ -5,7 +5,9 @@
 namespace vesselbench {
 
 std::span<const Operation> operation_table() {
-    static const std::vector<Operation> table = {};
+    static const std::vector<Operation> table = {
+        smooth_operation(),
+    };
     return table;
 }
 

@@ -7,4 +7,6 @@ namespace vesselbench {
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
 // ...). An operation is registered by its line here and its line in table.cpp.
 
+[[nodiscard]] Operation smooth_operation();
+
 }  // namespace vesselbench
