@@ -62,23 +62,60 @@ std::vector<Eigen::Vector4d> dense_curve(const VesselShape& vessel) {
     return curve;
 }
 
-double distance_to_vessel(const std::vector<Eigen::Vector4d>& curve, bool flat_ends,
-                          const Vec3& p) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
-        const Vec3 a = curve[i].head<3>(), axis = curve[i + 1].head<3>() - curve[i].head<3>();
-        const double u = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
-        const double radius = curve[i][3] + u * (curve[i + 1][3] - curve[i][3]);
-        nearest = std::min(nearest, (p - a - u * axis).norm() - radius);
+/// A vessel's curve as round cones, in groups with a bounding sphere each so that far groups cost
+/// one distance.
+class RoundCones {
+public:
+    explicit RoundCones(std::vector<Eigen::Vector4d> curve) : curve_(std::move(curve)) {
+        for (std::size_t first = 0; first + 1 < curve_.size(); first += kGroup) {
+            const std::size_t last = std::min(first + kGroup, curve_.size() - 1);
+            Eigen::AlignedBox3d box;
+            double thickest = 0.0;
+            for (std::size_t i = first; i <= last; ++i) {
+                box.extend(Vec3(curve_[i].head<3>()));
+                thickest = std::max(thickest, curve_[i][3]);
+            }
+            groups_.push_back({first, last, box.center(), 0.5 * box.diagonal().norm() + thickest});
+        }
     }
-    if (!flat_ends) return nearest;
-    const auto beyond = [&](const Eigen::Vector4d& end, const Eigen::Vector4d& before) {
-        const Vec3 outward = (end - before).head<3>().normalized();
-        return (p - Vec3(end.head<3>())).dot(outward);
+
+    [[nodiscard]] double distance(const Vec3& p) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Group& group : groups_) {
+            if ((p - group.centre).norm() - group.reach >= nearest) continue;
+            for (std::size_t i = group.first; i < group.last; ++i)
+                nearest = std::min(nearest, distance_to_piece(i, p));
+        }
+        return nearest;
+    }
+
+    /// How far p lies beyond the planes through both ends of the curve; negative between them.
+    [[nodiscard]] double beyond_ends(const Vec3& p) const {
+        const auto beyond = [&](const Eigen::Vector4d& end, const Eigen::Vector4d& before) {
+            return (p - Vec3(end.head<3>())).dot((end - before).head<3>().normalized());
+        };
+        return std::max(beyond(curve_.front(), curve_[1]),
+                        beyond(curve_.back(), curve_[curve_.size() - 2]));
+    }
+
+private:
+    static constexpr std::size_t kGroup = 8;
+
+    struct Group {
+        std::size_t first, last;
+        Vec3 centre;
+        double reach;
     };
-    nearest = std::max(nearest, beyond(curve.front(), curve[1]));
-    return std::max(nearest, beyond(curve.back(), curve[curve.size() - 2]));
-}
+
+    [[nodiscard]] double distance_to_piece(std::size_t i, const Vec3& p) const {
+        const Vec3 a = curve_[i].head<3>(), axis = (curve_[i + 1] - curve_[i]).head<3>();
+        const double u = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
+        return (p - a - u * axis).norm() - (curve_[i][3] + u * (curve_[i + 1][3] - curve_[i][3]));
+    }
+
+    std::vector<Eigen::Vector4d> curve_;
+    std::vector<Group> groups_;
+};
 
 struct MakeSolid {
     Solid operator()(const VesselShape& vessel) const {
@@ -92,8 +129,10 @@ struct MakeSolid {
             solid.box.extend(Vec3(knot.head<3>()) - Vec3::Constant(knot[3]));
             solid.box.extend(Vec3(knot.head<3>()) + Vec3::Constant(knot[3]));
         }
-        solid.distance = [curve = std::move(curve), flat = vessel.flat_ends](const Vec3& p) {
-            return distance_to_vessel(curve, flat, p);
+        solid.distance = [cones = RoundCones(std::move(curve)),
+                          flat = vessel.flat_ends](const Vec3& p) {
+            const double distance = cones.distance(p);
+            return flat ? std::max(distance, cones.beyond_ends(p)) : distance;
         };
         return solid;
     }
