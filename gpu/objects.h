@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace vesselbench {
+
+/// An OpenGL object's name, owned: move-only, deleted with the owner while its context is current.
+template <void (*Delete)(unsigned)>
+class GlObject {
+public:
+    GlObject() = default;
+
+    explicit GlObject(unsigned id) : id_(id) {}
+
+    ~GlObject() {
+        if (id_ != 0) Delete(id_);
+    }
+
+    GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+
+    [[nodiscard]] unsigned id() const { return id_; }
+
+private:
+    unsigned id_ = 0;
+};
+
+void delete_buffer(unsigned id);
+void delete_program(unsigned id);
+void delete_vertex_array(unsigned id);
+void delete_framebuffer(unsigned id);
+void delete_renderbuffer(unsigned id);
+
+using Buffer = GlObject<delete_buffer>;
+using Program = GlObject<delete_program>;
+using VertexArray = GlObject<delete_vertex_array>;
+using Framebuffer = GlObject<delete_framebuffer>;
+using Renderbuffer = GlObject<delete_renderbuffer>;
+
+/// A buffer filled with bytes, labelled for debuggers. \throw GpuUnavailable if the device has no
+/// room for it
+[[nodiscard]] Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label);
+
+/// A linked program from the texts of gpu/shaders/<name>.vert and .frag.
+/// \throw GpuUnavailable with the compiler's message if a shader does not compile
+[[nodiscard]] Program make_program(const std::string& name);
+
+}  // namespace vesselbench

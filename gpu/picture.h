@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// An image of 8-bit RGB pixels, rows from the top.
+struct Picture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+using Colour = Eigen::Vector3f;  ///< linear RGB in [0, 1]
+
+/// How a surface is drawn.
+struct PictureOptions {
+    int width = 900;             ///< [pixels]
+    int height = 900;            ///< [pixels]
+    Vec3 view = Vec3(0, -1, 0);  ///< direction of sight, from the eye to the model
+    Vec3 up = Vec3(0, 0, 1);
+    double zoom = 1.0;  ///< 1: the whole model fits; 2: twice as large
+    Vec3 shift =
+        Vec3::Zero();    ///< what is in the middle, relative to the bounding box's centre [mm]
+    bool edges = false;  ///< draw the triangles' edges
+    std::vector<Colour> vertex_colours;  ///< #V; empty: by patch (wall, inlet, outlets)
+    bool sharp = false;                  ///< one normal per triangle instead of smooth shading
+};
+
+/// Draws a surface off the screen, 4 samples a pixel, orthographic, on white.
+/// \throw GpuUnavailable if there is no usable OpenGL; InvalidInput for an empty surface or a size
+/// that is not usable
+[[nodiscard]] Picture draw(const Surface& surface, const PictureOptions& options = {});
+
+/// Blue - white - red for -1...0...1, for signed deviations.
+[[nodiscard]] Colour diverging_colour(double value);
+
+/// The linearised heated-object scale (black - red - yellow - white) for 0...1, after Levkowitz and
+/// Herman 1992.
+[[nodiscard]] Colour heated_colour(double value);
+
+/// The picture as a PNG file's bytes.
+[[nodiscard]] std::string png(const Picture& picture);
+
+}  // namespace vesselbench
