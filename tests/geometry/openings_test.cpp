@@ -1,0 +1,292 @@
+#include "geometry/openings/openings.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/openings/clip.h"
+#include "geometry/openings/opening_axis.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Where the axis of a bent tube lies at arc length z, and where its x axis points.
+struct AxisPoint {
+    Vec3 position, x;
+};
+
+using Path = std::function<AxisPoint(double)>;
+
+/// Straight for `straight`, then a circle of radius `bend` through `angle`, then straight again.
+Path hairpin(double straight, double bend, double angle) {
+    return [=](double z) -> AxisPoint {
+        const double arc = std::clamp((z - straight) / bend, 0.0, angle);
+        const double after = std::max(0.0, z - straight - bend * angle);
+        const double before = std::min(z, straight);
+        return {Vec3(bend * (1 - std::cos(arc)) + after * std::sin(arc), 0.0,
+                     before + bend * std::sin(arc) + after * std::cos(arc)),
+                Vec3(std::cos(arc), 0.0, -std::sin(arc))};
+    };
+}
+
+Surface bent(const Surface& tube, const Path& path) {
+    return mapped(tube, [&](const Vec3& p) {
+        const auto at = path(p.z());
+        return Vec3(at.position + p.x() * at.x + p.y() * Vec3::UnitY());
+    });
+}
+
+CenterlineGraph line_graph(const Path& path, double length, double radius, double end_gap = 0.0) {
+    CenterlineGraph graph;
+    CenterlineBranch branch{.start_node = 0, .end_node = 1, .points = {}, .radii = {}};
+    const int n = 200;
+    for (int i = 0; i <= n; ++i) {
+        branch.points.push_back(path(end_gap + (length - 2 * end_gap) * i / n).position);
+        branch.radii.push_back(radius);
+    }
+    graph.nodes = {{branch.points.front(), radius, {0}}, {branch.points.back(), radius, {0}}};
+    graph.branches = {branch};
+    return graph;
+}
+
+Path straight_line() {
+    return [](double z) { return AxisPoint{Vec3(0, 0, z), Vec3::UnitX()}; };
+}
+
+double volume(const Surface& s) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : s.triangles())
+        sum += s.points()[a].dot(s.points()[b].cross(s.points()[c])) / 6.0;
+    return sum;
+}
+
+/// Every edge has two triangles that run against each other.
+bool is_closed(const Surface& s) {
+    std::map<std::pair<VertexId, VertexId>, int> seen;
+    for (const auto& t : s.triangles())
+        for (int k = 0; k < 3; ++k) ++seen[{t[k], t[(k + 1) % 3]}];
+    for (const auto& [edge, count] : seen) {
+        const auto twin = seen.find({edge.second, edge.first});
+        if (count != 1 || twin == seen.end() || twin->second != 1) return false;
+    }
+    return true;
+}
+
+double smallest_angle_deg(const Surface& s) {
+    double smallest = 180.0;
+    for (const auto& t : s.triangles())
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 a = s.points()[t[(k + 1) % 3]] - s.points()[t[k]];
+            const Vec3 b = s.points()[t[(k + 2) % 3]] - s.points()[t[k]];
+            smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / kPi);
+        }
+    return smallest;
+}
+
+/// Share of a regular polygon's area in its circle's.
+double polygon_share(int corners) {
+    return corners / (2.0 * kPi) * std::sin(2.0 * kPi / corners);
+}
+
+void check_caps(const Surface& s, std::size_t openings) {
+    CHECK(is_closed(s));
+    REQUIRE(s.patches.size() == openings + 1);
+    for (std::size_t p = 1; p <= openings; ++p) {
+        CHECK(patch_shape(s, p).flatness < 1e-9);
+        INFO(s.patches[p].name << " tilt " << opening_tilt_deg(s, p));
+        CHECK(opening_tilt_deg(s, p) < 2.0);
+    }
+}
+
+}  // namespace
+
+SCENARIO("A tube is clipped at a known place", "[geometry][openings]") {
+    const double radius = 2.0, length = 30.0;
+    const int around = 40;
+    const Surface tube = open_tube(radius, length, around, 90);
+    const auto graph = line_graph(straight_line(), length, radius);
+    const double area = kPi * radius * radius * polygon_share(around);
+    GIVEN("a distance from one tip") {
+        const auto plan = plan_openings(tube, graph, {.tip = Vec3(0, 0, 30), .distance = 7.1});
+        REQUIRE(plan.openings.size() == 1);
+        const Surface clipped = clip_openings(tube, plan);
+        THEN("only that end is cut and capped") {
+            REQUIRE(clipped.patches.size() == 2);
+            CHECK(clipped.patches[1].kind == PatchKind::Inlet);
+            CHECK(patch_shape(clipped, 1).plane.point.z() == Approx(22.9));
+            CHECK(patch_shape(clipped, 1).area == Approx(area).epsilon(2e-3));
+            CHECK(clipped.topology->boundary_loops().size() == 1);
+        }
+    }
+    GIVEN("both ends at a distance") {
+        const Surface clipped = clip_openings(tube, plan_openings(tube, graph, {.distance = 5.03}));
+        THEN("the volume is that of the shorter tube") {
+            check_caps(clipped, 2);
+            CHECK(volume(clipped) == Approx(area * (length - 10.06)).epsilon(2e-3));
+            CHECK(clipped.patches[1] == Patch{"inlet", PatchKind::Inlet});
+            CHECK(clipped.patches[2] == Patch{"outlet_1", PatchKind::Outlet});
+            CHECK(smallest_angle_deg(clipped) > 15.0);
+        }
+    }
+    GIVEN("the same tube, turned") {
+        const auto turn = [](const Vec3& p) -> Vec3 { return skew_rotation() * p; };
+        const Surface turned = mapped(tube, turn);
+        const auto turned_graph = line_graph(
+            [&](double z) {
+                return AxisPoint{turn(Vec3(0, 0, z)), turn(Vec3::UnitX())};
+            },
+            length, radius);
+        const Surface clipped = clip_openings(turned, plan_openings(turned, turned_graph));
+        const Surface upright = clip_openings(tube, plan_openings(tube, graph));
+        THEN("the result is as that of the upright one") {
+            check_caps(clipped, 2);
+            CHECK(volume(clipped) == Approx(volume(upright)).epsilon(1e-6));
+        }
+    }
+    GIVEN("a distance beyond the branch") {
+        CHECK_THROWS_AS(plan_openings(tube, graph, {.tip = Vec3(0, 0, 0), .distance = 31.0}),
+                        AlgorithmFailure);
+        CHECK_THROWS_AS(plan_openings(tube, graph, {.tip = Vec3(50, 0, 0)}), AlgorithmFailure);
+    }
+}
+
+SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]") {
+    const auto graph = line_graph(straight_line(), 30.0, 2.0);
+    GIVEN("a tube closed by flat ends that nobody labelled") {
+        const Surface labelled = closed_tube(2.0, 30.0, 40, 90);
+        const Surface tube = make_surface(
+            labelled.points(), {labelled.triangles().begin(), labelled.triangles().end()});
+        const Surface clipped = clip_openings(tube, plan_openings(tube, graph));
+        THEN("both ends are cut a little inside") {
+            check_caps(clipped, 2);
+            CHECK(volume(clipped) < volume(tube));
+            CHECK(volume(clipped) > 0.8 * volume(tube));
+        }
+    }
+    GIVEN("a tube with known, perpendicular caps") {
+        const Surface tube = closed_tube(2.0, 30.0, 40, 90);
+        const auto plan = plan_openings(tube, graph);
+        THEN("the caps stay") {
+            REQUIRE(plan.openings.size() == 2);
+            CHECK(plan.openings[0].keep);
+            const Surface clipped = clip_openings(tube, plan);
+            CHECK(clipped.triangle_count() == tube.triangle_count());
+            CHECK(clipped.patches == tube.patches);
+        }
+        THEN("the user may say which one is the inlet") {
+            const Surface swapped = clip_openings(tube, plan, Vec3(0, 0, 30));
+            CHECK(swapped.patches[1].kind == PatchKind::Inlet);
+            CHECK(patch_shape(swapped, 1).plane.point.z() == Approx(30.0));
+        }
+    }
+    GIVEN("a tube with known but oblique caps") {
+        const Surface tube = mapped(closed_tube(2.0, 30.0, 40, 90), [](const Vec3& p) {
+            const double share = std::clamp((p.z() - 15.0) / 15.0, 0.0, 1.0);
+            return Vec3(p.x(), p.y(), p.z() + share * 0.4 * p.x());
+        });
+        const Surface clipped = clip_openings(tube, plan_openings(tube, graph));
+        THEN("they become perpendicular and keep their names") {
+            check_caps(clipped, 2);
+            CHECK(clipped.patches[1].name == "inlet");
+            CHECK(clipped.patches[2].name == "outlet_1");
+        }
+    }
+}
+
+SCENARIO("A plane that meets two vessels cuts only one", "[geometry][openings]") {
+    const auto path = hairpin(20.0, 6.0, kPi);
+    const double length = 40.0 + 6.0 * kPi;
+    const Surface tube = bent(open_tube(2.0, length, 40, 180), path);
+    const auto graph = line_graph(path, length, 2.0);
+    const Plane plane{Vec3(0, 0, 8.05), -Vec3::UnitZ()};
+    REQUIRE(cross_sections(tube, plane).size() == 2);
+    const Surface clipped = clip_branch(tube, plane, {"outlet_1", PatchKind::Outlet});
+    THEN("the other leg stays whole") {
+        REQUIRE(clipped.topology->boundary_loops().size() == 1);
+        const Vec3 far = path(length).position;
+        double nearest = 1e9;
+        for (const Vec3& p : clipped.points()) nearest = std::min(nearest, (p - far).norm());
+        CHECK(nearest < 2.1);
+        const double area = kPi * 4.0 * polygon_share(40);
+        const Surface both = clip_openings(tube, plan_openings(tube, graph, {.distance = 8.05}));
+        check_caps(both, 2);
+        CHECK(volume(both) == Approx(area * (length - 16.1)).epsilon(5e-3));
+    }
+}
+
+SCENARIO("Openings in a bend are perpendicular and named", "[geometry][openings]") {
+    const double bend = 8.0, length = bend * kPi / 2.0;
+    const auto path = hairpin(0.0, bend, kPi / 2.0);
+    const Surface tube = bent(open_tube(1.5, length, 40, 60), path);
+    const auto plan = plan_openings(tube, line_graph(path, length, 1.5));
+    THEN("a bend is warned of with its angle") {
+        // One diameter is an arc of 3 / 8 rad = 21.5 degrees.
+        REQUIRE(plan.openings.size() == 2);
+        CHECK(plan.openings[0].place.bend_deg == Approx(21.5).epsilon(0.1));
+        CHECK(plan.warnings.size() == 2);
+    }
+    THEN("the caps are perpendicular to the axis inside") {
+        check_caps(clip_openings(tube, plan), 2);
+    }
+    THEN("a straight stretch is preferred") {
+        const auto hook = hairpin(5.0, bend, kPi / 2.0);
+        const Surface hooked = bent(open_tube(1.5, length + 5.0, 40, 80), hook);
+        const auto straight =
+            plan_openings(hooked, line_graph(hook, length + 5.0, 1.5), {.tip = hook(0.0).position});
+        CHECK(straight.openings[0].place.bend_deg < 1.0);
+        CHECK(straight.warnings.empty());
+    }
+}
+
+SCENARIO("Attributes and patches go along when a branch is cut", "[geometry][openings]") {
+    Surface tube = open_tube(2.0, 30.0, 40, 90);
+    std::vector<double> height;
+    for (const Vec3& p : tube.points()) height.push_back(p.z());
+    tube.attributes["height"] = std::make_shared<const std::vector<double>>(height);
+    const Plane plane{Vec3(0, 0, 20.2), Vec3(0.1, 0, 1).normalized()};
+    const Surface clipped = clip_branch(tube, plane, {"outlet_1", PatchKind::Outlet});
+    const auto& kept = *clipped.attributes.at("height");
+    REQUIRE(kept.size() == clipped.vertex_count());
+    double worst = 0.0;
+    for (std::size_t v = 0; v < kept.size(); ++v)
+        if (clipped.points()[v].z() < 19.5)
+            worst = std::max(worst, std::abs(kept[v] - clipped.points()[v].z()));
+    CHECK(worst < 1e-12);
+    CHECK(clipped.patches[1] == Patch{"outlet_1", PatchKind::Outlet});
+}
+
+SCENARIO("Cutting fails with a clear text where it cannot be done", "[geometry][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    CHECK_THROWS_WITH(cut_branch(tube, {Vec3(0, 0, 40), Vec3::UnitZ()}),
+                      Catch::Contains("does not meet"));
+    CHECK_THROWS_WITH(cut_branch(tube, {Vec3(0, 0, 29.9), Vec3(1, 0, 1).normalized()}),
+                      Catch::Contains("open border"));
+    GIVEN("a ring: no plane separates it") {
+        Positions points;
+        std::vector<Triangle> triangles;
+        const int n = 48, m = 24;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < m; ++j) {
+                const double a = 2 * kPi * i / n, b = 2 * kPi * j / m;
+                points.emplace_back((8 + 2 * std::cos(b)) * std::cos(a),
+                                    (8 + 2 * std::cos(b)) * std::sin(a), 2 * std::sin(b));
+            }
+        const auto id = [&](int i, int j) { return static_cast<VertexId>(i % n * m + j % m); };
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < m; ++j) {
+                triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+                triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+            }
+        const Surface ring = make_surface(points, triangles);
+        CHECK_THROWS_WITH(cut_branch(ring, {Vec3(8, 0.1, 0), Vec3::UnitY()}),
+                          Catch::Contains("does not separate"));
+    }
+}
