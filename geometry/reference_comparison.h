@@ -1,0 +1,22 @@
+#pragma once
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// How two surfaces differ.
+struct ReferenceComparison {
+    double hausdorff = 0.0;               ///< largest distance, both ways [mm]
+    double mean_distance = 0.0;           ///< area-weighted mean of both ways [mm]
+    double hausdorff_to_reference = 0.0;  ///< from the surface to the reference only [mm]
+    double mean_to_reference = 0.0;       ///< from the surface to the reference only [mm]
+    double volume_change_percent = 0.0;   ///< of the surface against the reference [%]
+};
+
+/// Point-to-surface distances from all vertices and from regular samples inside the triangles, no
+/// wider apart than half the mean edge of the finer surface.
+/// \throw InvalidInput if one of them has no triangle
+[[nodiscard]] ReferenceComparison compare_with_reference(const Surface& surface,
+                                                         const Surface& reference);
+
+}  // namespace vesselbench

@@ -1,0 +1,144 @@
+#include "geometry/self_intersections.h"
+
+#include <algorithm>
+#include <array>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "geometry/box_tree.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 to_cgal(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+struct Shared {
+    int count = 0;
+    std::array<int, 3> mine{}, theirs{};  ///< corner numbers of the shared vertices
+};
+
+Shared shared_vertices(const Triangle& a, const Triangle& b) {
+    Shared shared;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (a[i] == b[j] && shared.count < 3) {
+                shared.mine[shared.count] = i;
+                shared.theirs[shared.count++] = j;
+            }
+    return shared;
+}
+
+class Tester {
+public:
+    Tester(const Positions& positions, std::span<const Triangle> triangles)
+        : positions_(positions), triangles_(triangles) {}
+
+    [[nodiscard]] bool degenerate(TriangleId t) const {
+        const auto p = corners(t);
+        return CGAL::collinear(p[0], p[1], p[2]);
+    }
+
+    [[nodiscard]] bool intersect(TriangleId s, TriangleId t) const {
+        const Triangle &a = triangles_[s], &b = triangles_[t];
+        const Shared shared = shared_vertices(a, b);
+        switch (shared.count) {
+            case 0:
+                return CGAL::do_intersect(triangle(s), triangle(t));
+            case 1:
+                return meet_beyond_vertex(s, t, shared.mine[0], shared.theirs[0]);
+            case 2:
+                return folded_over(a[3 - shared.mine[0] - shared.mine[1]],
+                                   b[3 - shared.theirs[0] - shared.theirs[1]], a[shared.mine[0]],
+                                   a[shared.mine[1]]);
+            default:
+                return true;  // the same three vertices
+        }
+    }
+
+private:
+    [[nodiscard]] std::array<Kernel::Point_3, 3> corners(TriangleId t) const {
+        const Triangle& v = triangles_[t];
+        return {to_cgal(positions_[v[0]]), to_cgal(positions_[v[1]]), to_cgal(positions_[v[2]])};
+    }
+
+    [[nodiscard]] Kernel::Triangle_3 triangle(TriangleId t) const {
+        const auto p = corners(t);
+        return {p[0], p[1], p[2]};
+    }
+
+    /// With one shared vertex, two triangles meet elsewhere exactly if the side opposite of that
+    /// vertex in one of them meets the other one.
+    [[nodiscard]] bool meet_beyond_vertex(TriangleId s, TriangleId t, int in_s, int in_t) const {
+        const auto p = corners(s), q = corners(t);
+        const Kernel::Segment_3 side_p(p[(in_s + 1) % 3], p[(in_s + 2) % 3]);
+        const Kernel::Segment_3 side_q(q[(in_t + 1) % 3], q[(in_t + 2) % 3]);
+        const auto one_side = [](const auto& plane, const Kernel::Segment_3& side) {
+            const auto a = CGAL::orientation(plane[0], plane[1], plane[2], side.source());
+            return a != CGAL::COPLANAR &&
+                   a == CGAL::orientation(plane[0], plane[1], plane[2], side.target());
+        };
+        // Both corners strictly on one side of the other's plane: only the shared vertex remains.
+        if (one_side(p, side_q) || one_side(q, side_p)) return false;
+        return CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), side_q) ||
+               CGAL::do_intersect(Kernel::Triangle_3(q[0], q[1], q[2]), side_p);
+    }
+
+    /// Two triangles at one edge overlap only if they are coplanar and lie on the same side of it.
+    [[nodiscard]] bool folded_over(VertexId top_a, VertexId top_b, VertexId u, VertexId v) const {
+        const auto a = to_cgal(positions_[top_a]), b = to_cgal(positions_[top_b]);
+        const auto p = to_cgal(positions_[u]), q = to_cgal(positions_[v]);
+        return CGAL::coplanar(p, q, a, b) &&
+               CGAL::coplanar_orientation(p, q, a, b) == CGAL::POSITIVE;
+    }
+
+    const Positions& positions_;
+    std::span<const Triangle> triangles_;
+};
+
+}  // namespace
+
+std::vector<TrianglePair> self_intersections(const Positions& positions,
+                                             std::span<const Triangle> triangles,
+                                             const Progress& progress) {
+    const Tester tester(positions, triangles);
+    const auto boxes = triangle_boxes(positions, triangles);
+    const BoxTree tree(boxes);
+    std::vector<std::uint8_t> flat(triangles.size());
+    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
+        flat[t] = tester.degenerate(static_cast<TriangleId>(t)) ? 1 : 0;
+    });
+    // Fixed blocks keep the order of the result whatever the number of threads.
+    constexpr std::size_t kBlock = 4096;
+    std::vector<std::vector<TrianglePair>> found((triangles.size() + kBlock - 1) / kBlock);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {
+        progress.check_cancelled();
+        const std::size_t end = std::min(triangles.size(), (block + 1) * kBlock);
+        for (std::size_t s = block * kBlock; s < end; ++s) {
+            if (flat[s]) continue;
+            const auto wanted = [&](const BoxTree::Box& box) { return box.intersects(boxes[s]); };
+            tree.traverse(wanted, [&](std::uint32_t t) {
+                if (t > s && !flat[t] && boxes[t].intersects(boxes[s]) &&
+                    tester.intersect(static_cast<TriangleId>(s), t))
+                    found[block].emplace_back(static_cast<TriangleId>(s), t);
+            });
+        }
+    });
+    std::vector<TrianglePair> all;
+    for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+std::vector<TrianglePair> self_intersections(const Surface& surface, const Progress& progress) {
+    return self_intersections(surface.points(), surface.triangles(), progress);
+}
+
+}  // namespace vesselbench

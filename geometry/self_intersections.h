@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/progress.h"
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+using TrianglePair = std::pair<TriangleId, TriangleId>;
+
+/// Pairs (low, high) of triangles that meet elsewhere than in the vertices and edges they share,
+/// ascending; decided exactly. Triangles without area are left out. Any triangles will do, also
+/// non-manifold ones; parallel, the same result on any number of threads.
+[[nodiscard]] std::vector<TrianglePair> self_intersections(const Positions& positions,
+                                                           std::span<const Triangle> triangles,
+                                                           const Progress& progress = {});
+
+[[nodiscard]] std::vector<TrianglePair> self_intersections(const Surface& surface,
+                                                           const Progress& progress = {});
+
+}  // namespace vesselbench

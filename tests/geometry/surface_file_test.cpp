@@ -1,0 +1,217 @@
+#include "geometry/io/surface_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+std::string written(const std::string& name, const std::string& content) {
+    const std::string path = temporary_folder() + "/" + name;
+    std::ofstream(path, std::ios::binary) << content;
+    return path;
+}
+
+std::string bytes_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Surface patient_tube() {
+    Surface tube = mapped(closed_tube(2.0, 20.0, 24, 10), [](const Vec3& p) {
+        return Vec3(skew_rotation() * p + Vec3(-120.3, 45.7, 900.1));
+    });
+    std::vector<double> weights;
+    for (const Vec3& p : tube.points()) weights.push_back(p.x());
+    tube.attributes["weight"] = std::make_shared<const std::vector<double>>(weights);
+    return tube;
+}
+
+}  // namespace
+
+SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry][io]") {
+    const Surface tube = patient_tube();
+    const std::string folder = temporary_folder();
+    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp"}) {
+        CAPTURE(suffix);
+        write_surface(tube, folder + "/tube" + suffix);
+        const SurfaceFile file = read_surface(folder + "/tube" + suffix);
+        CHECK(file.unit == LengthUnit::Millimetre);
+        CHECK(file.unit_reason == "stated in the file");
+        CHECK(file.surface.vertex_count() == tube.vertex_count());
+        CHECK(file.surface.triangle_count() == tube.triangle_count());
+        CHECK(volume(file.surface) == Approx(volume(tube)).epsilon(1e-4));
+        const bool has_patches = suffix == ".ply" || suffix == ".obj" || suffix == ".vtp";
+        if (has_patches) {
+            CHECK(file.surface.patches == tube.patches);
+            CHECK(measure_patches(file.surface)[2].area ==
+                  Approx(measure_patches(tube)[2].area).epsilon(1e-9));
+        }
+        if (suffix != ".stl" && suffix != ".obj")
+            CHECK(file.surface.points()[7] == tube.points()[7]);
+        if (suffix == ".ply" || suffix == ".vtp")
+            CHECK(*file.surface.attributes.at("weight") == *tube.attributes.at("weight"));
+    }
+}
+
+SCENARIO("A file that was cut off is refused at any length", "[geometry][io]") {
+    const Surface tube = closed_tube(2.0, 20.0, 12, 4);
+    const std::string folder = temporary_folder();
+    std::vector<std::string> files;
+    for (const std::string suffix : {".stl", ".ply", ".off", ".vtp"}) {
+        files.push_back(folder + "/tube" + suffix);
+        write_surface(tube, files.back());
+    }
+    for (const std::string& path : files) {
+        const std::string whole = bytes_of(path);
+        for (int part = 0; part < 40; ++part) {
+            const std::size_t length = whole.size() * static_cast<std::size_t>(part) / 40;
+            const std::string cut =
+                folder + "/cut" + std::filesystem::path(path).extension().string();
+            std::ofstream(cut, std::ios::binary) << whole.substr(0, length);
+            CAPTURE(cut, length);
+            CHECK_THROWS_AS(read_surface(cut), InvalidInput);
+        }
+    }
+}
+
+SCENARIO("A text STL that was cut off is refused at any length", "[geometry][io]") {
+    std::string text = "solid a\n";
+    for (int i = 0; i < 3; ++i)
+        text += "facet normal 0 0 1\n outer loop\n  vertex 0 0 " + std::to_string(i) +
+                "\n  vertex 10 0 0\n  vertex 0 10 0\n endloop\nendfacet\n";
+    text += "endsolid a\n";
+    CHECK(read_surface(written("a.stl", text)).surface.triangle_count() == 3);
+    for (std::size_t length = 0; length < text.size() - 10; ++length)
+        CHECK_THROWS_AS(read_surface(written("a.stl", text.substr(0, length))), InvalidInput);
+}
+
+SCENARIO("Coordinates that are not finite are refused with their place", "[geometry][io]") {
+    const auto refused = [](const std::string& path, const std::string& place) {
+        CAPTURE(path);
+        CHECK_THROWS_WITH(read_surface(path), Catch::Contains(place) && Catch::Contains("finite") &&
+                                                  !Catch::Contains("/"));
+    };
+    refused(written("a.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), "a.off, line 4");
+    refused(written("a.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n"), "a.obj, line 2");
+    refused(written("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                    "property float y\nproperty float z\nelement face 1\n"
+                    "property list uchar int vertex_index\nend_header\n"
+                    "0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
+            "a.ply, byte");
+    const std::string folder = temporary_folder();
+    write_surface(cube(10.0), folder + "/nan.stl");
+    std::string bytes = bytes_of(folder + "/nan.stl");
+    bytes.replace(84 + 50 * 3 + 12, 4, "\xff\xff\xff\xff");
+    refused(written("nan.stl", bytes), "nan.stl, triangle 3");
+}
+
+SCENARIO("Polygons become triangles that cover them once", "[geometry][io]") {
+    // An L of area 3, given as one polygon with a concave corner.
+    const auto file = read_surface(written("l.obj",
+                                           "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\n"
+                                           "v 0 2 0\nf -6 -5 -4 -3 -2 -1\n"),
+                                   LengthUnit::Millimetre);
+    CHECK(file.surface.triangle_count() == 4);
+    CHECK(area(file.surface) == Approx(3.0));
+}
+
+SCENARIO("PLY files of either byte order and with other elements are read", "[geometry][io]") {
+    std::string bytes =
+        "ply\nformat binary_big_endian 1.0\nelement camera 1\n"
+        "property list uchar float pose\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nproperty uchar red\nelement face 1\n"
+        "property list uchar ushort vertex_indices\nend_header\n";
+    const auto real = [&](const char* four) { bytes.append(four, 4); };
+    bytes += '\1';
+    real("\x3f\x80\0\0");
+    for (int v = 0; v < 3; ++v) {
+        real(v == 1 ? "\x41\x20\0\0" : "\0\0\0\0");  // 10
+        real(v == 2 ? "\x41\x20\0\0" : "\0\0\0\0");
+        real("\0\0\0\0");
+        bytes += '\7';
+    }
+    bytes.append("\3\0\0\0\1\0\2", 7);
+    const auto file = read_surface(written("b.ply", bytes), LengthUnit::Millimetre);
+    CHECK(area(file.surface) == Approx(50.0));
+}
+
+SCENARIO("Units are guessed from what a vessel can be, stated or given", "[geometry][io]") {
+    const auto guess = [](double factor) {
+        return guess_length_unit(
+            mapped(open_tube(2.5, 60.0, 24, 40), [&](const Vec3& p) { return Vec3(factor * p); }));
+    };
+    CHECK(guess(1.0).unit == LengthUnit::Millimetre);
+    CHECK(guess(0.1).unit == LengthUnit::Centimetre);
+    CHECK(guess(0.001).unit == LengthUnit::Metre);
+    const std::string folder = temporary_folder();
+    write_surface(cube(3.0), folder + "/c.vtp");
+    CHECK(volume(read_surface(folder + "/c.vtp").surface) == Approx(27.0));
+    CHECK(volume(read_surface(folder + "/c.vtp", LengthUnit::Centimetre).surface) ==
+          Approx(27000.0));
+}
+
+SCENARIO("The units of the real surfaces are guessed right", "[geometry][io]") {
+    const std::string cm[] = {"gmsh_aorta2_open.stl", "sv_demo_aortofemoral.vtp",
+                              "sv_rom_model_surface.vtp"};
+    const std::string m[] = {"openlb_cerebral_aneurysm3d.stl",
+                             "vasp_small_aneurysm_fluidboundary.vtp"};
+    const std::string folder = shared_data("surfaces");
+    if (folder.empty()) return;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        CAPTURE(name);
+        const LengthUnit right =
+            std::count(std::begin(cm), std::end(cm), name) ? LengthUnit::Centimetre
+            : std::count(std::begin(m), std::end(m), name) ? LengthUnit::Metre
+                                                           : LengthUnit::Millimetre;
+        CHECK(read_surface(entry.path().string()).unit == right);
+    }
+}
+
+SCENARIO("Caps that SimVascular numbered become openings", "[geometry][io]") {
+    const std::string path = shared_data("surfaces/sv_demo_aortofemoral.vtp");
+    if (path.empty()) return;
+    const auto patches = measure_patches(read_surface(path).surface);
+    REQUIRE(patches.size() == 4);
+    CHECK(patches[0].triangles == 9267 + 5222);
+    CHECK(patches[1].triangles == 78);
+    CHECK(patches[1].kind == PatchKind::Cut);
+}
+
+SCENARIO("Files that are no surface are refused clearly", "[geometry][io]") {
+    for (const std::string name :
+         {"assimp_crash.ply", "assimp_invalid.off", "assimp_malformed.obj", "trimesh_empty.ply",
+          "trimesh_empty.stl", "trimesh_empty_bin.stl", "trimesh_points_emptyface.ply"}) {
+        const std::string path = shared_data("nasty/" + name);
+        if (path.empty()) return;
+        CAPTURE(name);
+        CHECK_THROWS_AS(read_surface(path), InvalidInput);
+    }
+    CHECK_THROWS_AS(read_surface("no_such_file.stl"), IoError);
+    CHECK_THROWS_AS(read_surface(written("a.docx", "x")), InvalidInput);
+    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp"}) {
+        CAPTURE(suffix);
+        CHECK_THROWS_AS(read_surface(written("garbage" + suffix, "this is not a surface\n\1\2\3")),
+                        InvalidInput);
+        CHECK_THROWS_AS(read_surface(written("empty" + suffix, "")), InvalidInput);
+    }
+}
+
+SCENARIO("What cannot be written leaves no file behind", "[geometry][io]") {
+    const std::string folder = temporary_folder();
+    CHECK_THROWS_AS(write_surface(cube(1.0), folder + "/missing/a.stl"), IoError);
+    CHECK_THROWS_AS(write_surface(cube(1.0), folder + "/a.docx"), UsageError);
+    CHECK_THROWS_AS(write_surface(Surface{}, folder + "/a.stl"), InvalidInput);
+    CHECK(std::filesystem::is_empty(folder));
+}
