@@ -1,0 +1,76 @@
+#include "geometry/image/crop_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "geometry/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Copies the voxels whose cells meet the index range [low, high].
+Image crop_to_indices(const Image& image, const Vec3& low, const Vec3& high) {
+    std::array<int, 3> first{}, size{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto axis = static_cast<Eigen::Index>(a);
+        const int last = image.size[a] - 1;
+        if (!(high[axis] >= 0.0 && low[axis] <= last))
+            throw InvalidInput(
+                "the region to crop lies outside the image; give it in mm in the "
+                "image's patient coordinates (LPS)");
+        const auto bounded = [&](double index) {
+            return static_cast<int>(std::clamp(index, 0.0, static_cast<double>(last)));
+        };
+        // Two voxels at least: a surface needs a cell between them.
+        first[a] = std::min(bounded(std::floor(low[axis])), std::max(0, last - 1));
+        size[a] =
+            std::max(bounded(std::ceil(high[axis])), std::min(first[a] + 1, last)) - first[a] + 1;
+    }
+    std::vector<float> voxels;
+    voxels.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+                   static_cast<std::size_t>(size[2]));
+    for (int k = 0; k < size[2]; ++k)
+        for (int j = 0; j < size[1]; ++j) {
+            const auto begin = image.voxels->begin() + static_cast<std::ptrdiff_t>(image.offset(
+                                                           first[0], first[1] + j, first[2] + k));
+            voxels.insert(voxels.end(), begin, begin + size[0]);
+        }
+    Image part;
+    part.size = size;
+    part.index_to_patient = image.index_to_patient;
+    part.index_to_patient.topRightCorner<3, 1>() =
+        image.to_patient(Vec3(first[0], first[1], first[2]));
+    part.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return part;
+}
+
+}  // namespace
+
+Image crop_to_box(const Image& image, const Vec3& low, const Vec3& high) {
+    if (!((high - low).minCoeff() > 0.0))
+        throw InvalidInput(
+            "the box to crop is empty: its upper corner must lie above its lower one");
+    Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity()), most = -least;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
+                     corner & 4 ? high.z() : low.z());
+        const Vec3 index = image.to_index(p);
+        least = least.cwiseMin(index);
+        most = most.cwiseMax(index);
+    }
+    return crop_to_indices(image, least, most);
+}
+
+Image crop_to_sphere(const Image& image, const Vec3& centre, double radius) {
+    if (!(radius > 0.0)) throw InvalidInput("the radius to crop must be above 0 mm");
+    const Vec3 middle = image.to_index(centre);
+    const Eigen::Matrix3d to_index = image.index_to_patient.topLeftCorner<3, 3>().inverse();
+    // The ball's extent along an index axis is the radius times the gradient of that index.
+    const Vec3 reach = radius * to_index.rowwise().norm();
+    return crop_to_indices(image, middle - reach, middle + reach);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,221 @@
+#include "geometry/image/extract_surface.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "geometry/errors.h"
+#include "geometry/image/clean_image.h"
+#include "geometry/image/iso_surface.h"
+#include "geometry/image/resample.h"
+#include "geometry/image/shells.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A mask of 1 and 0: the surface lies midway between voxels, staircases and all.
+constexpr double kMaskIso = 0.5;
+
+std::string text_of(double number) {
+    std::ostringstream out;
+    out << number;
+    return out.str();
+}
+
+std::string size_text(const Image& image) {
+    return std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
+           std::to_string(image.size[2]) + " voxels";
+}
+
+void check(const Image& image, const std::optional<Image>& mask) {
+    if (image.empty()) throw InvalidInput("the image is empty");
+    const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
+    if (!(*most > *least))
+        throw InvalidInput("the image is empty: all its voxels are " + text_of(*least));
+    if (mask && mask->size != image.size)
+        throw InvalidInput("the mask has " + size_text(*mask) + ", but the image has " +
+                           size_text(image) + ": give the mask of this image");
+}
+
+/// Fills in the method, the side and (for level sets) the threshold.
+void decide_method(const Image& image, bool with_mask, const ExtractionParameters& parameters,
+                   Extraction& result) {
+    const ImageJudgement judgement = judge(image);
+    if (parameters.method) {
+        result.method = *parameters.method;
+    } else if (with_mask) {
+        result.method = ExtractionMethod::Masked;
+        result.reasons.emplace_back("there is a mask: intensities inside the dilated mask");
+    } else if (!parameters.threshold && judgement.kind == ImageKind::Labels) {
+        result.method = ExtractionMethod::Labels;
+        result.reasons.push_back(judgement.reason);
+    } else {
+        result.method = ExtractionMethod::Threshold;
+    }
+    const bool level_set = result.method == ExtractionMethod::Threshold &&
+                           judgement.kind == ImageKind::LevelSet &&
+                           parameters.threshold.value_or(0.0) == 0.0;
+    if (level_set && !(parameters.threshold && parameters.inside_below))
+        result.reasons.push_back(judgement.reason);
+    result.inside_below = parameters.inside_below.value_or(level_set && judgement.inside_below);
+    if (parameters.threshold)
+        result.threshold = *parameters.threshold;
+    else if (result.method == ExtractionMethod::Threshold && !level_set) {
+        result.threshold = bright_threshold(image);
+        result.reasons.push_back("threshold " + text_of(result.threshold) +
+                                 ": Otsu's on the brightest voxels");
+    }
+}
+
+Image cleaned_intensities(const Image& image, const Cleaning& cleaning, Extraction& result,
+                          const Progress& progress) {
+    Image clean = image;
+    if (cleaning.diffusion > 0) {
+        result.contrast = cleaning.diffusion_contrast.value_or(edge_contrast(image));
+        clean = diffuse(clean, {.iterations = cleaning.diffusion, .contrast = result.contrast},
+                        progress);
+    }
+    clean = gaussian(clean, cleaning.gaussian);
+    return closed(opened(clean, cleaning.opening), cleaning.closing);
+}
+
+/// Masks: opening and closing on the voxels, then blurring (the iso-surface stays at one half).
+Image cleaned_mask(const Image& mask, const Cleaning& cleaning) {
+    return closed(opened(mask, cleaning.opening), cleaning.closing);
+}
+
+/// The image turned so that the inside lies above: opening then always thins the vessel.
+Image inside_up(const Image& image, bool inside_below) {
+    if (!inside_below) return image;
+    std::vector<float> voxels = *image.voxels;
+    for (float& v : voxels) v = -v;
+    Image result = image;
+    result.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return result;
+}
+
+/// A field whose inside lies at or above `iso`.
+struct Field {
+    Image image;
+    double iso = 0.0;
+};
+
+Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result) {
+    const auto there = labels_of(labels);
+    for (const int label : parameters.labels)
+        if (!std::binary_search(there.begin(), there.end(), label)) {
+            std::string all;
+            for (const int l : there) all += (all.empty() ? "" : ", ") + std::to_string(l);
+            throw InvalidInput("there is no label " + std::to_string(label) +
+                               " in the image; it holds " + (all.empty() ? "none" : all));
+        }
+    result.labels = parameters.labels.empty() ? there : parameters.labels;
+    const Cleaning& cleaning = parameters.cleaning;
+    const Image mask = mask_of_labels(labels, parameters.labels);
+    if (cleaning.any()) result.before = voxel_topology(mask, kMaskIso);
+    Field field{cleaned_mask(mask, cleaning), kMaskIso};
+    if (parameters.resample) field.image = resample_mask(field.image, *parameters.resample);
+    field.image = gaussian(field.image, cleaning.gaussian);
+    return field;
+}
+
+Field threshold_field(const Image& image, const ExtractionParameters& parameters,
+                      Extraction& result, const Progress& progress) {
+    const Image up = inside_up(image, result.inside_below);
+    const double iso = result.inside_below ? -result.threshold : result.threshold;
+    if (parameters.cleaning.any()) result.before = voxel_topology(up, iso);
+    Field field{cleaned_intensities(up, parameters.cleaning, result, progress), iso};
+    if (parameters.resample) field.image = resample_intensities(field.image, *parameters.resample);
+    return field;
+}
+
+Field masked_field(const Image& image, const Image& mask, const ExtractionParameters& parameters,
+                   Extraction& result, const Progress& progress) {
+    const Image inside = mask_of_labels(mask, parameters.labels);
+    if (!parameters.threshold) {
+        result.threshold = masked_threshold(image, inside);
+        result.reasons.push_back("threshold " + text_of(result.threshold) +
+                                 ": midway between the medians inside the mask and around it");
+    }
+    Field field = threshold_field(image, parameters, result, progress);
+    Image grown = dilated(inside, parameters.dilation);
+    if (result.before)
+        result.before = voxel_topology(
+            masked_intensities(inside_up(image, result.inside_below), grown, field.iso, false),
+            field.iso);
+    if (parameters.resample) grown = resample_mask(grown, *parameters.resample);
+    field.image = masked_intensities(field.image, grown, field.iso, false);
+    return field;
+}
+
+void check_share(const Field& field, const Extraction& result) {
+    const auto inside = std::count_if(field.image.voxels->begin(), field.image.voxels->end(),
+                                      [&](float v) { return v >= static_cast<float>(field.iso); });
+    if (inside > 0 && static_cast<std::size_t>(inside) < field.image.voxel_count()) return;
+    auto [least, most] =
+        std::minmax_element(field.image.voxels->begin(), field.image.voxels->end());
+    double low = *least, high = *most;
+    if (result.inside_below) {
+        low = -*most;
+        high = -*least;
+    }
+    throw AlgorithmFailure(std::string(inside == 0 ? "no voxel" : "every voxel") +
+                           " lies inside at threshold " + text_of(result.threshold) +
+                           " (values from " + text_of(low) + " to " + text_of(high) +
+                           "); give another threshold");
+}
+
+}  // namespace
+
+std::string to_string(ExtractionMethod method) {
+    switch (method) {
+        case ExtractionMethod::Labels:
+            return "labels";
+        case ExtractionMethod::Masked:
+            return "masked";
+        default:
+            return "threshold";
+    }
+}
+
+Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
+                           const ExtractionParameters& parameters, const Progress& progress) {
+    check(image, mask);
+    progress.report(0.0, "judging the image");
+    Extraction result;
+    decide_method(image, mask.has_value(), parameters, result);
+    if (result.method == ExtractionMethod::Masked && !mask)
+        throw InvalidInput("method=masked needs a mask: load the image with mask=");
+    const Progress cleaning = progress.part(0.1, 0.6);
+    Field field;
+    if (result.method == ExtractionMethod::Labels) {
+        // With both, the labels are the mask's: the image holds intensities.
+        field = label_field(mask ? *mask : image, parameters, result);
+        result.threshold = kMaskIso;
+        result.inside_below = false;
+    } else if (result.method == ExtractionMethod::Masked) {
+        field = masked_field(image, *mask, parameters, result, cleaning);
+    } else {
+        field = threshold_field(image, parameters, result, cleaning);
+    }
+    check_share(field, result);
+    if (parameters.cleaning.any()) result.after = voxel_topology(field.image, field.iso);
+    progress.report(0.6, "extracting the surface");
+    const Surface all = iso_surface(field.image, field.iso);
+    progress.report(0.8, "choosing the body");
+    constexpr double kSeedTolerance = 2.0;  // voxels
+    ShellChoice choice =
+        parameters.seed
+            ? body_at(all, *parameters.seed, kSeedTolerance * field.image.spacing().maxCoeff())
+        : parameters.bodies == Bodies::Largest ? largest_body(all)
+                                               : all_bodies(all);
+    result.surface = std::move(choice.surface);
+    result.sampling = sampling_of(field.image);
+    result.bodies = choice.bodies;
+    result.hollows = choice.hollows;
+    result.largest_dropped = choice.largest_dropped;
+    return result;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/image/image.h"
+#include "geometry/image/threshold.h"
+#include "geometry/image/voxel_topology.h"
+#include "geometry/progress.h"
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// How the inside of the vessel is told from the image.
+enum class ExtractionMethod {
+    Threshold,  ///< intensities or a level set: inside above (or below) the threshold
+    Labels,     ///< chosen labels of a label map or mask
+    Masked      ///< intensities inside a dilated mask (thesis Fig. 3.7)
+};
+
+[[nodiscard]] std::string to_string(ExtractionMethod method);  ///< "threshold", "labels", "masked"
+
+/// Cleaning at the image level (thesis 3.2.3), in this order; 0 leaves a step out.
+struct Cleaning {
+    int diffusion = 0;                         ///< iterations of edge-preserving diffusion
+    std::optional<double> diffusion_contrast;  ///< absent: decided from the image
+    double gaussian = 0.0;                     ///< standard deviation [mm]
+    int opening = 0;                           ///< radius [voxels]
+    int closing = 0;                           ///< radius [voxels]
+
+    [[nodiscard]] bool any() const {
+        return diffusion > 0 || gaussian > 0.0 || opening > 0 || closing > 0;
+    }
+};
+
+/// Which bodies of the iso-surface are kept.
+enum class Bodies { Largest, All };
+
+/// Parameters of extract_surface; what is absent is decided from the image.
+struct ExtractionParameters {
+    std::optional<ExtractionMethod> method;
+    std::optional<double> threshold;   ///< image value; a level set's iso-value
+    std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
+    std::vector<int> labels;           ///< empty: any label above 0
+    int dilation = 1;  ///< radius by which the mask grows [voxels] (3 x 3 x 3 kernel)
+    Cleaning cleaning;
+    std::optional<double> resample;  ///< edge of cubic voxels [mm]
+    std::optional<Vec3> seed;        ///< the body at this point [mm], LPS
+    Bodies bodies = Bodies::Largest;
+};
+
+/// A surface, and what was decided and found on the way.
+struct Extraction {
+    Surface surface;    ///< closed, outward, [mm]; flat closures at the border are patches cut_1...
+    Sampling sampling;  ///< of the grid it was extracted on
+    ExtractionMethod method = ExtractionMethod::Threshold;
+    double threshold = 0.0;
+    bool inside_below = false;
+    std::vector<int> labels;              ///< that are inside
+    std::optional<double> contrast;       ///< of the diffusion, if there was one
+    std::vector<std::string> reasons;     ///< one sentence for each decision
+    std::optional<VoxelTopology> before;  ///< of the inside voxels, if there was cleaning
+    std::optional<VoxelTopology> after;
+    std::size_t bodies = 0;        ///< found
+    std::size_t hollows = 0;       ///< found
+    double largest_dropped = 0.0;  ///< [mm^3]
+};
+
+/// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels, or
+/// intensities inside a dilated mask.
+/// \param mask on the image's grid, inside where > 0, or nothing
+/// \throw InvalidInput if the image is empty or constant, a mask lies on another grid, or a label
+/// is not there \throw AlgorithmFailure if no voxel or every voxel is inside, or no body is at the
+/// seed
+[[nodiscard]] Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
+                                         const ExtractionParameters& parameters,
+                                         const Progress& progress = {});
+
+}  // namespace vesselbench

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "geometry/image/image.h"
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// Iso-surface of an image: closed, 2-manifold, outward, in patient coordinates, all pieces. Where
+/// the inside reaches the image's border, it is closed flat in the plane of the outermost voxel
+/// centres; the closures in one border plane are a patch of kind Cut (border_1...border_6). Grid
+/// values that lie on the iso-value (within a thousandth of the difference to their neighbours) are
+/// moved off it, so that no triangle degenerates. Source: Schroeder et al., "Flying edges: a
+/// high-performance scalable isocontouring algorithm", LDAV 2015 (vtkFlyingEdges3D). \param
+/// inside_below the inside has the values below iso, not above \throw InvalidInput if an axis has
+/// fewer than two voxels \return an empty surface if no voxel, or all of them lie inside
+[[nodiscard]] Surface iso_surface(const Image& image, double iso, bool inside_below = false);
+
+}  // namespace vesselbench

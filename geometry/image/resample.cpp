@@ -1,0 +1,216 @@
+#include "geometry/image/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "geometry/errors.h"
+#include "geometry/image/lines.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kMostVoxels = 1 << 30;
+
+/// The finer grid: same axes, same first voxel, cubic voxels up to the old last voxel.
+Image cubic_grid(const Image& image, double edge) {
+    if (!(edge > 0.0)) throw InvalidInput("the edge of the resampled voxels must be above 0 mm");
+    const Vec3 spacing = image.spacing();
+    Image grid;
+    double count = 1.0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto axis = static_cast<Eigen::Index>(a);
+        // The slack keeps the last voxel where the edge divides the length exactly.
+        constexpr double kSlack = 1e-6;
+        const double n = std::floor((image.size[a] - 1) * spacing[axis] / edge + kSlack) + 1.0;
+        count *= n;
+        if (count > kMostVoxels)
+            throw InvalidInput("resampling to voxels of " + std::to_string(edge) +
+                               " mm gives more than 2^30 voxels; crop the image or take a larger "
+                               "edge");
+        grid.size[a] = static_cast<int>(n);
+    }
+    grid.index_to_patient = image.index_to_patient;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+        grid.index_to_patient.block<3, 1>(0, axis) *= edge / spacing[axis];
+    return grid;
+}
+
+/// Values at the new positions along one axis; sample(line, position) gives one of them.
+std::vector<float> resample_axis(
+    const std::vector<float>& values, const std::array<int, 3>& size, std::size_t axis, int count,
+    double step, const std::function<float(const float*, std::size_t, double)>& sample) {
+    std::size_t stride = 1;
+    for (std::size_t a = 0; a < axis; ++a) stride *= static_cast<std::size_t>(size[a]);
+    const auto n = static_cast<std::size_t>(size[axis]), m = static_cast<std::size_t>(count);
+    const std::size_t lines = values.size() / n;
+    std::vector<float> result(lines * m);
+    const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
+        std::vector<float> line(n);
+        for (std::size_t l = range.begin(); l != range.end(); ++l) {
+            const std::size_t block = l / stride, within = l % stride;
+            for (std::size_t i = 0; i < n; ++i) line[i] = values[(block * n + i) * stride + within];
+            for (std::size_t i = 0; i < m; ++i)
+                result[(block * m + i) * stride + within] =
+                    sample(line.data(), n, static_cast<double>(i) * step);
+        }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 64), work);
+    return result;
+}
+
+/// Turns samples into cubic B-spline coefficients, in place (mirrored ends).
+void to_coefficients(std::vector<float>& line) {
+    const std::size_t n = line.size();
+    if (n < 2) return;
+    const double pole = std::sqrt(3.0) - 2.0;
+    const double gain = 6.0;
+    constexpr double kForgotten = 1e-9;  // the pole's power below which older samples do not count
+    double power = 1.0, first = 0.0;
+    for (std::size_t i = 0; std::abs(power) > kForgotten; ++i, power *= pole) {
+        const std::size_t period = i % (2 * n - 2);
+        first += power * line[period < n ? period : 2 * n - 2 - period];
+    }
+    std::vector<double> c(n);
+    c[0] = first;
+    for (std::size_t i = 1; i < n; ++i) c[i] = line[i] + pole * c[i - 1];
+    c[n - 1] = pole / (pole * pole - 1.0) * (c[n - 1] + pole * c[n - 2]);
+    for (std::size_t i = n - 1; i-- > 0;) c[i] = pole * (c[i + 1] - c[i]);
+    for (std::size_t i = 0; i < n; ++i) line[i] = static_cast<float>(gain * c[i]);
+}
+
+float bspline_at(const float* c, std::size_t n, double position) {
+    if (n < 2) return c[0];
+    const double base = std::floor(position), t = position - base;
+    const double weights[4] = {(1 - t) * (1 - t) * (1 - t) / 6.0,
+                               2.0 / 3.0 - 0.5 * t * t * (2.0 - t),
+                               2.0 / 3.0 - 0.5 * (1 - t) * (1 - t) * (1.0 + t), t * t * t / 6.0};
+    double sum = 0.0;
+    const auto last = static_cast<long>(n) - 1;
+    for (long k = 0; k < 4; ++k) {
+        long i = std::abs(static_cast<long>(base) - 1 + k);
+        if (i > last) i = 2 * last - i;
+        sum += weights[k] * c[std::clamp(i, 0L, last)];
+    }
+    return static_cast<float>(sum);
+}
+
+float linear_at(const float* line, std::size_t n, double position) {
+    const auto i = std::min(static_cast<std::size_t>(position), n - 1);
+    const double t = position - static_cast<double>(i);
+    const float next = line[std::min(i + 1, n - 1)];
+    return static_cast<float>((1.0 - t) * line[i] + t * next);
+}
+
+/// Stands for "no outline in this line": far beyond any image, still exact to square in float.
+constexpr float kFar = 1e15f;
+
+/// Squared distances along one line: d(p) = min over q of (h (p - q))^2 + d(q).
+void squared_distances(std::vector<float>& line, double h) {
+    const std::size_t n = line.size();
+    std::vector<std::size_t> parabola(n);
+    std::vector<double> from(n + 1);
+    const auto meet = [&](std::size_t p, std::size_t q) {  // p < q
+        const double a = h * static_cast<double>(p), b = h * static_cast<double>(q);
+        return ((line[q] + b * b) - (line[p] + a * a)) / (2.0 * (b - a));
+    };
+    std::size_t count = 0;
+    for (std::size_t q = 0; q < n; ++q) {
+        if (line[q] >= kFar) continue;
+        while (count > 0 && meet(parabola[count - 1], q) <= from[count - 1]) --count;
+        from[count] =
+            count == 0 ? -std::numeric_limits<double>::infinity() : meet(parabola[count - 1], q);
+        parabola[count++] = q;
+    }
+    if (count == 0) return;
+    const std::vector<float> old = line;
+    std::size_t at = 0;
+    for (std::size_t p = 0; p < n; ++p) {
+        const double x = h * static_cast<double>(p);
+        while (at + 1 < count && from[at + 1] < x) ++at;
+        const double d = x - h * static_cast<double>(parabola[at]);
+        line[p] = static_cast<float>(d * d + old[parabola[at]]);
+    }
+}
+
+/// Distance [mm] within each slice to the nearest voxel where inside == wanted; kFar if none.
+std::vector<float> slice_distances(const Image& mask, std::size_t stack, bool wanted) {
+    std::vector<float> d(mask.voxels->size());
+    for (std::size_t v = 0; v < d.size(); ++v)
+        d[v] = ((*mask.voxels)[v] >= 0.5f) == wanted ? 0.0f : kFar;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (axis != stack) {
+            const double h = mask.spacing()[static_cast<Eigen::Index>(axis)];
+            for_each_line(d, mask.size, static_cast<int>(axis),
+                          [h](std::vector<float>& line) { squared_distances(line, h); });
+        }
+    for (float& v : d) v = v >= kFar ? kFar : std::sqrt(v);
+    return d;
+}
+
+/// Signed distances within slices, positive inside. The outline lies midway between voxels, so that
+/// both kinds of distance share the half voxel.
+std::vector<float> signed_slice_distances(const Image& mask, std::size_t stack) {
+    const auto outside = slice_distances(mask, stack, false);
+    const auto inside = slice_distances(mask, stack, true);
+    std::vector<float> signed_distance(outside.size());
+    for (std::size_t v = 0; v < outside.size(); ++v)
+        signed_distance[v] = outside[v] >= kFar  ? kFar
+                             : inside[v] >= kFar ? -kFar
+                                                 : outside[v] - inside[v];
+    return signed_distance;
+}
+
+/// An empty (or full) slice has no distances: it takes its neighbour's with the other sign, so that
+/// the shape ends midway between the two.
+float between_slices(const float* line, std::size_t n, double position) {
+    const auto i = std::min(static_cast<std::size_t>(position), n - 1);
+    const double t = position - static_cast<double>(i);
+    float a = line[i], b = line[std::min(i + 1, n - 1)];
+    if (std::abs(a) >= kFar && std::abs(b) < kFar) a = std::copysign(std::abs(b), a);
+    if (std::abs(b) >= kFar && std::abs(a) < kFar) b = std::copysign(std::abs(a), b);
+    return static_cast<float>((1.0 - t) * a + t * b);
+}
+
+Image with_voxels(Image grid, std::vector<float> voxels) {
+    grid.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return grid;
+}
+
+}  // namespace
+
+Image resample_intensities(const Image& image, double edge) {
+    Image grid = cubic_grid(image, edge);
+    std::vector<float> values = *image.voxels;
+    std::array<int, 3> size = image.size;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double step = edge / image.spacing()[static_cast<Eigen::Index>(axis)];
+        for_each_line(values, size, static_cast<int>(axis), to_coefficients);
+        values = resample_axis(values, size, axis, grid.size[axis], step, bspline_at);
+        size[axis] = grid.size[axis];
+    }
+    return with_voxels(std::move(grid), std::move(values));
+}
+
+Image resample_mask(const Image& mask, double edge) {
+    Image grid = cubic_grid(mask, edge);
+    Eigen::Index thickest = 0;
+    mask.spacing().maxCoeff(&thickest);
+    const auto stack = static_cast<std::size_t>(thickest);
+    std::vector<float> values = signed_slice_distances(mask, stack);
+    std::array<int, 3> size = mask.size;
+    const std::array<std::size_t, 3> order = {stack, (stack + 1) % 3, (stack + 2) % 3};
+    for (const std::size_t axis : order) {
+        const double step = edge / mask.spacing()[static_cast<Eigen::Index>(axis)];
+        values = resample_axis(values, size, axis, grid.size[axis], step,
+                               axis == stack ? between_slices : linear_at);
+        size[axis] = grid.size[axis];
+    }
+    for (float& v : values) v = v > 0.0f ? 1.0f : 0.0f;
+    return with_voxels(std::move(grid), std::move(values));
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,265 @@
+#include "geometry/image/shells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "geometry/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Union-find with the smallest member as the name of a set.
+class Sets {
+public:
+    explicit Sets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+    }
+
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Signed volume [mm^3] and area [mm^2] of a shell.
+struct Shell {
+    double volume = 0.0;
+    double area = 0.0;
+};
+
+struct Shells {
+    std::vector<std::uint32_t> of_triangle;  ///< #T, numbered by first triangle
+    std::vector<Shell> shells;
+};
+
+Shells shells_of(const Surface& surface) {
+    Sets sets(surface.vertex_count());
+    for (const auto& [a, b, c] : surface.triangles()) {
+        sets.join(a, b);
+        sets.join(b, c);
+    }
+    const Positions& points = surface.points();
+    Shells found;
+    std::vector<std::uint32_t> number(surface.vertex_count(),
+                                      std::numeric_limits<std::uint32_t>::max());
+    const Vec3 origin = points.empty() ? Vec3::Zero() : points.front();
+    for (const Triangle& t : surface.triangles()) {
+        std::uint32_t& shell = number[sets.find(t[0])];
+        if (shell == std::numeric_limits<std::uint32_t>::max()) {
+            shell = static_cast<std::uint32_t>(found.shells.size());
+            found.shells.emplace_back();
+        }
+        found.of_triangle.push_back(shell);
+        const Vec3 n = area_normal(points, t);
+        found.shells[shell].volume += (points[t[0]] - origin).dot(n) / 6.0;
+        found.shells[shell].area += 0.5 * n.norm();
+    }
+    return found;
+}
+
+/// The part of the surface with the chosen shells; the patch table stays.
+Surface part_of(const Surface& surface, const Shells& shells, const std::vector<bool>& chosen) {
+    constexpr VertexId kUnused = std::numeric_limits<VertexId>::max();
+    std::vector<VertexId> new_id(surface.vertex_count(), kUnused);
+    PatchLabels labels;
+    Positions positions;
+    std::vector<Triangle> triangles;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        if (!chosen[shells.of_triangle[t]]) continue;
+        Triangle triangle = surface.triangles()[t];
+        for (VertexId& v : triangle) {
+            if (new_id[v] == kUnused) {
+                new_id[v] = static_cast<VertexId>(positions.size());
+                positions.push_back(surface.points()[v]);
+            }
+            v = new_id[v];
+        }
+        triangles.push_back(triangle);
+        labels.push_back((*surface.patch_labels)[t]);
+    }
+    return make_surface(std::move(positions), std::move(triangles), std::move(labels),
+                        surface.patches);
+}
+
+ShellChoice counted(const Shells& shells, const std::vector<bool>& chosen) {
+    ShellChoice choice;
+    for (std::size_t s = 0; s < shells.shells.size(); ++s) {
+        const double volume = shells.shells[s].volume;
+        ++(volume > 0.0 ? choice.bodies : choice.hollows);
+        if (!chosen[s]) choice.largest_dropped = std::max(choice.largest_dropped, volume);
+    }
+    return choice;
+}
+
+ShellChoice only(const Surface& surface, const Shells& shells, std::size_t shell) {
+    std::vector<bool> chosen(shells.shells.size(), false);
+    chosen[shell] = true;
+    ShellChoice choice = counted(shells, chosen);
+    choice.surface = with_separate_cuts(part_of(surface, shells, chosen));
+    return choice;
+}
+
+/// Solid angle [sr] of a triangle seen from the origin (van Oosterom, Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    return 2.0 * std::atan2(a.dot(b.cross(c)),
+                            la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
+}
+
+/// Winding number of every shell about the point, and the nearest vertex's distance [mm].
+struct Nearness {
+    std::vector<double> winding;
+    std::vector<double> distance;
+};
+
+Nearness nearness(const Surface& surface, const Shells& shells, const Vec3& point) {
+    Nearness near;
+    near.winding.assign(shells.shells.size(), 0.0);
+    near.distance.assign(shells.shells.size(), std::numeric_limits<double>::infinity());
+    const Positions& p = surface.points();
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const auto& [a, b, c] = surface.triangles()[t];
+        const std::uint32_t s = shells.of_triangle[t];
+        near.winding[s] += solid_angle(p[a] - point, p[b] - point, p[c] - point);
+        near.distance[s] = std::min(near.distance[s], (p[a] - point).norm());
+    }
+    for (double& w : near.winding) w /= 4.0 * std::numbers::pi;
+    return near;
+}
+
+/// Connected parts of cut patches: triangles of one patch that share a vertex belong together, so a
+/// pair (vertex, patch) is a node.
+class CutNodes {
+public:
+    explicit CutNodes(const Surface& surface)
+        : surface_(surface), sets_(surface.vertex_count() * surface.patches.size()) {
+        for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+            if (surface.patch_of(t).kind == PatchKind::Cut)
+                for (const VertexId v : surface.triangles()[t])
+                    sets_.join(node(t, surface.triangles()[t][0]), node(t, v));
+    }
+
+    [[nodiscard]] std::uint32_t name_of(TriangleId t) const {
+        return sets_.find(node(t, surface_.triangles()[t][0]));
+    }
+
+private:
+    [[nodiscard]] std::uint32_t node(TriangleId t, VertexId v) const {
+        return static_cast<std::uint32_t>(v * surface_.patches.size() +
+                                          (*surface_.patch_labels)[t]);
+    }
+
+    const Surface& surface_;
+    mutable Sets sets_;
+};
+
+struct Cap {
+    std::uint32_t name = 0;
+    double area = 0.0;  ///< [mm^2]
+};
+
+std::vector<Patch> other_patches(const Surface& surface) {
+    std::vector<Patch> patches;
+    for (const Patch& patch : surface.patches)
+        if (patch.kind != PatchKind::Cut) patches.push_back(patch);
+    return patches;
+}
+
+/// New label of every patch that is no cut.
+std::vector<std::uint16_t> kept_labels(const Surface& surface) {
+    std::vector<std::uint16_t> labels(surface.patches.size(), 0);
+    std::uint16_t next = 0;
+    for (std::size_t p = 0; p < labels.size(); ++p)
+        if (surface.patches[p].kind != PatchKind::Cut) labels[p] = next++;
+    return labels;
+}
+
+}  // namespace
+
+Surface with_separate_cuts(const Surface& surface) {
+    const CutNodes nodes(surface);
+    std::vector<Cap> caps;
+    std::map<std::uint32_t, std::size_t> cap_of;  // by name of its set
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        if (surface.patch_of(t).kind != PatchKind::Cut) continue;
+        const auto [at, fresh] = cap_of.try_emplace(nodes.name_of(t), caps.size());
+        if (fresh) caps.push_back({at->first, 0.0});
+        caps[at->second].area += 0.5 * area_normal(surface.points(), surface.triangles()[t]).norm();
+    }
+    constexpr std::size_t kMostPatches = 60000;  // patch labels are 16 bits
+    if (caps.size() > kMostPatches)
+        throw AlgorithmFailure("the surface meets the image's border in " +
+                               std::to_string(caps.size()) +
+                               " places: the threshold lies within noise; take another one");
+    std::stable_sort(caps.begin(), caps.end(),
+                     [](const Cap& a, const Cap& b) { return a.area > b.area; });
+    std::vector<Patch> patches = other_patches(surface);
+    std::vector<std::uint16_t> new_label = kept_labels(surface);
+    std::size_t number = 0;
+    for (const Cap& cap : caps) {
+        cap_of[cap.name] = patches.size();
+        patches.push_back({"cut_" + std::to_string(++number), PatchKind::Cut});
+    }
+    PatchLabels labels(surface.triangle_count());
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        labels[t] = surface.patch_of(t).kind == PatchKind::Cut
+                        ? static_cast<std::uint16_t>(cap_of[nodes.name_of(t)])
+                        : new_label[(*surface.patch_labels)[t]];
+    return surface.with_patches(std::move(labels), std::move(patches));
+}
+
+ShellChoice largest_body(const Surface& surface) {
+    const Shells shells = shells_of(surface);
+    std::size_t best = 0;
+    for (std::size_t s = 0; s < shells.shells.size(); ++s)
+        if (shells.shells[s].volume > shells.shells[best].volume) best = s;
+    if (shells.shells.empty() || !(shells.shells[best].volume > 0.0))
+        throw AlgorithmFailure("no closed body was found; take another threshold");
+    return only(surface, shells, best);
+}
+
+ShellChoice body_at(const Surface& surface, const Vec3& point, double tolerance) {
+    const Shells shells = shells_of(surface);
+    const Nearness near = nearness(surface, shells, point);
+    std::size_t best = shells.shells.size(), nearest = best;
+    for (std::size_t s = 0; s < shells.shells.size(); ++s) {
+        if (shells.shells[s].volume <= 0.0) continue;
+        if (near.winding[s] > 0.5 &&
+            (best == shells.shells.size() || shells.shells[s].volume < shells.shells[best].volume))
+            best = s;
+        if (nearest == shells.shells.size() || near.distance[s] < near.distance[nearest])
+            nearest = s;
+    }
+    if (nearest == shells.shells.size())
+        throw AlgorithmFailure("no closed body was found; take another threshold");
+    if (best == shells.shells.size() && near.distance[nearest] > tolerance)
+        throw AlgorithmFailure("the seed lies in no body: the nearest one is " +
+                               std::to_string(near.distance[nearest]) +
+                               " mm away; give a seed inside the vessel, in mm, LPS");
+    return only(surface, shells, best == shells.shells.size() ? nearest : best);
+}
+
+ShellChoice all_bodies(const Surface& surface) {
+    const Shells shells = shells_of(surface);
+    ShellChoice choice = counted(shells, std::vector<bool>(shells.shells.size(), true));
+    choice.surface = with_separate_cuts(surface);
+    return choice;
+}
+
+}  // namespace vesselbench

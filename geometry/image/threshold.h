@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/image/image.h"
+
+namespace vesselbench {
+
+/// What the values of an image mean.
+enum class ImageKind { Intensity, Labels, LevelSet };
+
+[[nodiscard]] std::string to_string(ImageKind kind);  ///< "intensity", "labels", "level-set"
+
+/// A judgement of an image by its values.
+struct ImageJudgement {
+    ImageKind kind = ImageKind::Intensity;
+    bool inside_below = false;  ///< of a level set: the border of the image lies above 0
+    std::string reason;         ///< one sentence for the report
+};
+
+/// Labels: whole numbers from 0 on, and neighbours that are not 0 are mostly equal. Level set:
+/// values of both signs with extremes of equal size. Else intensities.
+[[nodiscard]] ImageJudgement judge(const Image& image);
+
+/// The labels (values above 0) of a label map, ascending.
+[[nodiscard]] std::vector<int> labels_of(const Image& image);
+
+/// A mask of 1 and 0: voxels whose rounded value is one of `labels`; no labels: any value above 0.
+[[nodiscard]] Image mask_of_labels(const Image& image, const std::vector<int>& labels);
+
+/// A mask of 1 and 0: voxels of at least (or, inside_below, at most) `iso`.
+[[nodiscard]] Image mask_of_iso(const Image& image, double iso, bool inside_below);
+
+/// Threshold that best separates two classes of values.
+/// Source: Otsu, "A threshold selection method from gray-level histograms", IEEE Trans. SMC 1979.
+/// \throw InvalidInput if there are no two different values
+[[nodiscard]] double otsu(const std::vector<float>& values);
+
+/// Threshold for vessels that are the brightest of the image: Otsu's, repeated on the values above
+/// it until at most a twentieth of the voxels lies above (vessels fill no more of a body image).
+/// \throw InvalidInput if all voxels are equal
+[[nodiscard]] double bright_threshold(const Image& image);
+
+/// Threshold inside a mask: midway between the median of the mask's voxels and the median of the
+/// voxels in the ring of two voxels around it: partial volume makes that the wall.
+/// \throw InvalidInput if the mask is empty, or no darker inside than around
+[[nodiscard]] double masked_threshold(const Image& image, const Image& mask);
+
+/// Intensities for the extraction inside a dilated mask (thesis 3.2.2, Fig. 3.7): outside the
+/// dilated mask a voxel on the inner side of the threshold takes the background value (the median
+/// of the outer voxels on the other side); all others keep their own, so that no wall arises where
+/// the image itself has one.
+/// \param dilated_mask inside where >= 0.5, same grid
+[[nodiscard]] Image masked_intensities(const Image& image, const Image& dilated_mask,
+                                       double threshold, bool inside_below);
+
+}  // namespace vesselbench

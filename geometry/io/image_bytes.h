@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/image/image.h"
+
+namespace vesselbench {
+
+// Pieces that the image readers and writers share. `name` is always the file's name without its
+// folder: it stands in error texts.
+
+/// How one voxel is stored.
+enum class VoxelType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
+
+/// Bytes of one voxel.
+[[nodiscard]] std::size_t bytes_of(VoxelType type);
+
+/// Header values that place an image: what the voxel bytes do not say.
+struct ImageHeader {
+    std::array<int, 3> size = {0, 0, 0};
+    Eigen::Matrix4d index_to_patient = Eigen::Matrix4d::Identity();  ///< [mm], LPS
+    VoxelType type = VoxelType::UInt8;
+    bool big_endian = false;
+    double slope = 1.0;      ///< voxel value = slope * stored + intercept
+    double intercept = 0.0;  ///< see slope
+};
+
+/// \throw InvalidInput with the text "<name>: <cause>; <remedy>"
+[[noreturn]] void bad_file(const std::string& name, const std::string& cause,
+                           const std::string& remedy);
+
+/// A file's name without its folder.
+[[nodiscard]] std::string file_name(const std::string& path);
+
+/// All bytes of a file. \throw IoError if it cannot be read
+[[nodiscard]] std::string file_bytes(const std::string& path);
+
+/// Writes under a temporary name beside `path`, then renames: never a half-written file.
+/// \throw IoError that names the cause
+void write_file(const std::string& path, std::string_view bytes);
+
+/// Voxels of a volume. \throw InvalidInput if a size is below 1 or the volume has more than 2^30
+/// voxels
+[[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,
+                                              const std::string& name);
+
+/// True if the bytes begin like a gzip stream.
+[[nodiscard]] bool is_gzip(std::string_view bytes);
+
+/// The first `wanted` bytes of a gzip or zlib stream. \throw InvalidInput if it is damaged or ends
+/// before
+[[nodiscard]] std::string inflated(std::string_view compressed, std::size_t wanted,
+                                   const std::string& name);
+
+/// A gzip (or else zlib) stream.
+[[nodiscard]] std::string deflated(std::string_view bytes, bool gzip);
+
+/// Turns stored bytes into an image. Bytes behind the last voxel are ignored.
+/// \throw InvalidInput if there are too few bytes, a voxel is not a finite number, or the matrix is
+/// not finite or not invertible
+[[nodiscard]] Image image_from(const ImageHeader& header, std::string_view bytes,
+                               const std::string& name);
+
+/// The same for voxels that are numbers already; slope and intercept are applied.
+[[nodiscard]] Image image_from(const ImageHeader& header, std::vector<float> voxels,
+                               const std::string& name);
+
+/// Numbers written as text, separated by white space, at most `count` of them.
+/// \throw InvalidInput if one is no number
+[[nodiscard]] std::vector<float> voxels_from_text(std::string_view text, std::size_t count,
+                                                  const std::string& name);
+
+/// The smallest of uint8, int16 and float32 that holds every voxel exactly.
+[[nodiscard]] VoxelType smallest_type(const Image& image);
+
+/// Voxels stored little endian as uint8, int16 or float32.
+[[nodiscard]] std::string stored_bytes(const Image& image, VoxelType type);
+
+/// A number if the whole text is one (surrounding blanks allowed), else nothing.
+[[nodiscard]] std::optional<double> number_in(std::string_view text);
+
+/// The text without blanks at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// The text's words.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view text);
+
+[[nodiscard]] std::string lower_case(std::string_view text);
+
+/// Shortest text that reads back as the same number.
+[[nodiscard]] std::string number_text(double number);
+
+}  // namespace vesselbench
