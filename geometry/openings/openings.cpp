@@ -12,7 +12,9 @@
 #include "geometry/centerlines/branch_queries.h"
 #include "geometry/errors.h"
 #include "geometry/openings/clip.h"
+#include "geometry/openings/hole_filling.h"
 #include "geometry/openings/opening_axis.h"
+#include "geometry/openings/surface_parts.h"
 
 namespace vesselbench {
 
@@ -45,17 +47,9 @@ std::string degrees_text(double angle) {
 std::vector<End> visible_ends(const Surface& surface) {
     std::vector<End> ends;
     for (const auto& loop : surface.topology->boundary_loops()) {
-        End end;
-        double length = 0.0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec3& p = surface.points()[loop[i]];
-            const Vec3& q = surface.points()[loop[(i + 1) % loop.size()]];
-            end.centre += 0.5 * (p + q) * (q - p).norm();
-            length += (q - p).norm();
-        }
-        end.centre /= length;
-        end.diameter = length / std::numbers::pi;
-        ends.push_back(end);
+        const double length = mean_edge(surface.points(), loop) * static_cast<double>(loop.size());
+        ends.push_back(
+            {loop_centre(surface, loop), length / std::numbers::pi, std::nullopt, std::nullopt});
     }
     for (std::size_t p = 0; p < surface.patches.size(); ++p) {
         if (surface.patches[p].kind == PatchKind::Wall) continue;

@@ -1,7 +1,6 @@
 #include "geometry/openings/openings.h"
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -10,6 +9,7 @@
 #include "geometry/openings/clip.h"
 #include "geometry/openings/opening_axis.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -61,43 +61,13 @@ Path straight_line() {
     return [](double z) { return AxisPoint{Vec3(0, 0, z), Vec3::UnitX()}; };
 }
 
-double volume(const Surface& s) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : s.triangles())
-        sum += s.points()[a].dot(s.points()[b].cross(s.points()[c])) / 6.0;
-    return sum;
-}
-
-/// Every edge has two triangles that run against each other.
-bool is_closed(const Surface& s) {
-    std::map<std::pair<VertexId, VertexId>, int> seen;
-    for (const auto& t : s.triangles())
-        for (int k = 0; k < 3; ++k) ++seen[{t[k], t[(k + 1) % 3]}];
-    for (const auto& [edge, count] : seen) {
-        const auto twin = seen.find({edge.second, edge.first});
-        if (count != 1 || twin == seen.end() || twin->second != 1) return false;
-    }
-    return true;
-}
-
-double smallest_angle_deg(const Surface& s) {
-    double smallest = 180.0;
-    for (const auto& t : s.triangles())
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 a = s.points()[t[(k + 1) % 3]] - s.points()[t[k]];
-            const Vec3 b = s.points()[t[(k + 2) % 3]] - s.points()[t[k]];
-            smallest = std::min(smallest, std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / kPi);
-        }
-    return smallest;
-}
-
 /// Share of a regular polygon's area in its circle's.
 double polygon_share(int corners) {
     return corners / (2.0 * kPi) * std::sin(2.0 * kPi / corners);
 }
 
 void check_caps(const Surface& s, std::size_t openings) {
-    CHECK(is_closed(s));
+    CHECK(is_closed_manifold(s));
     REQUIRE(s.patches.size() == openings + 1);
     for (std::size_t p = 1; p <= openings; ++p) {
         CHECK(patch_shape(s, p).flatness < 1e-9);
@@ -130,7 +100,7 @@ SCENARIO("A tube is clipped at a known place", "[geometry][openings]") {
         const Surface clipped = clip_openings(tube, plan_openings(tube, graph, {.distance = 5.03}));
         THEN("the volume is that of the shorter tube") {
             check_caps(clipped, 2);
-            CHECK(volume(clipped) == Approx(area * (length - 10.06)).epsilon(2e-3));
+            CHECK(enclosed_volume(clipped) == Approx(area * (length - 10.06)).epsilon(2e-3));
             CHECK(clipped.patches[1] == Patch{"inlet", PatchKind::Inlet});
             CHECK(clipped.patches[2] == Patch{"outlet_1", PatchKind::Outlet});
             CHECK(smallest_angle_deg(clipped) > 15.0);
@@ -148,7 +118,7 @@ SCENARIO("A tube is clipped at a known place", "[geometry][openings]") {
         const Surface upright = clip_openings(tube, plan_openings(tube, graph));
         THEN("the result is as that of the upright one") {
             check_caps(clipped, 2);
-            CHECK(volume(clipped) == Approx(volume(upright)).epsilon(1e-6));
+            CHECK(enclosed_volume(clipped) == Approx(enclosed_volume(upright)).epsilon(1e-6));
         }
     }
     GIVEN("a distance beyond the branch") {
@@ -167,8 +137,8 @@ SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]")
         const Surface clipped = clip_openings(tube, plan_openings(tube, graph));
         THEN("both ends are cut a little inside") {
             check_caps(clipped, 2);
-            CHECK(volume(clipped) < volume(tube));
-            CHECK(volume(clipped) > 0.8 * volume(tube));
+            CHECK(enclosed_volume(clipped) < enclosed_volume(tube));
+            CHECK(enclosed_volume(clipped) > 0.8 * enclosed_volume(tube));
         }
     }
     GIVEN("a tube with known, perpendicular caps") {
@@ -218,7 +188,7 @@ SCENARIO("A plane that meets two vessels cuts only one", "[geometry][openings]")
         const double area = kPi * 4.0 * polygon_share(40);
         const Surface both = clip_openings(tube, plan_openings(tube, graph, {.distance = 8.05}));
         check_caps(both, 2);
-        CHECK(volume(both) == Approx(area * (length - 16.1)).epsilon(5e-3));
+        CHECK(enclosed_volume(both) == Approx(area * (length - 16.1)).epsilon(5e-3));
     }
 }
 
