@@ -116,8 +116,10 @@ std::vector<Triangle> zip(const std::vector<double>& lower, const std::vector<do
 }
 
 /// Length that is free in front of the opening [mm].
-double free_length(const Surface& without_cap, const Tube& tube, double wanted) {
-    const double end = wanted + kFreeInFront * tube.diameter();
+/// \param margins share of the free space (kFreeInFront, kFreeAtSides) that is wanted, 0 or 1
+double free_length(const Surface& without_cap, const Tube& tube, double wanted, double margins) {
+    const double in_front = margins * kFreeInFront * tube.diameter();
+    const double end = wanted + in_front;
     const int layers = tube.layers(end);
     const double dz = end / layers;
     const auto shares = tube.shares(2);
@@ -125,7 +127,7 @@ double free_length(const Surface& without_cap, const Tube& tube, double wanted) 
     std::vector<int> layer_of;
     Positions lower;
     for (int k = 1; k <= layers; ++k) {
-        const double grown = std::min(1.0, k * dz / tube.diameter()) * kFreeAtSides;
+        const double grown = margins * std::min(1.0, k * dz / tube.diameter()) * kFreeAtSides;
         const Positions upper = tube.ring(shares, k * dz, (1.0 + grown) * (1.0 + grown));
         for (const Triangle& t : lower.empty() ? std::vector<Triangle>{} : zip(shares, shares)) {
             const auto at = [&](VertexId v) {
@@ -144,7 +146,7 @@ double free_length(const Surface& without_cap, const Tube& tube, double wanted) 
     }
     const auto hits = touching(without_cap, probes);
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (hits[i]) return (layer_of[i] - 1) * dz - kFreeInFront * tube.diameter();
+        if (hits[i]) return (layer_of[i] - 1) * dz - in_front;
     return wanted;
 }
 
@@ -234,15 +236,18 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     const ClosedProfile profile(corners, shape.plane);
     Extruder extruder(surface, patch, rim);
     const Tube wanted(profile, shape.plane, parameters);
-    const double free = free_length(extruder.without_cap(), wanted, parameters.length);
-    if (free < std::min(parameters.length, kLeastDiameters * shape.diameter()))
+    const Surface rest = extruder.without_cap();
+    ExtrusionParameters used = parameters;
+    if (parameters.may_shorten)
+        used.length =
+            std::min(parameters.length, free_length(rest, wanted, parameters.length, 1.0));
+    const Tube tube(profile, shape.plane, used);
+    if (used.length < std::min(parameters.length, kLeastDiameters * shape.diameter()) ||
+        free_length(rest, tube, used.length, 0.0) < used.length)
         throw AlgorithmFailure("the opening '" + surface.patches[patch].name + "' at " +
                                place_text(shape.plane.point) +
-                               " cannot be extruded: another part of the surface is " +
-                               "in its way; clip it at another place, or leave it out");
-    ExtrusionParameters used = parameters;
-    used.length = std::min(free, parameters.length);
-    const Tube tube(profile, shape.plane, used);
+                               " cannot be extruded: another part of the surface is in its way; "
+                               "clip it at another place, or leave it out");
     return {extruder.with_tube(tube, profile, shape.plane, used.length), used.length,
             used.length < parameters.length};
 }

@@ -7,6 +7,8 @@ namespace vesselbench {
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
 // ...). An operation is registered by its line here and its line in table.cpp.
 
+[[nodiscard]] Operation extrude_opening_operation();
+[[nodiscard]] Operation fill_hole_operation();
 [[nodiscard]] Operation smooth_operation();
 
 }  // namespace vesselbench

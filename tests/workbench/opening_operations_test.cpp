@@ -1,0 +1,61 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+#include "workbench/operation.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+Outcome run(const std::string& name, const Surface& surface, const Arguments& arguments) {
+    Scene scene;
+    scene.surface = surface;
+    Progress progress;
+    const Operation& operation = find_operation(name);
+    return operation.run(scene, checked_arguments(operation, arguments), progress);
+}
+
+/// A second run with the resolved arguments leaves the same bits.
+void check_replay(const std::string& operation, const Surface& surface, const Outcome& outcome) {
+    const Outcome again = run(operation, surface, outcome.resolved);
+    CHECK(again.scene.surface->points() == outcome.scene.surface->points());
+    CHECK(std::equal(
+        again.scene.surface->triangles().begin(), again.scene.surface->triangles().end(),
+        outcome.scene.surface->triangles().begin(), outcome.scene.surface->triangles().end()));
+    CHECK(again.scene.surface->patches == outcome.scene.surface->patches);
+}
+
+}  // namespace
+
+SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][openings]") {
+    const Surface tube = closed_tube(2.0, 20.0, 48, 60);
+    const Outcome outcome = run("extrude-opening", tube, {});
+    THEN("each is three diameters longer, and the report says so") {
+        CHECK(is_closed_manifold(*outcome.scene.surface));
+        CHECK(enclosed_volume(*outcome.scene.surface) ==
+              Approx(enclosed_volume(tube) * 44.0 / 20.0).epsilon(3e-3));
+        REQUIRE(outcome.report->at("openings").size() == 2);
+        CHECK(outcome.report->at("openings")[0]["length_mm"].get<double>() ==
+              Approx(12.0).epsilon(3e-3));
+        check_replay("extrude-opening", tube, outcome);
+    }
+    THEN("an unknown opening and a surface without openings are refused") {
+        CHECK_THROWS_WITH(run("extrude-opening", tube, {{"opening", "outlet_9"}}),
+                          Catch::Contains("outlet_1"));
+        CHECK_THROWS_AS(run("extrude-opening", icosphere(1.0, 1), {}), AlgorithmFailure);
+    }
+}
+
+SCENARIO("fill-hole closes the named hole or all of them", "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 20.0, 40, 60);
+    const Outcome one = run("fill-hole", tube, {{"near", Vec3(0, 0, 21)}});
+    CHECK(one.scene.surface->topology->boundary_loops().size() == 1);
+    const Outcome all = run("fill-hole", tube, {});
+    CHECK(is_closed_manifold(*all.scene.surface));
+    check_replay("fill-hole", tube, all);
+    CHECK_THROWS_AS(run("fill-hole", *all.scene.surface, {}), AlgorithmFailure);
+}

@@ -1,0 +1,137 @@
+#include <cmath>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/openings/extrude.h"
+#include "geometry/openings/opening_axis.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::size_t patch_named(const Surface& surface, const std::string& name) {
+    std::string known;
+    for (std::size_t p = 0; p < surface.patches.size(); ++p) {
+        const Patch& patch = surface.patches[p];
+        if (patch.kind == PatchKind::Wall) continue;
+        if (patch.name == name) return p;
+        known += (known.empty() ? "" : ", ") + patch.name;
+    }
+    throw AlgorithmFailure("extrude-opening: there is no opening '" + name + "' (" +
+                           (known.empty() ? "make openings first: clip-opening" : known) + ")");
+}
+
+std::vector<std::string> chosen_openings(const Surface& surface, const Arguments& arguments) {
+    std::vector<std::string> names;
+    if (const auto given = arguments.optional_text("opening")) {
+        std::istringstream list(*given);
+        for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    } else {
+        for (const Patch& patch : surface.patches)
+            if (patch.kind == PatchKind::Inlet || patch.kind == PatchKind::Outlet)
+                names.push_back(patch.name);
+    }
+    if (names.empty())
+        throw AlgorithmFailure(
+            "extrude-opening: the surface has no openings; make them first (clip-opening)");
+    return names;
+}
+
+Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    Surface surface = surface_of(scene);
+    const auto names = chosen_openings(surface, arguments);
+    const auto stored =
+        arguments.has("lengths") ? arguments.list("lengths") : std::vector<double>{};
+    if (!stored.empty() && stored.size() != names.size())
+        throw UsageError("extrude-opening: lengths needs one number for each opening");
+    Outcome outcome;
+    outcome.resolved = arguments;
+    std::vector<double> lengths;
+    std::string list;
+    ordered_json report = ordered_json::array();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        progress.report(static_cast<double>(i) / static_cast<double>(names.size()), names[i]);
+        const std::size_t patch = patch_named(surface, names[i]);
+        const double diameter = patch_shape(surface, patch).diameter();
+        ExtrusionParameters parameters{
+            .length = arguments.has("length") ? arguments.real("length")
+                                              : arguments.real("diameters") * diameter,
+            .profile = arguments.text("profile") == "keep" ? ExtrusionProfile::Keep
+                                                           : ExtrusionProfile::Circle,
+            .blend = arguments.real("blend")};
+        if (!stored.empty()) parameters.length = stored[i];
+        parameters.may_shorten = stored.empty();
+        const Extrusion made = extrude_opening(surface, patch, parameters);
+        if (made.shortened) {
+            std::ostringstream text;
+            text << "the extrusion of '" << names[i] << "' is " << made.length << " mm instead of "
+                 << parameters.length << " mm long: another part of the surface is in its way";
+            outcome.warnings.push_back(text.str());
+        }
+        surface = made.surface;
+        lengths.push_back(made.length);
+        list += (list.empty() ? "" : ",") + names[i];
+        report.push_back({{"name", names[i]},
+                          {"length_mm", made.length},
+                          {"diameter_mm", diameter},
+                          {"shortened", made.shortened}});
+    }
+    outcome.resolved.set("opening", list);
+    outcome.resolved.set("lengths", lengths);
+    outcome.report = std::make_shared<ordered_json>(ordered_json{{"openings", report}});
+    outcome.scene = with_surface(scene, std::move(surface));
+    return outcome;
+}
+
+}  // namespace
+
+Operation extrude_opening_operation() {
+    using enum ParameterType;
+    return {.name = "extrude-opening",
+            .usual_step = Step::Openings,
+            .allowed = {Step::Openings, Step::Smoothing, Step::Deformation},
+            .summary = "lengthen vessels straight ahead at their openings",
+            .parameters =
+                {{.name = "opening",
+                  .type = Text,
+                  .help = "names of the openings, separated by commas; without it all of them"},
+                 {.name = "diameters",
+                  .unit = "-",
+                  .default_value = 3.0,
+                  .help = "length in diameters of the opening",
+                  .minimum = 0.0,
+                  .maximum = 100.0,
+                  .above_minimum = true},
+                 {.name = "length",
+                  .unit = "mm",
+                  .help = "length; without it that in diameters holds",
+                  .minimum = 0.0,
+                  .above_minimum = true},
+                 {.name = "profile",
+                  .type = Choice,
+                  .default_value = "circle",
+                  .help = "circle: the section turns into a circle of the same area; keep: it "
+                          "stays as it is",
+                  .choices = {"circle", "keep"}},
+                 {.name = "blend",
+                  .unit = "-",
+                  .default_value = 0.5,
+                  .help = "share of the length over which the section turns into a circle",
+                  .minimum = 0.0,
+                  .maximum = 1.0,
+                  .above_minimum = true},
+                 {.name = "lengths",
+                  .type = List,
+                  .unit = "mm",
+                  .help = "what an earlier run decided: the length of each opening, which may be "
+                          "shorter where another vessel is in the way"}},
+            .run = &extrude,
+            .thesis = "4.2.8"};
+}
+
+}  // namespace vesselbench

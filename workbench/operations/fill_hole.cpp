@@ -1,0 +1,87 @@
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/openings/hole_filling.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::vector<VertexId> nearest_loop(const Surface& surface, const std::optional<Vec3>& near) {
+    std::vector<VertexId> best;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto& loop : surface.topology->boundary_loops()) {
+        double distance = 0.0;
+        if (near) {
+            distance = (loop_centre(surface, loop) - *near).norm();
+            for (const VertexId v : loop)
+                distance = std::min(distance, (surface.points()[v] - *near).norm());
+        }
+        if (distance < nearest) {
+            nearest = distance;
+            best = std::move(loop);
+        }
+    }
+    return best;
+}
+
+Outcome fill(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    Surface surface = surface_of(scene);
+    const auto near = arguments.optional_point("near");
+    const std::size_t holes = surface.topology->boundary_loops().size();
+    if (holes == 0)
+        throw AlgorithmFailure("fill-hole: the surface is closed, there is no hole to fill");
+    ordered_json report = ordered_json::array();
+    for (std::size_t done = 0; done < (near ? 1 : holes); ++done) {
+        progress.report(static_cast<double>(done) / static_cast<double>(holes), "filling");
+        const auto loop = nearest_loop(surface, near);
+        if (loop.empty()) break;
+        const Vec3 centre = loop_centre(surface, loop);
+        const FilledHole filled =
+            fill_hole(surface, loop, static_cast<int>(arguments.integer("continuity")));
+        surface = filled.surface;
+        report.push_back({{"centre_mm", {centre.x(), centre.y(), centre.z()}},
+                          {"edges", loop.size()},
+                          {"new_triangles", surface.triangle_count() - filled.first_new_triangle}});
+    }
+    Outcome outcome;
+    outcome.resolved = arguments;
+    outcome.report = std::make_shared<ordered_json>(ordered_json{{"holes", report}});
+    outcome.scene = with_surface(scene, std::move(surface));
+    return outcome;
+}
+
+}  // namespace
+
+Operation fill_hole_operation() {
+    using enum ParameterType;
+    return {
+        .name = "fill-hole",
+        .usual_step = Step::LocalRepair,
+        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                    Step::Smoothing, Step::Deformation, Step::Remeshing},
+        .summary = "close holes in the wall so that it continues smoothly",
+        .parameters =
+            {{.name = "near",
+              .type = Point,
+              .unit = "mm",
+              .help = "a point near the hole's border; without it every hole is closed, open "
+                      "vessel ends too"},
+             {.name = "continuity",
+              .type = Integer,
+              .unit = "-",
+              .default_value = std::int64_t{1},
+              .help = "how the new wall joins the old one: 0 without a gap, 1 without a crease, 2 "
+                      "with the same curvature",
+              .minimum = 0,
+              .maximum = 2}},
+        .run = &fill,
+        .thesis = "4.2.6"};
+}
+
+}  // namespace vesselbench
