@@ -222,7 +222,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
 CenterlineGraph compute_centerlines(const Surface& surface, const CenterlineParameters& parameters,
                                     const Progress& progress) {
     check(parameters);
-    const VesselWall wall = take_apart(surface);
+    const VesselWall wall = vessel_wall_of(surface);
     if (!(wall.volume > 0.0)) {
         throw InvalidInput("the surface encloses no lumen; check units and orientation");
     }

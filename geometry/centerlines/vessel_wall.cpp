@@ -140,7 +140,7 @@ void measure(VesselWall& wall) {
 
 }  // namespace
 
-VesselWall take_apart(const Surface& surface) {
+VesselWall vessel_wall_of(const Surface& surface) {
     if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
     VesselWall wall;
     wall.points = surface.points();

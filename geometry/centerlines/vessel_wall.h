@@ -28,7 +28,7 @@ struct VesselWall {
 };
 
 /// \throw InvalidInput if a coordinate is not finite, or there is no wall
-[[nodiscard]] VesselWall take_apart(const Surface& surface);
+[[nodiscard]] VesselWall vessel_wall_of(const Surface& surface);
 
 /// Half the inner distance to the opposite wall [mm] that only `fraction` [-] of the wall's area
 /// undercuts: the size of the thin vessels. Measured by about 2000 rays.

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kSectors = 24;
 constexpr double kReach = 2.2;      ///< samples farther away than this many radii are left out
-constexpr double kSlab = 0.35;      ///< half thickness of the slab in radii, widened at need
+constexpr double kSlab = 0.45;      ///< half thickness of the slab in radii, widened at need;
+                                    ///< samples count less towards its faces
 constexpr double kSameWall = 1.35;  ///< of a sector's samples those up to this many times its
                                     ///< nearest one belong to the same wall
 constexpr double kNoWall = 1.3;     ///< where there is no wall, one is assumed at so many radii
@@ -172,14 +173,16 @@ WallSection WallSections::at(const LinePlace& place, double softness) const {
         const auto take = [&](const Sample& s) {
             const Vec3 d = s.point - place.point;
             const double along = d.dot(place.tangent);
-            if (std::abs(along) > half || d.squaredNorm() > reach * reach) return;
+            if (std::abs(along) >= half || d.squaredNorm() > reach * reach) return;
             const Vec3 from_line = d - 0.5 * along * along * place.curvature;
             const Vec2 offset(from_line.dot(frame.u), from_line.dot(frame.v));
             const double distance = offset.norm();
             if (distance < 1e-3 * place.radius) return;
             const Vec3 direction = (offset.x() * frame.u + offset.y() * frame.v) / distance;
             if (s.normal.dot(direction) < 0.2) return;  // a wall seen from outside, or a closure
-            inside.push_back({offset, distance, s.area, sector_of(offset)});
+            const double u = along / half;
+            const double weight = (1.0 - u * u) * (1.0 - u * u);
+            inside.push_back({offset, distance, weight * s.area, sector_of(offset)});
         };
         tree_.traverse(touches, [&](std::uint32_t i) { take(samples_[i]); });
         if (inside.size() >= 4 * kSectors) break;
