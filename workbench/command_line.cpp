@@ -9,6 +9,8 @@
 #include "geometry/errors.h"
 #include "workbench/commands/commands.h"
 #include "workbench/near_names.h"
+#include "workbench/phantoms/phantom_json.h"
+#include "workbench/version.h"
 
 namespace vesselbench {
 
@@ -27,11 +29,11 @@ struct CommandLine {
 
     CLI::App app{kDescription, "vesselbench"};
     Progress progress;
-    std::function<void()> command;
+    std::function<int()> command;
 };
 
 CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
-                      std::function<void()> command) {
+                      std::function<int()> command) {
     CLI::App& added = *line.app.add_subcommand(name, summary);
     added.callback([&line, run = std::move(command)] { line.command = run; });
     return added;
@@ -40,21 +42,56 @@ CLI::App& add_command(CommandLine& line, const std::string& name, const std::str
 void add_operations(CommandLine& line) {
     const auto options = std::make_shared<OperationsOptions>();
     CLI::App& command = add_command(line, "operations", "List the operations and their parameters",
-                                    [options] { list_operations(*options); });
+                                    [options] { return list_operations(*options), 0; });
     command.add_option("NAME", options->name, "Explain this operation only");
     command.add_flag("--json", options->json, "Print one JSON document");
     command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
         ->group("");
 }
 
+void add_measure(CommandLine& line) {
+    const auto options = std::make_shared<MeasureOptions>();
+    CLI::App& command =
+        add_command(line, "measure", "Measure a surface, also against a reference surface",
+                    [options] { return measure_surface(*options), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required();
+    command.add_option("REFERENCE", options->reference, "Surface file to compare with");
+    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)");
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_centerlines(CommandLine& line) {
+    const auto options = std::make_shared<CenterlineOptions>();
+    CLI::App& command =
+        add_command(line, "centerlines", "Find the vessel tree's centerlines and radii",
+                    [options, &line] { return find_centerlines(*options, line.progress), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required();
+    command.add_option("OUT.vtp", options->out, "Polylines with MaximumInscribedSphereRadius")
+        ->required();
+    command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)");
+    command.add_flag("--json", options->json, "Print nodes and branches as one JSON document");
+}
+
+void add_phantom(CommandLine& line) {
+    const auto options = std::make_shared<PhantomOptions>();
+    CLI::App& command =
+        add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
+                    [options, &line] { return write_phantom(*options, line.progress), 0; });
+    command.add_option("NAME", options->name, "One of " + joined(phantom_names()))->required();
+    command.add_option("--out", options->out, "Folder; made if it is not there")->required();
+}
+
 void set_up(CommandLine& line) {
     line.app.footer(kFooter);
-    line.app.set_version_flag("--version", "vesselbench " VESSELBENCH_VERSION,
+    line.app.set_version_flag("--version", "vesselbench " + version(),
                               "Print the version and exit");
     line.app.set_help_flag("-h,--help", "Print this help and exit");
     line.app.failure_message(CLI::FailureMessage::simple);
     line.app.require_subcommand(0, 1);
+    add_measure(line);
+    add_centerlines(line);
     add_operations(line);
+    add_phantom(line);
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -97,8 +134,7 @@ int run_command_line(int argc, char** argv, const Progress& progress) {
         std::cerr << line.app.help();
         throw UsageError("this version has no window yet: name a command");
     }
-    line.command();
-    return 0;
+    return line.command();
 }
 
 }  // namespace vesselbench

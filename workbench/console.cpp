@@ -94,8 +94,12 @@ Progress console_progress(std::stop_token stop) {
     return {show, std::move(stop)};
 }
 
-void say(const std::string& text) {
-    std::fprintf(stderr, "%svesselbench: %s\n", on_terminal() ? "\r\033[K" : "", text.c_str());
+void remark(const std::string& text) {
+    std::fprintf(stderr, "%s%s\n", on_terminal() ? "\r\033[K" : "", text.c_str());
+}
+
+void complain(const std::string& text) {
+    remark("vesselbench: " + text);
 }
 
 std::string as_columns(const std::vector<std::vector<std::string>>& rows) {

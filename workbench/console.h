@@ -29,8 +29,11 @@ private:
 /// Shows progress as one changing line on stderr when stderr is a terminal, else shows nothing.
 [[nodiscard]] Progress console_progress(std::stop_token stop);
 
-/// Writes one line to stderr, after clearing the progress line: "vesselbench: text".
-void say(const std::string& text);
+/// Writes the line "vesselbench: text" to stderr: why the program ends without having done it.
+void complain(const std::string& text);
+
+/// Writes one line to stderr: what was done, or a warning.
+void remark(const std::string& text);
 
 /// Rows as left-aligned columns, two spaces apart; the last column is wrapped to the width of 100
 /// letters.

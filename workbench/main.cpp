@@ -14,7 +14,7 @@ constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 
 int tell(const char* text, int code) {
-    vesselbench::say(text);
+    vesselbench::complain(text);
     return code;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/progress.h"
 
@@ -17,5 +20,97 @@ struct OperationsOptions {
 
 /// Prints the operation table, or one operation with its parameters.
 void list_operations(const OperationsOptions& options);
+
+struct ApplyOptions {
+    std::string project;
+    std::string operation;
+    std::vector<std::string> arguments;  ///< "parameter=value"
+    std::string variant = "cfd";
+    std::string step;    ///< name of the step the edit belongs to; empty: the operation's usual one
+    std::string author;  ///< empty: the login name
+    std::string note;
+    bool json = false;
+};
+
+/// Runs one operation and adds it to the project as an edit.
+void apply_operation(const ApplyOptions& options, const Progress& progress);
+
+struct LogOptions {
+    std::string project;
+    bool json = false;
+};
+
+/// Prints steps, edits, authors, and what each changed.
+void show_log(const LogOptions& options);
+
+/// Runs every edit anew and compares. \return false if something differs
+bool replay_project(const LogOptions& options, const Progress& progress);
+
+struct StepBackOptions {
+    std::string project;
+    std::optional<std::int64_t> edit;  ///< none: one state back or forward
+};
+
+void undo_edit(const StepBackOptions& options);
+void redo_edit(const StepBackOptions& options);
+
+struct MeasureOptions {
+    std::string surface;
+    std::string reference;  ///< empty: none
+    std::string units;      ///< of both files; empty: mm
+    bool json = false;
+};
+
+/// Prints what can be measured on a surface, and its distance to a reference.
+void measure_surface(const MeasureOptions& options);
+
+struct CenterlineOptions {
+    std::string surface;
+    std::string out;    ///< .vtp
+    std::string units;  ///< of the surface file; empty: mm
+    bool json = false;
+};
+
+/// Finds the vessel tree's centerlines and writes them.
+void find_centerlines(const CenterlineOptions& options, const Progress& progress);
+
+struct PhantomOptions {
+    std::string name;
+    std::string out;
+};
+
+/// Writes a phantom's image, mask and exact surface, and a case.json beside them.
+void write_phantom(const PhantomOptions& options, const Progress& progress);
+
+struct InputArguments {
+    std::string input;
+    std::string mask;
+    std::string units;
+};
+
+struct PrepareArguments {
+    InputArguments input;
+    std::string purpose;
+    std::string recipe;
+    std::vector<std::string> settings;  ///< "operation.parameter=value"
+    std::string out;
+};
+
+/// Walks from the input to a CFD or print model.
+void prepare_case(const PrepareArguments& arguments, const Progress& progress);
+
+/// Makes a project that holds the input.
+void make_project(const std::string& project, const InputArguments& arguments,
+                  const Progress& progress);
+
+struct ExportArguments {
+    std::string project;
+    std::string file;
+    std::string variant = "cfd";
+    std::vector<std::string> settings;  ///< "openfoam.parameter=value"
+};
+
+/// Writes the project's model as a file, or as an OpenFOAM case.
+void export_project(const ExportArguments& arguments, const Progress& progress);
 
 }  // namespace vesselbench

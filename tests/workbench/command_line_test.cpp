@@ -1,0 +1,109 @@
+#include <fstream>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+ProgramRun run(const std::vector<std::string>& arguments) {
+    return run_program(VESSELBENCH_BINARY, arguments);
+}
+
+std::vector<std::string> commands() {
+    std::vector<std::string> names;
+    const std::string help = run({"--help"}).out;
+    std::istringstream lines(help.substr(help.find("Subcommands:")));
+    std::string line;
+    for (std::getline(lines, line); std::getline(lines, line) && line.starts_with("  ");)
+        names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    return names;
+}
+
+/// Wrong usage: exit code 2, nothing on stdout, a text that says all of `parts`.
+void check_usage_error(const std::vector<std::string>& arguments,
+                       const std::vector<std::string>& parts) {
+    const ProgramRun result = run(arguments);
+    INFO(result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(result.out.empty());
+    for (const std::string& part : parts) CHECK_THAT(result.err, Contains(part));
+}
+
+}  // namespace
+
+SCENARIO("Help reads well at every level", "[workbench][command-line]") {
+    const ProgramRun help = run({"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK_THAT(help.out, Contains("operations") && Contains("Exit codes"));
+    CHECK(commands().size() >= 5);
+    for (const std::string& command : commands()) {
+        INFO(command);
+        const ProgramRun result = run({command, "--help"});
+        CHECK(result.exit_code == 0);
+        CHECK(result.err.empty());
+        CHECK_THAT(result.out, Contains("vesselbench " + command));
+    }
+    CHECK_THAT(run({"--version"}).out, StartsWith("vesselbench "));
+}
+
+SCENARIO("Wrong usage is exit code 2 with a text that helps", "[workbench][command-line]") {
+    check_usage_error({}, {"no window"});
+    check_usage_error({"operation"}, {"no command 'operation'", "did you mean 'operations'"});
+    check_usage_error({"suggest", "x"}, {"no command 'suggest' in this version"});
+    check_usage_error({"operations", "smoth"}, {"no operation 'smoth'", "did you mean 'smooth'"});
+    check_usage_error({"operations", "--jason"}, {"--jason", "vesselbench operations --help"});
+    check_usage_error({"apply"}, {"PROJECT", "vesselbench apply --help"});
+    check_usage_error({"undo"}, {"PROJECT"});
+    check_usage_error({"apply", "p.vbench", "smooth", "lamda=1"},
+                      {"smooth has no parameter 'lamda'", "did you mean 'lambda'"});
+    check_usage_error({"apply", "p.vbench", "smooth", "lambda=two"},
+                      {"smooth", "'lambda'", "'two'", "a number"});
+    check_usage_error({"apply", "p.vbench", "smooth", "lambda"}, {"parameter=value"});
+}
+
+SCENARIO("The operation table is printed for people and for programs",
+         "[workbench][command-line]") {
+    const Json table = Json::parse(run({"operations", "--json"}).out);
+    REQUIRE(table["operations"].size() >= 1);
+    const std::string people = run({"operations"}).out;
+    for (const Json& operation : table["operations"]) {
+        const std::string name = operation["name"];
+        INFO(name);
+        CHECK_THAT(people, Contains(name));
+        const Json one = Json::parse(run({"operations", name, "--json"}).out);
+        CHECK(one == operation);
+        const std::string explained = run({"operations", name}).out;
+        for (const Json& parameter : operation["parameters"])
+            CHECK_THAT(explained, Contains(parameter["name"].get<std::string>()));
+    }
+}
+
+SCENARIO("docs/operations.md says what the program says", "[workbench][command-line]") {
+    std::ifstream page(VESSELBENCH_SOURCE_DIR "/docs/operations.md");
+    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    INFO("renew it with scripts/docs");
+    CHECK(text == run({"operations", "--markdown"}).out);
+}
+
+SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {
+    const std::string folder = temporary_folder();
+    write_text(folder + "/text.vbench", "this is no project\n");
+    for (const std::string command : {"log", "undo", "redo", "replay"})
+        for (const std::string name : {"/missing.vbench", "/text.vbench"}) {
+            const ProgramRun result = run({command, folder + name});
+            INFO(command << name << ": " << result.err);
+            CHECK(result.exit_code == 3);
+            CHECK_THAT(result.err, Contains(name.substr(1)));
+            CHECK(result.out.empty());
+        }
+    CHECK(names_in(folder) == std::vector<std::string>{"text.vbench"});
+}

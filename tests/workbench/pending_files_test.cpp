@@ -1,0 +1,64 @@
+#include "workbench/pending_files.h"
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+
+namespace fs = std::filesystem;
+
+SCENARIO("Files appear only when all of them are complete", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder();
+    GIVEN("two files and a folder that are written, but not committed") {
+        PendingFiles files;
+        files.add_text(folder / "a.txt", "one");
+        files.add_text(folder / "b.txt", "two");
+        fs::create_directory(files.add(folder / "case"));
+        THEN("nothing has its own name yet") {
+            CHECK_FALSE(fs::exists(folder / "a.txt"));
+            CHECK_FALSE(fs::exists(folder / "case"));
+        }
+        WHEN("committed") {
+            files.commit();
+            THEN("they are there and nothing else is") {
+                CHECK(test::names_in(folder.string()) ==
+                      std::vector<std::string>{"a.txt", "b.txt", "case"});
+                CHECK(read_text_file(folder / "a.txt") == "one");
+            }
+        }
+    }
+    WHEN("something goes wrong before") {
+        {
+            PendingFiles files;
+            files.add_text(folder / "a.txt", "one");
+        }
+        THEN("the folder is as it was") {
+            CHECK(test::names_in(folder.string()).empty());
+        }
+    }
+    WHEN("files of these names are there already") {
+        fs::create_directories(folder / "case" / "old");
+        test::write_text((folder / "a.txt").string(), "old");
+        PendingFiles files;
+        files.add_text(folder / "a.txt", "new");
+        fs::create_directory(files.add(folder / "case"));
+        files.commit();
+        THEN("they are replaced as a whole") {
+            CHECK(read_text_file(folder / "a.txt") == "new");
+            CHECK(test::names_in((folder / "case").string()).empty());
+        }
+    }
+}
+
+SCENARIO("Folders that cannot be used are refused by name", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder();
+    test::write_text((folder / "file").string(), "x");
+    CHECK_THROWS_AS(make_folder(folder / "file"), IoError);
+    CHECK_THROWS_WITH(make_folder(folder / "file" / "inner"), Catch::Contains("inner"));
+    CHECK_THROWS_AS(read_text_file(folder / "missing"), IoError);
+    PendingFiles files;
+    CHECK_THROWS_AS(files.add_text(folder / "no-such-folder" / "a.txt", "x"), IoError);
+}

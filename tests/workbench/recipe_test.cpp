@@ -1,0 +1,88 @@
+#include "workbench/prepare/recipe.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+
+using namespace vesselbench;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::vector<std::string> operations_of(const Recipe& recipe) {
+    std::vector<std::string> names;
+    for (const RecipeEntry& entry : recipe) names.push_back(entry.operation);
+    return names;
+}
+
+void refused(const char* text, const std::string& why) {
+    INFO(text);
+    CHECK_THROWS_AS(recipe_from_json(Json::parse(text), {"surface", "cfd"}), UsageError);
+    CHECK_THROWS_WITH(recipe_from_json(Json::parse(text), {"surface", "cfd"}), Contains(why));
+}
+
+}  // namespace
+
+SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
+    const Json list = Json::parse(R"([
+        {"operation": "smooth", "arguments": {"iterations": 5, "lambda": "0.25"}, "step": "source"},
+        {"operation": "fill-hole", "when": "rp"},
+        {"operation": "extrude-opening", "when": ["surface", "no-mask"], "optional": true}])");
+    const Recipe recipe = recipe_from_json(list, {"surface", "cfd"});
+    REQUIRE(operations_of(recipe) == std::vector<std::string>{"smooth", "extrude-opening"});
+    CHECK(recipe[0].given.integer("iterations") == 5);
+    CHECK(recipe[0].given.real("lambda") == 0.25);
+    CHECK(recipe[0].step == Step::Source);
+    CHECK(recipe[1].optional);
+    CHECK_FALSE(recipe[1].step.has_value());
+    CHECK(operations_of(recipe_from_json(list, {"image", "mask", "rp"})) ==
+          std::vector<std::string>{"smooth", "fill-hole"});
+}
+
+SCENARIO("A recipe that cannot be followed is refused before anything is done",
+         "[workbench][recipe]") {
+    refused(R"({"operation": "smooth"})", "list");
+    refused(R"([{"operation": "smoth"}])", "did you mean 'smooth'");
+    refused(R"([{"operation": "smooth"}, {"arguments": {}}])", "entry 2");
+    refused(R"([{"operation": "smooth", "argument": {}}])", "did you mean 'arguments'");
+    refused(R"([{"operation": "smooth", "arguments": {"lambda": "much"}}])", "'lambda'");
+    refused(R"([{"operation": "smooth", "arguments": {"lambda": [1, 2]}}])", "'lambda'");
+    refused(R"([{"operation": "smooth", "step": "smoothin"}])", "did you mean 'smoothing'");
+    refused(R"([{"operation": "smooth", "when": "today"}])", "today");
+    refused(R"([{"operation": 7}])", "entry 1");
+    refused(R"([7])", "entry 1");
+}
+
+SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
+    Recipe recipe = recipe_from_json(
+        Json::parse(R"([{"operation": "smooth"}, {"operation": "smooth", "step": "source"}])"), {});
+    const std::vector<std::string> texts = {"smooth.iterations=7"};
+    set_arguments(recipe, texts);
+    CHECK(recipe[0].given.integer("iterations") == 7);
+    CHECK(recipe[1].given.integer("iterations") == 7);
+    const auto wrong = [&](const std::string& text, const std::string& why) {
+        const std::vector<std::string> one = {text};
+        CHECK_THROWS_AS(set_arguments(recipe, one), UsageError);
+        CHECK_THROWS_WITH(set_arguments(recipe, one), Contains(why));
+    };
+    wrong("iterations=7", "operation.parameter=value");
+    wrong("smooth.iterations", "operation.parameter=value");
+    wrong("smooth.iteration=7", "did you mean 'iterations'");
+    wrong("fill-hole.continuity=1", "the recipe has no fill-hole");
+}
+
+SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {
+    for (const std::string input : {"surface", "image"})
+        for (const std::string purpose : {"cfd", "rp"})
+            for (const bool mask : {false, true}) {
+                RecipeUse use = {input, purpose};
+                if (mask) use.push_back("mask");
+                const auto names = operations_of(default_recipe(use));
+                INFO(input << " " << purpose);
+                CHECK(std::ranges::count(names, "remesh") == 1);
+                CHECK(std::ranges::count(names, "extract-surface") == (input == "image" ? 1 : 0));
+                CHECK(names.back() == (purpose == "cfd" ? "tetrahedralize" : "print-check"));
+            }
+}

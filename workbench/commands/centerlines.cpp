@@ -1,0 +1,93 @@
+#include "geometry/centerlines.h"
+
+#include <algorithm>
+#include <iostream>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/io/centerline_file.h"
+#include "geometry/io/surface_file.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double length_of(const CenterlineBranch& branch) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < branch.points.size(); ++i)
+        length += (branch.points[i] - branch.points[i - 1]).norm();
+    return length;
+}
+
+Json node_json(const CenterlineNode& node) {
+    return {{"position", {node.position.x(), node.position.y(), node.position.z()}},
+            {"radius", node.radius},
+            {"tip", node.is_tip()},
+            {"branches", node.branches}};
+}
+
+Json branch_json(const CenterlineBranch& branch) {
+    const auto [least, largest] = std::ranges::minmax(branch.radii);
+    const double mean = std::reduce(branch.radii.begin(), branch.radii.end()) /
+                        static_cast<double>(branch.radii.size());
+    return {{"start_node", branch.start_node},
+            {"end_node", branch.end_node},
+            {"points", branch.points.size()},
+            {"length", length_of(branch)},
+            {"radius", {{"min", least}, {"mean", mean}, {"max", largest}}}};
+}
+
+Json graph_json(const CenterlineGraph& graph) {
+    Json json = {{"nodes", Json::array()}, {"branches", Json::array()}};
+    for (const CenterlineNode& node : graph.nodes) json["nodes"].push_back(node_json(node));
+    for (const CenterlineBranch& branch : graph.branches)
+        json["branches"].push_back(branch_json(branch));
+    return json;
+}
+
+std::string short_number(const Json& number) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.4g", number.get<double>());
+    return buffer;
+}
+
+std::string node_name(const CenterlineGraph& graph, std::size_t node) {
+    return std::to_string(node) + (graph.nodes[node].is_tip() ? " (end)" : "");
+}
+
+void print_table(const CenterlineGraph& graph) {
+    std::vector<std::vector<std::string>> rows = {
+        {"branch", "from node", "to node", "length [mm]", "radius min / mean / max [mm]"}};
+    for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+        const Json json = branch_json(graph.branches[b]);
+        const Json& radius = json["radius"];
+        rows.push_back({std::to_string(b), node_name(graph, graph.branches[b].start_node),
+                        node_name(graph, graph.branches[b].end_node), short_number(json["length"]),
+                        short_number(radius["min"]) + " / " + short_number(radius["mean"]) + " / " +
+                            short_number(radius["max"])});
+    }
+    std::cout << as_columns(rows);
+}
+
+}  // namespace
+
+void find_centerlines(const CenterlineOptions& options, const Progress& progress) {
+    if (!options.out.ends_with(".vtp"))
+        throw UsageError("OUT '" + options.out + "' does not end in .vtp");
+    const LengthUnit unit = length_unit_from(options.units.empty() ? "mm" : options.units);
+    const Surface surface = read_surface(options.surface, unit).surface;
+    const CenterlineGraph graph = compute_centerlines(surface, {}, progress);
+    write_centerlines(graph, options.out);
+    if (options.json)
+        std::cout << graph_json(graph).dump(2) << "\n";
+    else
+        print_table(graph);
+}
+
+}  // namespace vesselbench

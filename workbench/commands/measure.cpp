@@ -1,0 +1,75 @@
+#include "geometry/measure.h"
+
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/io/surface_file.h"
+#include "geometry/reference_comparison.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+#include "workbench/report/measure_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A measured file is taken as it is, in millimetres, unless the user says otherwise: a figure must
+/// not depend on a guess.
+Surface surface_from(const std::string& file, const std::string& units) {
+    return read_surface(file, length_unit_from(units.empty() ? "mm" : units)).surface;
+}
+
+std::string numbers(const Json& list) {
+    std::string text;
+    char buffer[32];
+    for (const Json& number : list) {
+        std::snprintf(buffer, sizeof buffer, "%.4g", number.get<double>());
+        text += (text.empty() ? "" : ", ") + std::string(buffer);
+    }
+    return text;
+}
+
+void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& prefix,
+              const Json& part) {
+    for (const auto& [key, value] : part.items()) {
+        if (value.is_object())
+            add_rows(rows, prefix + key + " ", value);
+        else if (!value.is_array())
+            rows.push_back(
+                {prefix + key, value.is_number_float() ? numbers({value}) : value.dump()});
+    }
+}
+
+void print_table(const Json& document) {
+    std::vector<std::vector<std::string>> rows;
+    add_rows(rows, "", document);
+    rows.push_back({"bounds", numbers(document["bounds"])});
+    std::cout << as_columns(rows) << "\n";
+    rows = {{"patch", "kind", "area [mm2]", "diameter [mm]", "flatness [mm]", "centroid [mm]",
+             "normal"}};
+    for (const Json& patch : document["patches"])
+        rows.push_back({patch["name"], patch["kind"], numbers({patch["area"]}),
+                        numbers({patch["diameter"]}), numbers({patch["flatness"]}),
+                        numbers(patch["centroid"]), numbers(patch["normal"])});
+    std::cout << as_columns(rows) << "\nLengths in mm, areas in mm2, volumes in mm3.\n";
+}
+
+}  // namespace
+
+void measure_surface(const MeasureOptions& options) {
+    const Surface surface = surface_from(options.surface, options.units);
+    Json document = measure_json(measure(surface));
+    if (!options.reference.empty())
+        document["reference"] = reference_json(
+            compare_with_reference(surface, surface_from(options.reference, options.units)));
+    if (options.json)
+        std::cout << document.dump(2) << "\n";
+    else
+        print_table(document);
+}
+
+}  // namespace vesselbench

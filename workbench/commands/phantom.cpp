@@ -1,0 +1,52 @@
+#include "geometry/phantoms/phantom.h"
+
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/io/image_file.h"
+#include "geometry/io/surface_file.h"
+#include "workbench/commands/commands.h"
+#include "workbench/pending_files.h"
+#include "workbench/phantoms/phantom_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A case description, so that the folder is an INPUT of its own.
+std::string case_text(const std::string& name) {
+    return Json({{"name", name},
+                 {"image", "image.nii.gz"},
+                 {"mask", "mask.nii.gz"},
+                 {"exact", "exact.vtp"}})
+               .dump(2) +
+           "\n";
+}
+
+}  // namespace
+
+void write_phantom(const PhantomOptions& options, const Progress& progress) {
+    const PhantomDescription description = builtin_phantom(options.name);
+    progress.report(0.0, "making the phantom");
+    const Phantom phantom = make_phantom(description);
+    const std::filesystem::path out = options.out;
+    make_folder(out);
+    PendingFiles files;
+    write_image(files.add(out / "image.nii.gz").string(), phantom.image);
+    write_image(files.add(out / "mask.nii.gz").string(), phantom.mask);
+    write_surface(phantom.exact, files.add(out / "exact.vtp").string());
+    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / "noisy.vtp").string());
+    if (phantom.neighbour)
+        write_surface(*phantom.neighbour, files.add(out / "neighbour.vtp").string());
+    files.add_text(out / "case.json", case_text(description.name));
+    progress.check_cancelled();
+    files.commit();
+    std::cout << description.name << ": image.nii.gz, mask.nii.gz and exact.vtp are in "
+              << options.out << "\n'vesselbench prepare " << options.out
+              << " --for cfd --out RESULT' takes the folder as it is.\n";
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,66 @@
+#include "workbench/prepare/prepare.h"
+
+#include <iostream>
+
+#include "geometry/errors.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+#include "workbench/prepare/products.h"
+
+namespace vesselbench {
+
+namespace {
+
+void check_purpose(const std::string& purpose) {
+    if (purpose == "planning" || purpose == "simulation")
+        throw UsageError("--for " + purpose +
+                         " is not part of this version: it comes with context-aware smoothing; "
+                         "use cfd or rp");
+    if (purpose != "cfd" && purpose != "rp")
+        throw UsageError("--for '" + purpose + "' is not known: it is cfd or rp");
+}
+
+InputOptions input_options(const InputArguments& arguments) {
+    return {arguments.input, arguments.mask, arguments.units};
+}
+
+}  // namespace
+
+void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
+    check_purpose(arguments.purpose);
+    prepare({.input = input_options(arguments.input),
+             .purpose = arguments.purpose,
+             .recipe = arguments.recipe,
+             .arguments = arguments.settings,
+             .out = arguments.out},
+            remark, progress);
+    const std::filesystem::path out = arguments.out;
+    std::cout << (arguments.purpose == "cfd" ? "CFD case:    " : "print model: ")
+              << (out / (arguments.purpose == "cfd" ? "openfoam" : "print.stl")).string()
+              << "\nreport:      " << (out / "report.html").string()
+              << "\nproject:     " << (out / "project.vbench").string() << "\n";
+}
+
+void make_project(const std::string& project, const InputArguments& arguments,
+                  const Progress& progress) {
+    new_project(project, input_options(arguments), remark, progress);
+    std::cout << "made " << project << "\n";
+}
+
+void export_project(const ExportArguments& arguments, const Progress& progress) {
+    std::vector<std::string> settings = arguments.settings;
+    const CfdParameters flow = take_flow_parameters(settings);
+    if (!settings.empty())
+        throw UsageError("--set '" + settings.front() +
+                         "': export knows openfoam.parameter=value only");
+    check_export_name(arguments.file);
+    Session session = Session::open(arguments.project);
+    const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
+    PendingFiles files;
+    export_scene(files, arguments.file, scene, flow);
+    progress.check_cancelled();
+    files.commit();
+    std::cout << "wrote " << arguments.file << "\n";
+}
+
+}  // namespace vesselbench

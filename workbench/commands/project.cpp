@@ -1,0 +1,167 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "workbench/argument_texts.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+#include "workbench/prepare/recipe.h"
+#include "workbench/report/log_json.h"
+#include "workbench/session.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Session open_for_reading(const std::string& project) {
+    Session session = Session::open(project);
+    if (!session.read_only_reason().empty()) remark("only reading: " + session.read_only_reason());
+    return session;
+}
+
+/// What comes of the operation in figures: the parts of its report that are a single value.
+void print_report(const std::string& text) {
+    const Json report = Json::parse(text, nullptr, false);
+    if (!report.is_object()) return;
+    std::vector<std::vector<std::string>> rows;
+    for (const auto& [key, value] : report.items())
+        if (value.is_primitive())
+            rows.push_back(
+                {"  " + key, value.is_string() ? value.get<std::string>() : value.dump()});
+    std::cout << as_columns(rows);
+}
+
+void print_state(const Session& session) {
+    const std::vector<LogEntry> log = session.log();
+    std::cout << "the case now holds " << log.size() << (log.size() == 1 ? " edit" : " edits");
+    if (!log.empty())
+        std::cout << ", the last is " << log.back().edit.edit.id << " "
+                  << log.back().edit.operation;
+    std::cout << "\n";
+}
+
+std::string state_text(const LogEntry& entry) {
+    if (entry.status != EditStatus::Done)
+        return to_string(entry.status) + (entry.reason.empty() ? "" : ": " + entry.reason);
+    return entry.result ? change_text(entry.result->change) : "";
+}
+
+void print_log(const std::vector<LogEntry>& log) {
+    std::vector<std::vector<std::string>> rows = {
+        {"edit", "step", "operation", "author", "time", "arguments and effect"}};
+    for (const LogEntry& entry : log) {
+        const EditRecord& edit = entry.edit;
+        const std::string variant = edit.place.variant;
+        const std::string revision =
+            edit.edit.revision > 1 ? "." + std::to_string(edit.edit.revision) : "";
+        const std::string arguments = argument_summary(find_operation(edit.operation), edit.given);
+        const std::string effect = state_text(entry);
+        rows.push_back({std::to_string(edit.edit.id) + revision,
+                        to_string(edit.place.step) + (variant.empty() ? "" : " (" + variant + ")"),
+                        edit.operation, edit.author, edit.time,
+                        arguments + (arguments.empty() || effect.empty() ? "" : "; ") + effect +
+                            (edit.note.empty() ? "" : " \"" + edit.note + "\"")});
+    }
+    std::cout << as_columns(rows);
+}
+
+Json replay_json(const std::vector<ReplayEntry>& entries) {
+    Json list = Json::array();
+    bool same = true;
+    for (const ReplayEntry& entry : entries) {
+        list.push_back({{"edit", entry.edit.id},
+                        {"revision", entry.edit.revision},
+                        {"operation", entry.operation},
+                        {"variant", entry.variant},
+                        {"replayed", entry.replayed},
+                        {"differences", entry.differences},
+                        {"note", entry.note}});
+        same = same && entry.differences.empty();
+    }
+    return {{"same", same}, {"edits", list}};
+}
+
+void print_replay(const std::vector<ReplayEntry>& entries) {
+    std::vector<std::vector<std::string>> rows = {{"edit", "operation", "replay"}};
+    for (const ReplayEntry& entry : entries) {
+        std::string text = entry.replayed ? "same bits" : "stored result is intact";
+        if (!entry.note.empty()) text += " (" + entry.note + ")";
+        if (!entry.differences.empty()) text = "DIFFERS:";
+        for (const std::string& difference : entry.differences) text += " " + difference + ";";
+        rows.push_back({std::to_string(entry.edit.id), entry.operation, text});
+    }
+    std::cout << as_columns(rows);
+}
+
+}  // namespace
+
+void apply_operation(const ApplyOptions& options, const Progress& progress) {
+    const Operation& operation = find_operation(options.operation);
+    const Arguments given = arguments_from_texts(operation, options.arguments);
+    EditOptions edit{.variant = options.variant, .author = options.author, .note = options.note};
+    if (!options.step.empty()) edit.step = step_from(options.step);
+    Session session = Session::open(options.project);
+    const LogEntry entry = session.apply(operation.name, given, edit, progress);
+    if (entry.result)
+        for (const std::string& warning : entry.result->warnings) remark("warning: " + warning);
+    if (options.json) {
+        std::cout << log_json(entry).dump(2) << "\n";
+        return;
+    }
+    std::cout << "edit " << entry.edit.edit.id << ": " << operation.name;
+    if (!entry.result) return void(std::cout << "\n");
+    const std::string change = change_text(entry.result->change);
+    std::cout << (change.empty() ? "" : ": " + change) << "\n";
+    print_report(entry.result->report);
+}
+
+void show_log(const LogOptions& options) {
+    const Session session = open_for_reading(options.project);
+    const std::vector<LogEntry> log = session.log();
+    if (!options.json) return print_log(log);
+    Json edits = Json::array();
+    for (const LogEntry& entry : log) edits.push_back(log_json(entry));
+    std::cout << Json({{"project", std::filesystem::path(options.project).filename().string()},
+                       {"read_only", session.read_only_reason()},
+                       {"state", session.history().current()},
+                       {"states", session.history().states().size()},
+                       {"edits", edits}})
+                     .dump(2)
+              << "\n";
+}
+
+void undo_edit(const StepBackOptions& options) {
+    Session session = Session::open(options.project);
+    if (options.edit)
+        session.undo(*options.edit);
+    else
+        session.undo();
+    print_state(session);
+}
+
+void redo_edit(const StepBackOptions& options) {
+    Session session = Session::open(options.project);
+    if (options.edit)
+        session.redo(*options.edit);
+    else
+        session.redo();
+    print_state(session);
+}
+
+bool replay_project(const LogOptions& options, const Progress& progress) {
+    Session session = open_for_reading(options.project);
+    const std::vector<ReplayEntry> entries = session.replay(progress);
+    const Json json = replay_json(entries);
+    if (options.json)
+        std::cout << json.dump(2) << "\n";
+    else
+        print_replay(entries);
+    if (json["same"] == true) return true;
+    complain("the replay differs from the stored results");
+    return false;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,163 @@
+#include "workbench/prepare/input.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+#include <stdlib.h>
+
+#include "geometry/errors.h"
+#include "geometry/io/image_file.h"
+#include "geometry/io/surface_file.h"
+#include "geometry/phantoms/phantom.h"
+#include "workbench/pending_files.h"
+#include "workbench/phantoms/phantom_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kCaseFile = "case.json";
+
+/// A new folder for files that live as long as the input.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "vesselbench-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw IoError("no temporary folder can be made in '" +
+                          fs::temp_directory_path().string() + "'");
+        path_ = name;
+    }
+
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+std::string lower_suffix(const fs::path& file) {
+    std::string suffix = file.extension().string();
+    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+    return suffix;
+}
+
+bool legacy_vtk_surface(const fs::path& file) {
+    std::array<char, 512> head{};
+    std::ifstream(file, std::ios::binary).read(head.data(), head.size() - 1);
+    return std::string_view(head.data()).find("POLYDATA") != std::string_view::npos;
+}
+
+fs::path plain_path(const std::string& text) {
+    fs::path path(text);
+    return path.has_filename() ? path : path.parent_path();  // "cases/aneurysm/"
+}
+
+void make_phantom_files(Input& input, const Json& json, const Progress& progress) {
+    PhantomDescription description = builtin_phantom(json["phantom"].get<std::string>());
+    description.seed = json.value("seed", description.seed);
+    progress.report(0.0, "making the phantom");
+    const Phantom phantom = make_phantom(description);
+    const auto folder = std::make_shared<TemporaryFolder>();
+    input.keep = folder;
+    input.is_image = true;
+    input.file = folder->path() / (description.name + ".nrrd");
+    input.mask = folder->path() / (description.name + "_mask.nrrd");
+    write_image(input.file.string(), phantom.image);
+    write_image(input.mask.string(), phantom.mask);
+    input.exact = phantom.exact;
+}
+
+fs::path case_file(const fs::path& folder, const Json& json, const char* key) {
+    const fs::path file = folder / json[key].get<std::string>();
+    if (!fs::exists(file))
+        throw IoError("case '" + folder.filename().string() + "': its " + key + " '" +
+                      file.filename().string() + "' does not exist");
+    return file;
+}
+
+void fill_from_case(Input& input, const fs::path& folder, const Json& json,
+                    const Progress& progress) {
+    input.name = json.value("name", input.name);
+    input.units = json.value("units", "");
+    if (json.contains("recipe")) input.recipes = std::make_shared<const Json>(json["recipe"]);
+    if (json.contains("phantom")) return make_phantom_files(input, json, progress);
+    input.is_image = json.contains("image");
+    if (!input.is_image && !json.contains("surface"))
+        throw InvalidInput("case '" + input.name +
+                           "': case.json names no \"image\", \"surface\" "
+                           "or \"phantom\"");
+    input.file = case_file(folder, json, input.is_image ? "image" : "surface");
+    if (json.contains("mask")) input.mask = case_file(folder, json, "mask");
+    if (json.contains("exact"))
+        input.exact = read_surface(case_file(folder, json, "exact").string()).surface;
+}
+
+void read_case(Input& input, const fs::path& folder, const Progress& progress) {
+    try {
+        const Json json = Json::parse(read_text_file(folder / kCaseFile));
+        fill_from_case(input, folder, json, progress);
+    } catch (const nlohmann::json::exception& error) {
+        throw InvalidInput("case '" + folder.filename().string() +
+                           "': case.json is not usable: " + error.what());
+    } catch (const UsageError& error) {
+        throw InvalidInput("case '" + folder.filename().string() + "': " + error.what());
+    }
+}
+
+}  // namespace
+
+bool holds_surface(const fs::path& file) {
+    static const std::array<std::string, 5> suffixes = {".stl", ".ply", ".obj", ".off", ".vtp"};
+    const std::string suffix = lower_suffix(file);
+    return std::ranges::count(suffixes, suffix) > 0 ||
+           (suffix == ".vtk" && legacy_vtk_surface(file));
+}
+
+Input resolve_input(const InputOptions& options, const Progress& progress) {
+    Input input;
+    const fs::path path = plain_path(options.input);
+    input.name = path.filename().string();
+    if (!fs::exists(path)) throw IoError("'" + input.name + "' does not exist");
+    if (fs::exists(path / kCaseFile)) {
+        read_case(input, path, progress);
+    } else {
+        input.is_image = fs::is_directory(path) || !holds_surface(path);
+        input.file = path;
+    }
+    if (!options.mask.empty()) input.mask = options.mask;
+    if (!options.units.empty()) input.units = options.units;
+    if (!input.mask.empty() && !fs::exists(input.mask))
+        throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
+    if (!input.mask.empty() && !input.is_image)
+        throw UsageError("--mask belongs to an image, and '" + input.name + "' is a surface");
+    return input;
+}
+
+RecipeUse recipe_use(const Input& input, const std::string& purpose) {
+    RecipeUse use = {input.is_image ? "image" : "surface", purpose};
+    if (!input.mask.empty()) use.push_back("mask");
+    return use;
+}
+
+RecipeEntry loading_entry(const Input& input) {
+    RecipeEntry entry{.operation = input.is_image ? "load-image" : "load-surface"};
+    entry.given.set("file", input.file.string());
+    if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
+    if (!input.units.empty()) entry.given.set("units", input.units);
+    return entry;
+}
+
+}  // namespace vesselbench

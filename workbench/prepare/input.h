@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/progress.h"
+#include "geometry/surface.h"
+#include "workbench/prepare/recipe.h"
+
+namespace vesselbench {
+
+/// What a user names as INPUT.
+struct InputOptions {
+    std::string
+        input;  ///< a surface, an image, a folder of DICOM slices, or a folder with case.json
+    std::string mask;   ///< image file on the same grid; empty: none, or the case's own
+    std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or guessed
+};
+
+/// What INPUT turned out to be.
+struct Input {
+    bool is_image = false;
+    std::string name;            ///< the file's or case's name without its folder
+    std::filesystem::path file;  ///< surface, image, or folder of DICOM slices
+    std::filesystem::path mask;
+    std::string units;
+    std::optional<Surface> exact;  ///< the true surface, where a phantom knows it
+    std::shared_ptr<const nlohmann::ordered_json> recipes;  ///< a case's own: by "cfd" and "rp"
+    std::shared_ptr<const void> keep;  ///< folder of files made for this input; removed with it
+};
+
+/// Looks at INPUT and reads the description of a case; of surfaces and images it reads no more than
+/// their kind. A phantom's image and mask are made.
+/// \throw IoError if it does not exist, InvalidInput if it is neither of these
+[[nodiscard]] Input resolve_input(const InputOptions& options, const Progress& progress);
+
+/// Words of "when" that fit the input.
+[[nodiscard]] RecipeUse recipe_use(const Input& input, const std::string& purpose);
+
+/// The edit that loads the input, with the arguments an entry of a recipe may add to it.
+[[nodiscard]] RecipeEntry loading_entry(const Input& input);
+
+/// True if the file is a surface: by its suffix, or by the first lines of a legacy .vtk file.
+[[nodiscard]] bool holds_surface(const std::filesystem::path& file);
+
+}  // namespace vesselbench

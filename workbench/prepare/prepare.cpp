@@ -1,0 +1,175 @@
+#include "workbench/prepare/prepare.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "workbench/argument_texts.h"
+#include "workbench/pending_files.h"
+#include "workbench/prepare/products.h"
+#include "workbench/report/log_json.h"
+#include "workbench/report/prepare_report.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Share of the whole progress that the edits take; reports and files take the rest.
+constexpr double kEditsShare = 0.8;
+
+/// Removes a project that holds nothing because its first edit failed.
+void remove_project(const fs::path& project) {
+    std::error_code ignored;
+    for (const char* suffix : {"", "-wal", "-shm", "-journal"})
+        fs::remove(project.string() + suffix, ignored);
+}
+
+/// An earlier project stays, as project.1.vbench, project.2.vbench ...
+void keep_earlier_project(const fs::path& project, const Teller& tell) {
+    if (!fs::exists(project)) return;
+    fs::path other;
+    for (int number = 1; other.empty() || fs::exists(other); ++number)
+        other = project.parent_path() / ("project." + std::to_string(number) + ".vbench");
+    std::error_code error;
+    for (const char* suffix : {"", "-wal"})
+        if (fs::exists(project.string() + suffix))
+            fs::rename(project.string() + suffix, other.string() + suffix, error);
+    if (error)
+        throw IoError("the earlier 'project.vbench' cannot be set aside: " + error.message());
+    tell("the earlier project.vbench is now " + other.filename().string());
+}
+
+Json recipe_json_from(const PrepareOptions& options, const Input& input) {
+    if (!options.recipe.empty()) {
+        const std::string name = fs::path(options.recipe).filename().string();
+        try {
+            return Json::parse(read_text_file(options.recipe));
+        } catch (const nlohmann::json::exception& error) {
+            throw UsageError("recipe '" + name + "' is no JSON: " + error.what());
+        }
+    }
+    if (!input.recipes) return nullptr;
+    if (input.recipes->is_array()) return *input.recipes;
+    return input.recipes->value(options.purpose, Json());
+}
+
+/// The recipe with the input's loading edit in front, its files and units filled in.
+Recipe recipe_for(const PrepareOptions& options, const Input& input) {
+    const RecipeUse use = recipe_use(input, options.purpose);
+    const Json json = recipe_json_from(options, input);
+    Recipe recipe = json.is_null() ? default_recipe(use) : recipe_from_json(json, use);
+    const RecipeEntry loading = loading_entry(input);
+    if (recipe.empty() || recipe.front().operation != loading.operation)
+        recipe.insert(recipe.begin(), RecipeEntry{.operation = loading.operation});
+    for (const auto& [name, value] : loading.given.values()) recipe.front().given.set(name, value);
+    set_arguments(recipe, options.arguments);
+    for (const RecipeEntry& entry : recipe)
+        static_cast<void>(checked_arguments(find_operation(entry.operation), entry.given));
+    return recipe;
+}
+
+std::string told(const LogEntry& entry) {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1f s", entry.result ? entry.result->duration : 0.0);
+    const std::string change = entry.result ? change_text(entry.result->change) : "";
+    return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
+           (change.empty() ? "" : ": " + change);
+}
+
+/// Applies one entry. \return what could not be done, if the entry is optional; else empty
+std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
+                        const Teller& tell, const Progress& progress) {
+    try {
+        const LogEntry done = session.apply(entry.operation, entry.given,
+                                            {.step = entry.step, .variant = variant}, progress);
+        tell(told(done));
+        if (done.result)
+            for (const std::string& warning : done.result->warnings)
+                tell("warning: " + entry.operation + ": " + warning);
+        return "";
+    } catch (const AlgorithmFailure& error) {
+        if (!entry.optional) throw;
+        const std::string warning = entry.operation + " was left out: " + error.what();
+        tell("warning: " + warning);
+        return warning;
+    }
+}
+
+std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
+                                      const std::string& variant, const Teller& tell,
+                                      const Progress& progress) {
+    std::vector<std::string> warnings;
+    const double share = 1.0 / static_cast<double>(recipe.size());
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const double from = share * static_cast<double>(i);
+        const std::string warning =
+            apply_entry(session, recipe[i], variant, tell, progress.part(from, from + share));
+        if (!warning.empty()) warnings.push_back(warning);
+    }
+    return warnings;
+}
+
+void write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
+                   const Progress& progress) {
+    PendingFiles files;
+    progress.report(0.0, "measuring");
+    prepared.products =
+        write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
+    const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
+    files.add_text(options.out / "report.json", report.document.dump(2) + "\n");
+    files.add_text(options.out / "report.html", report_html(report.document, report.pictures));
+    progress.check_cancelled();
+    files.commit();
+}
+
+}  // namespace
+
+void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress) {
+    const Input input = resolve_input(options.input, progress.part(0.0, 0.02));
+    PrepareOptions for_recipe = options;
+    PreparedCase prepared{.purpose = options.purpose, .input = input};
+    prepared.flow = take_flow_parameters(for_recipe.arguments);
+    const Recipe recipe = recipe_for(for_recipe, input);
+    make_folder(options.out);
+    const fs::path project = options.out / "project.vbench";
+    keep_earlier_project(project, tell);
+    bool any_edit = false;
+    try {
+        Session session = Session::create(project);
+        const Teller noting = [&](const std::string& text) {
+            any_edit = true;
+            tell(text);
+        };
+        prepared.warnings = apply_recipe(session, recipe, options.purpose, noting,
+                                         progress.part(0.02, kEditsShare));
+        prepared.scene = session.scene(options.purpose);
+        write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
+    } catch (const std::exception&) {
+        if (any_edit)
+            tell("the edits done so far are kept in " + project.filename().string() +
+                 "; no other file was written");
+        else
+            remove_project(project);
+        throw;
+    }
+}
+
+void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
+                 const Progress& progress) {
+    const Input input = resolve_input(options, progress.part(0.0, 0.3));
+    const RecipeEntry loading = loading_entry(input);
+    static_cast<void>(checked_arguments(find_operation(loading.operation), loading.given));
+    Session session = Session::create(project);
+    try {
+        apply_entry(session, loading, "", tell, progress.part(0.3, 1.0));
+    } catch (const std::exception&) {
+        remove_project(project);
+        throw;
+    }
+}
+
+}  // namespace vesselbench

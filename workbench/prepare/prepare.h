@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "workbench/prepare/input.h"
+#include "workbench/report/report_html.h"
+#include "workbench/session.h"
+
+namespace vesselbench {
+
+struct PrepareOptions {
+    InputOptions input;
+    std::string purpose;                 ///< "cfd" or "rp"
+    std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
+    std::vector<std::string> arguments;  ///< "operation.parameter=value"
+    std::filesystem::path out;           ///< folder of the results
+};
+
+/// What prepare tells while it works: one line of text at a time.
+using Teller = std::function<void(const std::string&)>;
+
+/// Walks the whole way from the input to a CFD or print model: a project with one edit per entry of
+/// the recipe, then surface.vtp, surface.stl, report.json, report.html and the product's files.
+/// Results appear only when all of them are whole. An earlier project in the folder is kept under
+/// another name.
+/// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
+/// the edits that were done, and there is no project if the input could not even be loaded
+void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
+
+/// Makes a project whose first edit loads the input. \throw IoError if the file exists
+void new_project(const std::filesystem::path& project, const InputOptions& options,
+                 const Teller& tell, const Progress& progress);
+
+}  // namespace vesselbench

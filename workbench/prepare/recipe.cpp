@@ -1,0 +1,107 @@
+#include "workbench/prepare/recipe.h"
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "workbench/argument_texts.h"
+#include "workbench/arguments_json.h"
+#include "workbench/near_names.h"
+#include "workbench/prepare/builtin_recipes.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::vector<std::string> kKeys = {"operation", "arguments", "step", "optional", "when"};
+const std::vector<std::string> kWords = {"surface", "image", "mask", "cfd", "rp"};
+
+void refuse_unknown_keys(const Json& entry) {
+    for (const auto& [key, value] : entry.items())
+        if (std::ranges::count(kKeys, key) == 0)
+            throw UsageError("there is no key '" + key + "'" + did_you_mean(key, kKeys) +
+                             " (an entry has " + joined(kKeys) + ")");
+}
+
+bool word_holds(const std::string& word, const RecipeUse& use) {
+    const bool negated = word.starts_with("no-");
+    const std::string name = negated ? word.substr(3) : word;
+    if (std::ranges::count(kWords, name) == 0)
+        throw UsageError("\"when\" names '" + word + "'; it may name " + joined(kWords) +
+                         ", each also with no- before it");
+    return (std::ranges::count(use, name) > 0) != negated;
+}
+
+bool is_used(const Json& entry, const RecipeUse& use) {
+    if (!entry.contains("when")) return true;
+    const Json& when = entry["when"];
+    if (when.is_string()) return word_holds(when.get<std::string>(), use);
+    return std::ranges::all_of(when.get<std::vector<std::string>>(),
+                               [&](const std::string& word) { return word_holds(word, use); });
+}
+
+RecipeEntry entry_from_json(const Json& json) {
+    if (!json.contains("operation")) throw UsageError("it names no \"operation\"");
+    const Operation& operation = find_operation(json["operation"].get<std::string>());
+    RecipeEntry entry{.operation = operation.name, .optional = json.value("optional", false)};
+    if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
+    if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
+    return entry;
+}
+
+}  // namespace
+
+Step step_from(const std::string& name) {
+    std::vector<std::string> names;
+    for (int step = 1; step <= static_cast<int>(Step::Review); ++step) {
+        names.push_back(to_string(static_cast<Step>(step)));
+        if (names.back() == name) return static_cast<Step>(step);
+    }
+    throw UsageError("there is no step '" + name + "'" + did_you_mean(name, names) +
+                     " (the steps are " + joined(names) + ")");
+}
+
+Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
+    if (!list.is_array()) throw UsageError("a recipe is a JSON list of operations");
+    Recipe recipe;
+    for (std::size_t i = 0; i < list.size(); ++i) try {
+            if (!list[i].is_object()) throw UsageError("it is not a JSON object");
+            refuse_unknown_keys(list[i]);
+            if (is_used(list[i], use)) recipe.push_back(entry_from_json(list[i]));
+        } catch (const UsageError& error) {
+            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
+        } catch (const nlohmann::json::exception&) {
+            throw UsageError("recipe, entry " + std::to_string(i + 1) +
+                             ": \"operation\" and \"step\" are texts, \"optional\" is true or "
+                             "false, \"when\" is a text or a list of texts");
+        }
+    return recipe;
+}
+
+Recipe default_recipe(const RecipeUse& use) {
+    return recipe_from_json(Json::parse(builtin_recipe_texts().at("prepare")), use);
+}
+
+void set_arguments(Recipe& recipe, std::span<const std::string> texts) {
+    for (const std::string& text : texts) {
+        const std::size_t dot = text.find('.'), equals = text.find('=');
+        if (dot == std::string::npos || equals == std::string::npos || dot > equals)
+            throw UsageError("--set '" + text + "' is not of the form operation.parameter=value");
+        const Operation& operation = find_operation(text.substr(0, dot));
+        const std::vector<std::string> argument = {text.substr(dot + 1)};
+        const Arguments given = arguments_from_texts(operation, argument);
+        bool found = false;
+        for (RecipeEntry& entry : recipe) {
+            if (entry.operation != operation.name) continue;
+            found = true;
+            for (const auto& [name, value] : given.values()) entry.given.set(name, value);
+        }
+        if (!found) throw UsageError("--set '" + text + "': the recipe has no " + operation.name);
+    }
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,87 @@
+#include "workbench/report/log_json.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/arguments_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+std::string formatted(const char* format, double number) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, number);
+    return buffer;
+}
+
+void add_part(std::string& text, const std::string& part) {
+    text += (text.empty() ? "" : ", ") + part;
+}
+
+void add_result(Json& json, const ResultRecord& result) {
+    json["resolved"] = to_json(result.resolved);
+    json["duration_s"] = result.duration;
+    json["warnings"] = result.warnings;
+    json["change"] = change_json(result.change);
+    json["report"] = result.report.empty() ? Json() : Json::parse(result.report, nullptr, false);
+    json["program_version"] = result.program_version;
+    json["device"] = result.device;
+}
+
+}  // namespace
+
+Json change_json(const SurfaceChange& change) {
+    return {{"volume_before_mm3", or_null(change.volume_before)},
+            {"volume_after_mm3", or_null(change.volume_after)},
+            {"largest_deviation_mm", or_null(change.largest_deviation)},
+            {"mean_deviation_mm", or_null(change.mean_deviation)},
+            {"triangles_before", change.triangles_before},
+            {"triangles_after", change.triangles_after},
+            {"moved_vertices", change.moved_vertices}};
+}
+
+std::string change_text(const SurfaceChange& change) {
+    std::string text;
+    if (change.volume_before && change.volume_after && *change.volume_before > 0) {
+        const double percent = 100.0 * (*change.volume_after / *change.volume_before - 1.0);
+        if (std::abs(percent) >= 0.005) add_part(text, formatted("volume %+.2f %%", percent));
+    } else if (change.volume_after && !change.volume_before) {
+        add_part(text, formatted("volume %.1f mm3", *change.volume_after));
+    }
+    if (change.largest_deviation && *change.largest_deviation >= 0.0005)
+        add_part(text, formatted("moved up to %.3f mm", *change.largest_deviation));
+    if (change.triangles_before != change.triangles_after)
+        add_part(
+            text,
+            (change.triangles_before == 0 ? "" : std::to_string(change.triangles_before) + " -> ") +
+                std::to_string(change.triangles_after) + " triangles");
+    return text;
+}
+
+Json log_json(const LogEntry& entry) {
+    const EditRecord& edit = entry.edit;
+    Json json = {{"edit", edit.edit.id},
+                 {"revision", edit.edit.revision},
+                 {"step", to_string(edit.place.step)},
+                 {"variant", edit.place.variant},
+                 {"operation", edit.operation},
+                 {"given", to_json(edit.given)},
+                 {"author", edit.author},
+                 {"time", edit.time},
+                 {"note", edit.note},
+                 {"status", to_string(entry.status)},
+                 {"reason", entry.reason}};
+    if (entry.result) add_result(json, *entry.result);
+    return json;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,75 @@
+#include "workbench/report/measure_json.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) {
+    return Json::array({p.x(), p.y(), p.z()});
+}
+
+Json patch_json(const PatchMeasures& patch) {
+    return {{"name", patch.name},
+            {"kind", to_string(patch.kind)},
+            {"triangles", patch.triangles},
+            {"area", patch.area},
+            {"centroid", point_json(patch.centroid)},
+            {"normal", point_json(patch.normal)},
+            {"flatness", patch.flatness},
+            {"diameter", diameter_of_area(patch.area)}};
+}
+
+}  // namespace
+
+double diameter_of_area(double area) {
+    return 2.0 * std::sqrt(area / std::numbers::pi);
+}
+
+Json measure_json(const SurfaceMeasures& measures) {
+    const Connectivity& connectivity = measures.connectivity;
+    const Bounds& box = measures.bounds;
+    Json json = {{"vertices", measures.vertices},
+                 {"triangles", measures.triangles},
+                 {"components", connectivity.components},
+                 {"boundary_loops", connectivity.boundary_loops},
+                 {"closed", connectivity.closed},
+                 {"manifold", connectivity.manifold},
+                 {"oriented", connectivity.oriented},
+                 {"self_intersections", measures.self_intersections},
+                 {"genus", connectivity.genus ? Json(*connectivity.genus) : Json()},
+                 {"area", measures.area},
+                 {"volume", measures.volume},
+                 {"bounds", Json::array({box.min.x(), box.min.y(), box.min.z(), box.max.x(),
+                                         box.max.y(), box.max.z()})}};
+    json["edge_length"] = {{"min", measures.edge_length.min},
+                           {"mean", measures.edge_length.mean},
+                           {"max", measures.edge_length.max}};
+    json["equiangle_skewness"] = {{"mean", measures.equiangle_skewness.mean},
+                                  {"max", measures.equiangle_skewness.max}};
+    json["radius_ratio"] = {{"min", measures.radius_ratio.min},
+                            {"mean", measures.radius_ratio.mean}};
+    json["normal_curvature_deg"] = measures.normal_curvature_deg;
+    json["mean_curvature"] = {{"integral", measures.mean_curvature_integral},
+                              {"integral_abs", measures.mean_curvature_integral_abs}};
+    json["patches"] = Json::array();
+    for (const PatchMeasures& patch : measures.patches)
+        json["patches"].push_back(patch_json(patch));
+    return json;
+}
+
+Json reference_json(const ReferenceComparison& comparison) {
+    return {{"hausdorff", comparison.hausdorff},
+            {"mean_distance", comparison.mean_distance},
+            {"hausdorff_to_reference", comparison.hausdorff_to_reference},
+            {"mean_to_reference", comparison.mean_to_reference},
+            {"volume_change_percent", comparison.volume_change_percent}};
+}
+
+}  // namespace vesselbench
