@@ -2,6 +2,23 @@
 
 namespace vesselbench {
 
+Surface boundary_surface(const VolumeMesh& mesh) {
+    constexpr VertexId kUnused = 0xFFFFFFFF;
+    std::vector<VertexId> names(mesh.points.size(), kUnused);
+    Positions points;
+    std::vector<Triangle> triangles = mesh.boundary;
+    for (Triangle& triangle : triangles)
+        for (VertexId& v : triangle) {
+            if (names[v] == kUnused) {
+                names[v] = static_cast<VertexId>(points.size());
+                points.push_back(mesh.points[v]);
+            }
+            v = names[v];
+        }
+    return make_surface(std::move(points), std::move(triangles), mesh.boundary_patches,
+                        mesh.patches);
+}
+
 double volume(const VolumeMesh& mesh) {
     double six_fold = 0.0;
     for (const auto& [a, b, c, d] : mesh.tetrahedra) {

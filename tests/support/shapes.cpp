@@ -1,5 +1,6 @@
 #include "tests/support/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -61,6 +62,70 @@ TubeParts tube_wall(double radius, double length, int around, int along) {
     return tube;
 }
 
+struct FineTube {
+    Positions points;
+    std::vector<Triangle> triangles;
+    PatchLabels labels;
+
+    void add(Triangle triangle, std::uint16_t label) {
+        triangles.push_back(triangle);
+        labels.push_back(label);
+    }
+
+    // `shift` turns the ring, in parts of its spacing.
+    void add_ring(double radius, double z, int count, double shift) {
+        for (int i = 0; i < count; ++i) {
+            const double angle = 2.0 * std::numbers::pi * (i + shift) / count;
+            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        }
+    }
+
+    void add_wall(int row, int i, int around) {
+        const auto id = [&](int k, int j) {
+            return static_cast<VertexId>(k * around + j % around);
+        };
+        add({id(row, i), id(row, i + 1), id(row + 1, i)}, 0);
+        add({id(row, i + 1), id(row + 1, i + 1), id(row + 1, i)}, 0);
+    }
+
+    // Rings of 6, 12, 18 ... vertices from the rim at `outer` inwards.
+    void add_cap(VertexId outer, double radius, int around, double shift, bool faces_down) {
+        const double z = points[outer].z(), turn = shift / around;
+        const std::uint16_t label = faces_down ? 1 : 2;
+        for (int n = around / 6; n > 0; --n) {
+            const auto inner = static_cast<VertexId>(points.size());
+            if (n > 1)
+                add_ring(radius * (n - 1) * 6 / around, z, 6 * (n - 1), turn * 6 * (n - 1));
+            else
+                points.emplace_back(0, 0, z);
+            for (int sector = 0; sector < 6; ++sector)
+                add_sector(outer, inner, n, sector, {label, faces_down});
+            outer = inner;
+        }
+    }
+
+    struct Side {
+        std::uint16_t label;
+        bool faces_down;
+    };
+
+    void add_sector(VertexId outer, VertexId inner, int n, int sector, Side side) {
+        const auto out = [&](int i) {
+            return outer + static_cast<VertexId>((sector * n + i) % (6 * n));
+        };
+        const auto in = [&](int i) {
+            return n == 1 ? inner
+                          : inner + static_cast<VertexId>((sector * (n - 1) + i) % (6 * (n - 1)));
+        };
+        const auto put = [&](VertexId a, VertexId b, VertexId c) {
+            if (side.faces_down) std::swap(b, c);
+            add({a, b, c}, side.label);
+        };
+        for (int i = 0; i < n; ++i) put(out(i), out(i + 1), in(i));
+        for (int i = 0; i + 1 < n; ++i) put(out(i + 1), in(i + 1), in(i));
+    }
+};
+
 }  // namespace
 
 Surface icosphere(double radius, int levels, const Vec3& centre) {
@@ -98,6 +163,20 @@ Surface closed_tube(double radius, double length, int around, int along) {
     }
     return make_surface(
         std::move(tube.points), std::move(tube.triangles), std::move(labels),
+        {{"wall", PatchKind::Wall}, {"inlet", PatchKind::Inlet}, {"outlet_1", PatchKind::Outlet}});
+}
+
+Surface fine_tube(double radius, double length, int around) {
+    const double edge = 2.0 * std::numbers::pi * radius / around;
+    const int rows = std::max(1, static_cast<int>(std::lround(length / (edge * std::sqrt(0.75)))));
+    FineTube tube;
+    for (int k = 0; k <= rows; ++k) tube.add_ring(radius, length * k / rows, around, 0.5 * k);
+    for (int k = 0; k < rows; ++k)
+        for (int i = 0; i < around; ++i) tube.add_wall(k, i, around);
+    tube.add_cap(0, radius, around, 0.0, true);
+    tube.add_cap(static_cast<VertexId>(rows * around), radius, around, 0.5 * rows, false);
+    return make_surface(
+        std::move(tube.points), std::move(tube.triangles), std::move(tube.labels),
         {{"wall", PatchKind::Wall}, {"inlet", PatchKind::Inlet}, {"outlet_1", PatchKind::Outlet}});
 }
 

@@ -15,6 +15,10 @@ namespace vesselbench::test {
 /// The same tube closed by flat fans; patches wall, inlet (z = 0), outlet_1 (z = length).
 [[nodiscard]] Surface closed_tube(double radius, double length, int around, int along);
 
+/// The closed tube with almost equilateral triangles on wall and caps: staggered rows, concentric
+/// rings. \param around vertices around, a multiple of 6; the edge length is 2 pi radius / around
+[[nodiscard]] Surface fine_tube(double radius, double length, int around);
+
 /// Axis-parallel cube from 0 to `edge`, 12 triangles, outward.
 [[nodiscard]] Surface cube(double edge);
 

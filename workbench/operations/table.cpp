@@ -6,9 +6,8 @@ namespace vesselbench {
 
 std::span<const Operation> operation_table() {
     static const std::vector<Operation> table = {
-        fill_hole_operation(),
-        extrude_opening_operation(),
-        smooth_operation(),
+        fill_hole_operation(),      extrude_opening_operation(), smooth_operation(),
+        tetrahedralize_operation(), print_check_operation(),
     };
     return table;
 }

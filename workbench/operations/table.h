@@ -9,6 +9,8 @@ namespace vesselbench {
 
 [[nodiscard]] Operation extrude_opening_operation();
 [[nodiscard]] Operation fill_hole_operation();
+[[nodiscard]] Operation print_check_operation();
 [[nodiscard]] Operation smooth_operation();
+[[nodiscard]] Operation tetrahedralize_operation();
 
 }  // namespace vesselbench

@@ -1,0 +1,92 @@
+#include "meshing/products/cfd_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+
+namespace vesselbench {
+
+namespace {
+
+void require_positive(double value, const char* name, const char* unit) {
+    if (std::isfinite(value) && value > 0.0) return;
+    throw InvalidInput(std::string("flow conditions: ") + name + " must be above 0 " + unit +
+                       ", not " + std::to_string(value));
+}
+
+double patch_area(const Surface& surface, std::size_t patch) {
+    double area = 0.0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if ((*surface.patch_labels)[t] == patch)
+            area += triangle_area(surface.points(), surface.triangles()[t]);
+    return area;
+}
+
+// Length of the edges between a patch and the rest [mm].
+double rim_length(const Surface& surface, std::size_t patch) {
+    std::map<std::pair<VertexId, VertexId>, int> uses;
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        if ((*surface.patch_labels)[t] != patch) continue;
+        const Triangle& triangle = surface.triangles()[t];
+        for (int k = 0; k < 3; ++k) ++uses[std::minmax(triangle[k], triangle[(k + 1) % 3])];
+    }
+    double length = 0.0;
+    for (const auto& [edge, count] : uses)
+        if (count == 1)
+            length += (surface.points()[edge.first] - surface.points()[edge.second]).norm();
+    return length;
+}
+
+std::string text(const char* format, const std::string& name, double value) {
+    char line[240];
+    std::snprintf(line, sizeof line, format, name.c_str(), value);
+    return line;
+}
+
+}  // namespace
+
+FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
+                         double inlet_bend) {
+    require_positive(parameters.density, "density", "kg/m^3");
+    require_positive(parameters.viscosity, "viscosity", "Pa s");
+    require_positive(parameters.flow, "flow", "cm^3/s");
+    FlowSummary summary;
+    double total_area = 0.0;
+    for (std::size_t k = 0; k < surface.patches.size(); ++k) {
+        if (surface.patches[k].kind == PatchKind::Outlet) ++summary.outlets;
+        if (surface.patches[k].kind != PatchKind::Inlet) continue;
+        const double area = patch_area(surface, k);
+        summary.inlets.push_back({.name = surface.patches[k].name,
+                                  .area = area,
+                                  .diameter = 4.0 * area / rim_length(surface, k)});
+        total_area += area;
+    }
+    if (summary.inlets.empty() || summary.outlets == 0)
+        throw InvalidInput(
+            "flow conditions: the model has " + std::to_string(summary.inlets.size()) +
+            " inlet(s) and " + std::to_string(summary.outlets) +
+            " outlet(s), and needs one of each: cut the vessel's ends with `clip-opening`");
+    for (InletFlow& inlet : summary.inlets) {
+        inlet.mean_velocity = parameters.flow / total_area;  // cm^3/s by mm^2 is m/s
+        inlet.reynolds =
+            inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density / parameters.viscosity;
+        if (inlet.reynolds > kLaminarReynolds)
+            summary.warnings.push_back(
+                text("%s: Reynolds number %.0f is above 2000; the laminar case does not describe "
+                     "this flow",
+                     inlet.name, inlet.reynolds));
+        if (inlet_bend > kLargestInletBend)
+            summary.warnings.push_back(
+                text("%s sits in a bend (the centerline turns by %.0f degrees within two "
+                     "diameters): the inflow profile is not that of a straight vessel; clip "
+                     "elsewhere or extrude the opening",
+                     inlet.name, inlet_bend));
+    }
+    return summary;
+}
+
+}  // namespace vesselbench

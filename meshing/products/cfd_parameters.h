@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+enum class InflowProfile { Plug, Parabolic };
+
+/// Flow of blood through a model with rigid walls: steady, laminar, Newtonian (thesis 5.5.1).
+struct CfdParameters {
+    double density = 1000.0;  ///< [kg/m^3], > 0
+    double viscosity = 4e-3;  ///< dynamic [Pa s], > 0
+    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; shared by their areas
+    InflowProfile profile =
+        InflowProfile::Parabolic;  ///< Parabolic: that of the long straight duct
+    int iterations = 2000;         ///< most SIMPLE iterations
+    double residual = 1e-5;        ///< initial residuals of p and U that end the run [-]
+    int processes = 2;             ///< parts made by decomposePar
+};
+
+/// One inlet under the given flow.
+struct InletFlow {
+    std::string name;
+    double area = 0.0;           ///< [mm^2]
+    double diameter = 0.0;       ///< hydraulic, 4 area / rim length [mm]
+    double mean_velocity = 0.0;  ///< [m/s]
+    double reynolds = 0.0;       ///< mean velocity * diameter * density / viscosity [-]
+};
+
+struct FlowSummary {
+    std::vector<InletFlow> inlets;
+    std::size_t outlets = 0;
+    std::vector<std::string> warnings;  ///< not laminar; inlet in a bend
+};
+
+/// Above this the flow in a straight pipe need not stay laminar (Reynolds 1883: 2000-2300).
+inline constexpr double kLaminarReynolds = 2000.0;
+/// A centerline that turns more than this within two diameters of the inlet disturbs the profile.
+inline constexpr double kLargestInletBend = 15.0;  // [deg]
+
+/// What the parameters mean on this surface.
+/// \param inlet_bend turn of the centerline within two diameters of the inlet [deg]; 0: unknown
+/// \throw InvalidInput if there is no inlet or no outlet, or a parameter is out of range
+[[nodiscard]] FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
+                                       double inlet_bend = 0.0);
+
+}  // namespace vesselbench

@@ -1,0 +1,60 @@
+#include "meshing/products/gmsh.h"
+
+#include "geometry/errors.h"
+#include "meshing/products/text_buffer.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kGmshTriangle = 2, kGmshTetrahedron = 4;
+
+void put_names(TextBuffer& out, const VolumeMesh& mesh) {
+    out << "$PhysicalNames\n" << mesh.patches.size() + 1 << '\n';
+    for (std::size_t k = 0; k < mesh.patches.size(); ++k)
+        out << "2 " << k + 1 << " \"" << mesh.patches[k].name << "\"\n";
+    out << "3 " << mesh.patches.size() + 1 << " \"lumen\"\n$EndPhysicalNames\n";
+}
+
+void put_points(TextBuffer& out, const VolumeMesh& mesh) {
+    out << "$Nodes\n" << mesh.points.size() << '\n';
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        const Vec3& p = mesh.points[v];
+        out << v + 1 << ' ' << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    }
+    out << "$EndNodes\n";
+}
+
+// number, type, count of tags, physical and elementary entity, corners
+template <class Corners>
+void put_element(TextBuffer& out, std::size_t number, int type, std::size_t region,
+                 const Corners& corners) {
+    out << number << ' ' << type << " 2 " << region << ' ' << region;
+    for (const VertexId v : corners) out << ' ' << std::size_t{v} + 1;
+    out << '\n';
+}
+
+void put_elements(TextBuffer& out, const VolumeMesh& mesh) {
+    out << "$Elements\n" << mesh.boundary.size() + mesh.tetrahedra.size() << '\n';
+    std::size_t number = 0;
+    for (std::size_t t = 0; t < mesh.boundary.size(); ++t)
+        put_element(out, ++number, kGmshTriangle, std::size_t{mesh.boundary_patches[t]} + 1,
+                    mesh.boundary[t]);
+    for (const Tetrahedron& cell : mesh.tetrahedra)
+        put_element(out, ++number, kGmshTetrahedron, mesh.patches.size() + 1, cell);
+    out << "$EndElements\n";
+}
+
+}  // namespace
+
+void write_msh(const VolumeMesh& mesh, const std::filesystem::path& path) {
+    if (mesh.tetrahedra.empty()) throw InvalidInput("MSH: the volume mesh has no cells");
+    TextBuffer out;
+    out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    put_names(out, mesh);
+    put_points(out, mesh);
+    put_elements(out, mesh);
+    write_text(path, out.text());
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "meshing/volume_mesh.h"
+
+namespace vesselbench {
+
+/// Writes Gmsh's MSH 2.2 (ascii) [mm]: boundary triangles with the physical surfaces 1 (wall), 2...
+/// (openings) under their names, tetrahedra with the physical volume "lumen".
+/// \throw InvalidInput if there are no cells, IoError
+void write_msh(const VolumeMesh& mesh, const std::filesystem::path& path);
+
+}  // namespace vesselbench

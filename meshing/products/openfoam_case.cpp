@@ -1,0 +1,357 @@
+#include "meshing/products/openfoam_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/errors.h"
+#include "meshing/products/inflow.h"
+#include "meshing/products/openfoam_mesh.h"
+#include "meshing/products/text_buffer.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSquareMetres = 1e-6;          // mm^2
+constexpr double kCubicMetresPerSecond = 1e-6;  // cm^3/s
+
+struct CaseWriter {
+    const VolumeMesh& mesh;
+    const CfdParameters& parameters;
+    std::vector<MeshFace> faces;
+    std::vector<FoamPatch> patches;
+
+    [[nodiscard]] std::vector<Triangle> triangles_of(const FoamPatch& patch) const {
+        std::vector<Triangle> triangles;
+        for (std::size_t f = patch.first_face; f < patch.first_face + patch.faces; ++f)
+            triangles.push_back(faces[f].corners);
+        return triangles;
+    }
+
+    [[nodiscard]] Vec3 area_vector(const FoamPatch& patch) const {  // outward [mm^2]
+        Vec3 sum = Vec3::Zero();
+        for (const Triangle& triangle : triangles_of(patch))
+            sum += 0.5 * area_normal(mesh.points, triangle);
+        return sum;
+    }
+
+    [[nodiscard]] double inlet_area() const {  // of all inlets [mm^2]
+        double area = 0.0;
+        for (const FoamPatch& patch : patches)
+            if (patch.kind == PatchKind::Inlet) area += area_vector(patch).norm();
+        return area;
+    }
+
+    [[nodiscard]] double mean_velocity() const {  // [m/s]
+        return parameters.flow * kCubicMetresPerSecond / (inlet_area() * kSquareMetres);
+    }
+
+    [[nodiscard]] bool resting(const FoamPatch& patch) const {
+        return patch.kind == PatchKind::Wall || patch.kind == PatchKind::Cut;
+    }
+
+    void put_inflow(TextBuffer& out, const FoamPatch& inlet) const;
+    [[nodiscard]] std::string velocity() const;
+    [[nodiscard]] std::string pressure() const;
+    [[nodiscard]] std::string transport() const;
+    [[nodiscard]] std::string control() const;
+    [[nodiscard]] std::string decomposition() const;
+};
+
+// Faces along the mean inward normal, the mean velocity exact although a rim is never quite flat.
+void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
+    const Vec3 outward = area_vector(inlet);
+    const Vec3 inward = -outward.normalized();
+    const std::vector<Triangle> triangles = triangles_of(inlet);
+    std::vector<double> profile(triangles.size(), 1.0);
+    if (parameters.profile == InflowProfile::Parabolic)
+        profile = developed_profile(mesh.points, triangles);
+    double flux = 0.0;  // per unit of mean velocity [mm^2]
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        flux -= profile[t] * 0.5 * area_normal(mesh.points, triangles[t]).dot(inward);
+    const double scale = mean_velocity() * outward.norm() / flux;
+    out << "        type            fixedValue;\n        value           nonuniform List<vector>\n"
+        << triangles.size() << "\n(\n";
+    for (const double u : profile) {
+        const Vec3 velocity = u * scale * inward;
+        out << '(' << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z() << ")\n";
+    }
+    out << ")\n;\n";
+}
+
+std::string CaseWriter::velocity() const {
+    TextBuffer out;
+    out << foam_header("volVectorField", "0", "U") << "// [m/s]; the inlet carries "
+        << parameters.flow << " cm^3/s, "
+        << (parameters.profile == InflowProfile::Plug ? "the same velocity everywhere"
+                                                      : "profile of the developed laminar flow")
+        << "\ndimensions      [0 1 -1 0 0 0 0];\n\ninternalField   uniform (0 0 "
+           "0);\n\nboundaryField\n{\n";
+    for (const FoamPatch& patch : patches) {
+        out << "    " << patch.name << "\n    {\n";
+        if (resting(patch))
+            out << "        type            noSlip;\n";
+        else if (patch.kind == PatchKind::Inlet)
+            put_inflow(out, patch);
+        else
+            out << "        type            inletOutlet;\n        inletValue      uniform (0 0 "
+                   "0);\n        value           uniform (0 0 0);\n";
+        out << "    }\n";
+    }
+    out << "}\n";
+    return out.text();
+}
+
+std::string CaseWriter::pressure() const {
+    TextBuffer out;
+    out << foam_header("volScalarField", "0", "p")
+        << "// kinematic: pressure by density [m^2/s^2]; times " << parameters.density
+        << " for Pa\ndimensions      [0 2 -2 0 0 0 0];\n\ninternalField   uniform "
+           "0;\n\nboundaryField\n{\n";
+    for (const FoamPatch& patch : patches) {
+        out << "    " << patch.name << "\n    {\n";
+        if (patch.kind == PatchKind::Outlet)
+            out << "        type            fixedValue;\n        value           uniform 0;\n";
+        else
+            out << "        type            zeroGradient;\n";
+        out << "    }\n";
+    }
+    out << "}\n";
+    return out.text();
+}
+
+std::string CaseWriter::transport() const {
+    TextBuffer out;
+    out << foam_header("dictionary", "constant", "transportProperties") << "// dynamic viscosity "
+        << parameters.viscosity << " Pa s, density " << parameters.density
+        << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
+        << parameters.viscosity / parameters.density << ";\n";
+    return out.text();
+}
+
+std::string CaseWriter::control() const {
+    TextBuffer out;
+    out << foam_header("dictionary", "system", "controlDict")
+        << "application     simpleFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt   "
+           "       endTime;\nendTime         "
+        << parameters.iterations
+        << ";  // most iterations; system/fvSolution ends the run at its residuals\ndeltaT         "
+           " 1;\nwriteControl    timeStep;\nwriteInterval   "
+        << parameters.iterations
+        << ";\npurgeWrite      2;\nwriteFormat     ascii;\nwritePrecision  8;\ntimeFormat      "
+           "general;\ntimePrecision   6;\nrunTimeModifiable false;\n\nfunctions\n{\n"
+        << "    wallShearStress  // kinematic [m^2/s^2]; times " << parameters.density
+        << " for Pa\n    {\n        type            wallShearStress;\n"
+        << "        libs            (\"libfieldFunctionObjects.so\");\n        writeControl    "
+           "writeTime;\n        log             false;\n    }\n";
+    for (const FoamPatch& patch : patches) {
+        if (resting(patch)) continue;
+        for (const bool pressure : {true, false})
+            out << "    " << (pressure ? "pressure_" : "flow_") << patch.name
+                << "\n    {\n        type            surfaceFieldValue;\n"
+                << "        libs            (\"libfieldFunctionObjects.so\");\n        regionType  "
+                   "    patch;\n        name            "
+                << patch.name << ";\n        operation       " << (pressure ? "areaAverage" : "sum")
+                << ";\n        fields          (" << (pressure ? "p" : "phi")
+                << ");\n        writeFields     false;\n        writeControl    timeStep;\n        "
+                   "writeInterval   10;\n        log             false;\n    }\n";
+    }
+    out << "}\n";
+    return out.text();
+}
+
+std::string CaseWriter::decomposition() const {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : mesh.points) box.extend(p);
+    Eigen::Index longest = 0;
+    box.sizes().maxCoeff(&longest);
+    TextBuffer out;
+    out << foam_header("dictionary", "system", "decomposeParDict")
+        << "// simple: Debian's scotch is a stub; slices along the longest "
+           "axis\nnumberOfSubdomains "
+        << parameters.processes << ";\n\nmethod          simple;\n\ncoeffs\n{\n    n           (";
+    for (int k = 0; k < 3; ++k)
+        out << (k > 0 ? " " : "") << (k == longest ? parameters.processes : 1);
+    out << ");\n    delta       0.001;\n}\n";
+    return out.text();
+}
+
+std::string turbulence() {
+    return foam_header("dictionary", "constant", "turbulenceProperties") +
+           "simulationType  laminar;\n";
+}
+
+// Full correction holds up to about 65 degrees; beyond it the correction must not outweigh the
+// rest.
+std::string schemes(double largest_non_orthogonality) {
+    const std::string correction =
+        largest_non_orthogonality < 65.0 ? "corrected" : "limited corrected 0.5";
+    return foam_header("dictionary", "system", "fvSchemes") + R"(ddtSchemes
+{
+    default         steadyState;
+}
+
+gradSchemes
+{
+    default         pointCellsLeastSquares;  // exact for linear fields on tetrahedra
+}
+
+divSchemes
+{
+    default         none;
+    div(phi,U)      bounded Gauss linearUpwind grad(U);
+    div((nuEff*dev2(T(grad(U))))) Gauss linear;
+}
+
+laplacianSchemes
+{
+    default         Gauss linear )" +
+           correction + R"(;
+}
+
+interpolationSchemes
+{
+    default         linear;
+}
+
+snGradSchemes
+{
+    default         )" +
+           correction + R"(;
+}
+)";
+}
+
+std::string solution(const CfdParameters& parameters) {
+    TextBuffer out;
+    out << foam_header("dictionary", "system", "fvSolution") << R"(solvers
+{
+    p
+    {
+        solver          GAMG;
+        smoother        GaussSeidel;
+        tolerance       1e-8;
+        relTol          0.05;
+    }
+
+    U
+    {
+        solver          smoothSolver;
+        smoother        symGaussSeidel;
+        tolerance       1e-9;
+        relTol          0.1;
+    }
+}
+
+SIMPLE
+{
+    consistent      yes;
+    nNonOrthogonalCorrectors 1;
+
+    residualControl
+    {
+        p               )"
+        << parameters.residual << ";\n        U               " << parameters.residual << R"(;
+    }
+}
+
+relaxationFactors
+{
+    equations
+    {
+        U               0.9;
+    }
+}
+)";
+    return out.text();
+}
+
+std::string script(bool parallel) {
+    const std::string head = R"sh(#!/bin/sh
+# Runs the case; results lie in the last time folder (metres, kinematic pressure) and in postProcessing/.
+cd "$(dirname "$0")" || exit 1
+if [ -z "$WM_PROJECT_DIR" ] && [ -d /usr/share/openfoam ]; then
+    WM_PROJECT_DIR=/usr/share/openfoam
+    export WM_PROJECT_DIR
+fi
+set -e
+)sh";
+    if (!parallel)
+        return head +
+               "checkMesh > log.checkMesh 2>&1\nsimpleFoam > log.simpleFoam 2>&1\ntail -n 3 "
+               "log.simpleFoam\n";
+    return head +
+           R"sh(parts=$(sed -n 's/^numberOfSubdomains *\([0-9]*\);.*/\1/p' system/decomposeParDict)
+decomposePar -force > log.decomposePar 2>&1
+mpirun -np "$parts" $MPIRUN_OPTIONS simpleFoam -parallel > log.simpleFoam 2>&1
+reconstructPar -latestTime > log.reconstructPar 2>&1
+tail -n 3 log.simpleFoam
+)sh";
+}
+
+std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters) {
+    TextBuffer out;
+    out << "OpenFOAM case of steady laminar blood flow, written by vesselbench.\n\n"
+        << "  " << mesh.tetrahedra.size() << " tetrahedra; lengths in metres; density "
+        << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s, inflow "
+        << parameters.flow << " cm^3/s\n"
+        << "  walls do not slip; outlets at pressure 0, backflow comes in at rest\n\n"
+        << "  ./Allrun           checkMesh and simpleFoam on one core\n"
+        << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
+        << " simpleFoam -parallel, reconstructPar\n\n"
+        << "Debian's OpenFOAM needs WM_PROJECT_DIR=/usr/share/openfoam; both scripts set it when "
+           "it is missing. As root, set\n"
+        << "MPIRUN_OPTIONS=\"--allow-run-as-root --oversubscribe\" before the second. Pressures "
+           "are kinematic: multiply by the density.\n";
+    return out.text();
+}
+
+void make_folders(const fs::path& folder) {
+    std::error_code error;
+    const bool something = fs::exists(folder, error) &&
+                           !(fs::is_directory(folder, error) && fs::is_empty(folder, error));
+    if (something && !fs::exists(folder / "system" / "controlDict", error))
+        throw IoError("cannot write the OpenFOAM case: " + folder.filename().string() +
+                      " exists and is no case; give another folder");
+    for (const char* part : {"0", "constant/polyMesh", "system"}) {
+        fs::create_directories(folder / part, error);
+        if (error)
+            throw IoError("cannot make the folder " + folder.filename().string() + "/" + part +
+                          ": " + error.message());
+    }
+}
+
+void write_script(const fs::path& path, bool parallel) {
+    write_text(path, script(parallel));
+    std::error_code ignored;
+    fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
+                    fs::perm_options::add, ignored);
+}
+
+}  // namespace
+
+void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
+                         const CfdParameters& parameters) {
+    (void)flow_summary(boundary_surface(mesh), parameters);  // throws what is wrong with either
+    CaseWriter writer{mesh, parameters, mesh_faces(mesh), {}};
+    writer.patches = foam_patches(mesh, writer.faces);
+    make_folders(folder);
+    write_poly_mesh(folder / "constant/polyMesh", mesh, writer.faces);
+    write_text(folder / "0/U", writer.velocity());
+    write_text(folder / "0/p", writer.pressure());
+    write_text(folder / "constant/transportProperties", writer.transport());
+    write_text(folder / "constant/turbulenceProperties", turbulence());
+    write_text(folder / "system/fvSchemes",
+               schemes(volume_quality(mesh).largest_non_orthogonality));
+    write_text(folder / "system/fvSolution", solution(parameters));
+    write_text(folder / "system/decomposeParDict", writer.decomposition());
+    write_script(folder / "Allrun", false);
+    write_script(folder / "Allrun.parallel", true);
+    write_text(folder / "README", readme(mesh, parameters));
+    write_text(folder / "system/controlDict",
+               writer.control());  // last: what makes it a case
+}
+
+}  // namespace vesselbench

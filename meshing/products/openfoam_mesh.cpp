@@ -1,0 +1,101 @@
+#include "meshing/products/openfoam_mesh.h"
+
+#include "meshing/products/text_buffer.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kMetres = 1e-3;
+
+void write_points(const std::filesystem::path& folder, const VolumeMesh& mesh) {
+    TextBuffer out;
+    out << foam_header("vectorField", "constant/polyMesh", "points") << mesh.points.size()
+        << "\n(\n";
+    for (const Vec3& p : mesh.points)
+        out << '(' << p.x() * kMetres << ' ' << p.y() * kMetres << ' ' << p.z() * kMetres << ")\n";
+    out << ")\n";
+    write_text(folder / "points", out.text());
+}
+
+void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace>& faces) {
+    TextBuffer out;
+    out << foam_header("faceList", "constant/polyMesh", "faces") << faces.size() << "\n(\n";
+    for (const MeshFace& f : faces)
+        out << "3(" << f.corners[0] << ' ' << f.corners[1] << ' ' << f.corners[2] << ")\n";
+    out << ")\n";
+    write_text(folder / "faces", out.text());
+}
+
+void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh& mesh,
+                          const std::vector<MeshFace>& faces) {
+    std::size_t inner = 0;
+    TextBuffer owners, neighbours;
+    for (const MeshFace& f : faces) {
+        owners << f.owner << '\n';
+        if (f.neighbour == MeshFace::kOutside) continue;
+        neighbours << f.neighbour << '\n';
+        ++inner;
+    }
+    TextBuffer note;
+    note << "nPoints:" << mesh.points.size() << " nCells:" << mesh.tetrahedra.size()
+         << " nFaces:" << faces.size() << " nInternalFaces:" << inner;
+    TextBuffer owner, neighbour;
+    owner << foam_header("labelList", "constant/polyMesh", "owner", note.text()) << faces.size()
+          << "\n(\n"
+          << owners.text() << ")\n";
+    neighbour << foam_header("labelList", "constant/polyMesh", "neighbour", note.text()) << inner
+              << "\n(\n"
+              << neighbours.text() << ")\n";
+    write_text(folder / "owner", owner.text());
+    write_text(folder / "neighbour", neighbour.text());
+}
+
+void write_boundary(const std::filesystem::path& folder, const std::vector<FoamPatch>& patches) {
+    TextBuffer out;
+    out << foam_header("polyBoundaryMesh", "constant/polyMesh", "boundary") << patches.size()
+        << "\n(\n";
+    for (const FoamPatch& patch : patches) {
+        const bool wall = patch.kind == PatchKind::Wall || patch.kind == PatchKind::Cut;
+        out << "    " << patch.name << "\n    {\n        type " << (wall ? "wall" : "patch")
+            << ";\n";
+        if (wall) out << "        inGroups 1(wall);\n";
+        out << "        nFaces " << patch.faces << ";\n        startFace " << patch.first_face
+            << ";\n    }\n";
+    }
+    out << ")\n";
+    write_text(folder / "boundary", out.text());
+}
+
+}  // namespace
+
+std::string foam_header(const std::string& kind, const std::string& location,
+                        const std::string& object, const std::string& note) {
+    std::string text =
+        "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " + kind +
+        ";\n";
+    if (!note.empty()) text += "    note        \"" + note + "\";\n";
+    return text + "    location    \"" + location + "\";\n    object      " + object + ";\n}\n\n";
+}
+
+std::vector<FoamPatch> foam_patches(const VolumeMesh& mesh, const std::vector<MeshFace>& faces) {
+    std::vector<FoamPatch> patches;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (faces[f].neighbour != MeshFace::kOutside) continue;
+        const std::size_t index = faces[f].patch;
+        if (patches.empty() || patches.back().index != index)
+            patches.push_back({mesh.patches[index].name, mesh.patches[index].kind, f, 0, index});
+        ++patches.back().faces;
+    }
+    return patches;
+}
+
+void write_poly_mesh(const std::filesystem::path& folder, const VolumeMesh& mesh,
+                     const std::vector<MeshFace>& faces) {
+    write_points(folder, mesh);
+    write_faces(folder, faces);
+    write_cells_of_faces(folder, mesh, faces);
+    write_boundary(folder, foam_patches(mesh, faces));
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "meshing/tetrahedra/quality.h"
+#include "meshing/volume_mesh.h"
+
+namespace vesselbench {
+
+/// A patch as polyMesh/boundary lists it.
+struct FoamPatch {
+    std::string name;
+    PatchKind kind = PatchKind::Wall;
+    std::size_t first_face = 0;
+    std::size_t faces = 0;
+    std::size_t index = 0;  ///< in VolumeMesh::patches
+};
+
+/// The file header that every OpenFOAM file begins with.
+[[nodiscard]] std::string foam_header(const std::string& kind, const std::string& location,
+                                      const std::string& object, const std::string& note = {});
+
+/// The patches with faces, in the order of the faces. \param faces of `mesh_faces`
+[[nodiscard]] std::vector<FoamPatch> foam_patches(const VolumeMesh& mesh,
+                                                  const std::vector<MeshFace>& faces);
+
+/// Writes points [m], faces, owner, neighbour and boundary into an existing folder, in OpenFOAM's
+/// upper triangular order.
+/// \param faces of `mesh_faces`
+/// \throw IoError if a file cannot be written
+void write_poly_mesh(const std::filesystem::path& folder, const VolumeMesh& mesh,
+                     const std::vector<MeshFace>& faces);
+
+}  // namespace vesselbench

@@ -1,0 +1,123 @@
+#include "meshing/products/print_check.h"
+
+#include <algorithm>
+#include <map>
+#include <queue>
+
+#include <tbb/parallel_for.h>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "geometry/surface_distance.h"
+
+namespace vesselbench {
+
+namespace {
+
+// Facing: the normals differ by more than 120 degrees.
+constexpr double kFacing = -0.5;
+// A half circle's arc is 1.57 times its opening: the bottom of a fold. Two branches are farther.
+constexpr double kDetour = 3.0;
+
+struct Candidate {
+    double distance;
+    VertexId from;
+    Vec3 to;
+    TriangleId triangle;
+};
+
+std::vector<std::uint8_t> on_openings(const Surface& surface) {
+    std::vector<std::uint8_t> flags(surface.vertex_count(), 0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (surface.patch_of(t).kind != PatchKind::Wall)
+            for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
+    return flags;
+}
+
+// Along sign * normal from every wall vertex to the wall that faces it; nearest first.
+std::vector<Candidate> facing_walls(const Surface& surface, const SurfaceDistance& search,
+                                    double sign) {
+    const Positions normals = vertex_normals(surface);
+    const auto skipped = on_openings(surface);
+    const double lift =
+        1e-6 * bounds(surface).diagonal();  // off the triangles at the vertex itself
+    std::vector<std::optional<Candidate>> found(surface.vertex_count());
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t v) {
+        if (skipped[v] != 0 || normals[v].squaredNorm() < 0.5) return;
+        const Vec3 direction = sign * normals[v], start = surface.points()[v] + lift * direction;
+        const auto hit = search.first_hit(start, direction);
+        if (!hit || surface.patch_of(hit->triangle).kind != PatchKind::Wall) return;
+        const Vec3 normal =
+            area_normal(surface.points(), surface.triangles()[hit->triangle]).normalized();
+        if (normal.dot(normals[v]) > kFacing) return;
+        found[v] =
+            Candidate{hit->distance + lift, static_cast<VertexId>(v), hit->point, hit->triangle};
+    });
+    std::vector<Candidate> candidates;
+    for (const auto& candidate : found)
+        if (candidate) candidates.push_back(*candidate);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const auto& l, const auto& r) { return l.distance < r.distance; });
+    return candidates;
+}
+
+// True if a way along the edges from `from` to one of the triangle's corners is shorter than
+// `reach`.
+bool near_along_surface(const Surface& surface, VertexId from, const Triangle& target,
+                        double reach) {
+    using Entry = std::pair<double, VertexId>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::map<VertexId, double> best = {{from, 0.0}};
+    queue.emplace(0.0, from);
+    while (!queue.empty()) {
+        const auto [way, v] = queue.top();
+        queue.pop();
+        if (way > best[v]) continue;
+        if (std::find(target.begin(), target.end(), v) != target.end()) return true;
+        for (const VertexId u : surface.topology->rings().row(v)) {
+            const double longer = way + (surface.points()[u] - surface.points()[v]).norm();
+            if (longer > reach) continue;
+            const auto [it, fresh] = best.try_emplace(u, longer);
+            if (!fresh && it->second <= longer) continue;
+            it->second = longer;
+            queue.emplace(longer, u);
+        }
+    }
+    return false;
+}
+
+FacingPlaces places_of(const Surface& surface, const Candidate& candidate) {
+    return {candidate.distance, surface.points()[candidate.from], candidate.to};
+}
+
+}  // namespace
+
+bool PrintCheck::printable() const {
+    return std::none_of(problems.begin(), problems.end(), is_obstacle);
+}
+
+PrintCheck print_check(const Surface& surface, const Progress& progress) {
+    if (surface.empty()) throw InvalidInput("print-check: the surface has no triangles");
+    PrintCheck check;
+    progress.report(0.0, "checking the surface");
+    check.problems = surface_problems(surface, progress);
+    const Bounds box = bounds(surface);
+    check.size = box.max - box.min;
+    check.volume = volume(surface);
+    check.area = area(surface);
+    progress.report(0.5, "measuring walls and gaps");
+    const SurfaceDistance search(surface);
+    const auto across = facing_walls(surface, search, -1.0);
+    if (!across.empty()) check.lumen = places_of(surface, across.front());
+    for (const Candidate& candidate : facing_walls(surface, search, 1.0)) {
+        progress.check_cancelled();
+        if (near_along_surface(surface, candidate.from, surface.triangles()[candidate.triangle],
+                               kDetour * candidate.distance))
+            continue;
+        check.gap = places_of(surface, candidate);
+        break;
+    }
+    return check;
+}
+
+}  // namespace vesselbench

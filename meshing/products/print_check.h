@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/progress.h"
+#include "geometry/surface.h"
+#include "meshing/tetrahedra/surface_check.h"
+
+namespace vesselbench {
+
+/// Two places of the surface that face each other.
+struct FacingPlaces {
+    double distance = 0.0;     ///< [mm]
+    Vec3 from = Vec3::Zero();  ///< [mm]
+    Vec3 to = Vec3::Zero();    ///< [mm]
+};
+
+/// What a printer's operator wants to know of a model.
+struct PrintCheck {
+    std::vector<SurfaceProblem> problems;  ///< none of them an obstacle: watertight and printable
+    Vec3 size = Vec3::Zero();              ///< extent along x, y, z [mm]
+    double volume = 0.0;                   ///< [mm^3]
+    double area = 0.0;                     ///< [mm^2]
+    std::optional<FacingPlaces> lumen;     ///< smallest distance between walls across the inside
+    std::optional<FacingPlaces> gap;       ///< smallest distance between walls across the outside
+
+    [[nodiscard]] bool printable() const;
+};
+
+/// Checks a closed surface for printing. Distances are measured along the normals of the wall's
+/// vertices to the wall that faces them within 60 degrees; rims and caps are left out. Walls whose
+/// shortest way along the surface is below three times their distance belong to one fold (the
+/// crotch of a furcation), not to two branches. \throw InvalidInput if the surface has no triangle
+[[nodiscard]] PrintCheck print_check(const Surface& surface, const Progress& progress = {});
+
+}  // namespace vesselbench

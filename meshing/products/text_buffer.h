@@ -1,0 +1,53 @@
+#pragma once
+
+#include <charconv>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace vesselbench {
+
+/// Text that is put together fast; numbers do not depend on the locale.
+class TextBuffer {
+public:
+    TextBuffer& operator<<(std::string_view text) {
+        text_ += text;
+        return *this;
+    }
+
+    TextBuffer& operator<<(char c) {
+        text_ += c;
+        return *this;
+    }
+
+    TextBuffer& operator<<(std::size_t number) {
+        char digits[24];
+        text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+        return *this;
+    }
+
+    TextBuffer& operator<<(std::uint32_t number) { return *this << std::size_t{number}; }
+
+    TextBuffer& operator<<(int number) {
+        char digits[16];
+        text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+        return *this;
+    }
+
+    /// Shortest text that reads back to the same bits.
+    TextBuffer& operator<<(double number) {
+        char digits[32];
+        text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+        return *this;
+    }
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+/// Writes a whole file or none (geometry/io/atomic_file.h). \throw IoError
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace vesselbench

@@ -1,0 +1,67 @@
+#include "meshing/products/threemf.h"
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "meshing/products/text_buffer.h"
+#include "meshing/products/zip.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr const char* kXml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+
+std::string content_types() {
+    return std::string(kXml) +
+           R"(<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+ <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+ <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+)";
+}
+
+std::string relationships() {
+    return std::string(kXml) +
+           R"(<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+ <Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+)";
+}
+
+std::string model(const Surface& surface) {
+    TextBuffer out;
+    out << kXml
+        << R"(<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+ <metadata name="Application">vesselbench</metadata>
+ <resources>
+  <object id="1" type="model">
+   <mesh>
+    <vertices>
+)";
+    for (const Vec3& p : surface.points())
+        out << "     <vertex x=\"" << p.x() << "\" y=\"" << p.y() << "\" z=\"" << p.z() << "\"/>\n";
+    out << "    </vertices>\n    <triangles>\n";
+    for (const auto& [a, b, c] : surface.triangles())
+        out << "     <triangle v1=\"" << a << "\" v2=\"" << b << "\" v3=\"" << c << "\"/>\n";
+    out << "    </triangles>\n   </mesh>\n  </object>\n </resources>\n <build>\n  <item "
+           "objectid=\"1\"/>\n </build>\n</model>\n";
+    return out.text();
+}
+
+}  // namespace
+
+void write_3mf(const Surface& surface, const std::filesystem::path& path) {
+    if (surface.empty()) throw InvalidInput("3MF: the surface has no triangles");
+    const Connectivity state = connectivity(*surface.topology);
+    if (!state.closed || !state.manifold || !state.oriented)
+        throw InvalidInput("3MF: the surface is not " +
+                           std::string(!state.closed     ? "closed"
+                                       : !state.manifold ? "manifold"
+                                                         : "oriented") +
+                           "; run `repair` first");
+    write_text(path, zip_archive({{"[Content_Types].xml", content_types()},
+                                  {"_rels/.rels", relationships()},
+                                  {"3D/3dmodel.model", model(surface)}}));
+}
+
+}  // namespace vesselbench

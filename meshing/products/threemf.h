@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// Writes one object in millimetres as 3MF (3D Manufacturing Format, core specification 1.2).
+/// \throw InvalidInput if the surface has no triangle, or is not closed and oriented; IoError
+void write_3mf(const Surface& surface, const std::filesystem::path& path);
+
+}  // namespace vesselbench

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "meshing/volume_mesh.h"
+
+namespace vesselbench {
+
+/// Renumbers the cells so that neighbours have near numbers (solvers run faster and converge
+/// better); points, boundary and patches stay.
+/// Source: Cuthill & McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969.
+[[nodiscard]] VolumeMesh in_cell_order(VolumeMesh mesh);
+
+}  // namespace vesselbench

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "meshing/volume_mesh.h"
+
+namespace vesselbench {
+
+/// A face of a polyhedral mesh: its corners, the cell it looks away from (owner) and the one behind
+/// it (neighbour), which is `kOutside` at the boundary.
+struct MeshFace {
+    static constexpr std::uint32_t kOutside = 0xFFFFFFFF;
+
+    Triangle corners;  ///< normal by the right hand points out of the owner
+    std::uint32_t owner = 0;
+    std::uint32_t neighbour = kOutside;
+    std::uint16_t patch = 0;  ///< at the boundary
+};
+
+/// All faces in OpenFOAM's order: inner faces by owner, then by neighbour (upper triangular), then
+/// the boundary by patch, then by owner. The owner is the cell of the lower number.
+/// \throw InvalidInput if a face has more than two cells, or is outer and not in `mesh.boundary`
+[[nodiscard]] std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh);
+
+/// How well the tetrahedra are shaped. Non-orthogonality, skewness and aspect ratio are OpenFOAM's
+/// (checkMesh of v1912, meshTools/primitiveMeshCheck), so that both name the same numbers.
+struct VolumeQuality {
+    std::size_t points = 0, cells = 0, faces = 0, inner_faces = 0;
+    double volume = 0.0;                ///< [mm^3]
+    double smallest_cell = 0.0;         ///< [mm^3]; not above 0: an inverted cell
+    double mean_edge = 0.0;             ///< [mm]
+    double smallest_dihedral = 0.0;     ///< [deg]
+    double mean_smallest_dihedral = 0;  ///< mean over the cells of each cell's smallest angle [deg]
+    double largest_dihedral = 0.0;      ///< [deg]
+    std::size_t cells_below_10_deg = 0;
+    double mean_non_orthogonality = 0.0;     ///< of inner faces, by the mean cosine [deg]
+    double largest_non_orthogonality = 0.0;  ///< [deg]
+    std::size_t faces_over_70_deg = 0;
+    double largest_skewness = 0.0;      ///< [-]
+    double largest_aspect_ratio = 0.0;  ///< [-]
+    double mean_volume_ratio = 1.0;     ///< of the larger to the smaller cell at a face [-]
+    double largest_volume_ratio = 1.0;  ///< [-]
+};
+
+[[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh);
+
+/// The six inner angles between the faces of a tetrahedron [deg].
+[[nodiscard]] std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& c,
+                                                    const Vec3& d);
+
+}  // namespace vesselbench

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// Mean length of the edges at every vertex [mm], #V.
+[[nodiscard]] std::vector<double> vertex_edge_lengths(const Surface& surface);
+
+/// Wanted edge length in the lumen [mm] on a regular grid around a surface. At the surface it is
+/// the surface's own edge length, inwards it grows by `growth` per unit of distance at most, and is
+/// scaled by `factor` from two edges of depth on, so that a change of size has room.
+class SizeField {
+public:
+    /// \param growth largest growth of the edge length per distance [-], >= 0
+    SizeField(const Surface& surface, double growth);
+
+    /// Wanted edge length at a place [mm], trilinear; beyond the grid the nearest place's.
+    [[nodiscard]] double at(const Vec3& place, double factor) const;
+
+private:
+    struct Node {
+        float size;      ///< smallest of (edge length + growth * distance) over all vertices [mm]
+        float distance;  ///< to the surface's vertices [mm], along the grid
+    };
+
+    [[nodiscard]] std::size_t index(int i, int j, int k) const {
+        return (static_cast<std::size_t>(k) * count_[1] + j) * count_[0] + i;
+    }
+
+    void seed(const Surface& surface);
+    void sweep(double growth);
+    [[nodiscard]] double size_of(const Node& node, double factor) const;
+
+    Vec3 origin_ = Vec3::Zero();
+    double spacing_ = 1.0;
+    std::array<int, 3> count_ = {1, 1, 1};
+    std::vector<Node> nodes_;
+};
+
+}  // namespace vesselbench

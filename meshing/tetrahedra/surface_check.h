@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/progress.h"
+#include "geometry/surface.h"
+
+namespace vesselbench {
+
+/// One kind of defect that keeps a surface from being filled with tetrahedra, or from being
+/// printed.
+struct SurfaceProblem {
+    enum class Kind {
+        NotFinite,
+        Degenerate,
+        Duplicate,
+        Gap,
+        NonManifoldEdge,
+        NonManifoldVertex,
+        Orientation,
+        InsideOut,
+        SeveralParts,
+        SelfIntersection,
+        Sliver,
+    };
+
+    Kind kind = Kind::Gap;
+    std::size_t count = 0;              ///< how many places
+    Positions places;                   ///< of the first few of them [mm]
+    std::vector<TriangleId> triangles;  ///< the triangles concerned, ascending
+    std::string cause;                  ///< "the surface has a gap (edges with one triangle)"
+    std::string remedy;                 ///< "run `fill-hole` or `repair`"
+};
+
+/// "3 x cause, at (1.0, 2.0, 3.0) mm, ...; remedy".
+[[nodiscard]] std::string to_string(const SurfaceProblem& problem);
+
+/// All defects of a surface, the gravest first; none: closed, 2-manifold, oriented outward, one
+/// part, free of self-intersections, slivers and degenerate triangles.
+[[nodiscard]] std::vector<SurfaceProblem> surface_problems(const Surface& surface,
+                                                           const Progress& progress = {});
+
+/// Slivers are a nuisance, not an obstacle. \return true if filling the surface is hopeless
+[[nodiscard]] bool is_obstacle(const SurfaceProblem& problem);
+
+}  // namespace vesselbench

@@ -1,0 +1,98 @@
+#include "meshing/tetrahedra/tet_store.h"
+
+#include <algorithm>
+
+namespace vesselbench {
+
+namespace {
+
+bool has(const Tetrahedron& cell, VertexId v) {
+    return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v;
+}
+
+// The two other corners p, q of a positive cell, so that (a, b, p, q) is positive too.
+std::array<VertexId, 2> others(const Tetrahedron& cell, VertexId a, VertexId b) {
+    const int i = static_cast<int>(std::find(cell.begin(), cell.end(), a) - cell.begin());
+    const int j = static_cast<int>(std::find(cell.begin(), cell.end(), b) - cell.begin());
+    std::array<int, 2> rest;
+    int n = 0;
+    for (int k = 0; k < 4; ++k)
+        if (k != i && k != j) rest[n++] = k;
+    int inversions = (i > j) + (i > rest[0]) + (i > rest[1]) + (j > rest[0]) + (j > rest[1]);
+    if (inversions % 2 != 0) std::swap(rest[0], rest[1]);
+    return {cell[rest[0]], cell[rest[1]]};
+}
+
+}  // namespace
+
+TetStore::TetStore(const VolumeMesh& mesh)
+    : points(mesh.points), stars_(mesh.points.size()), on_boundary_(mesh.points.size(), 0) {
+    for (const Tetrahedron& cell : mesh.tetrahedra) add(cell);
+    for (const Triangle& triangle : mesh.boundary)
+        for (const VertexId v : triangle) on_boundary_[v] = 1;
+}
+
+std::vector<TetStore::CellId> TetStore::cells_at(VertexId a, VertexId b) const {
+    std::vector<CellId> found;
+    for (const CellId cell : stars_[a])
+        if (has(cells_[cell], b)) found.push_back(cell);
+    return found;
+}
+
+std::vector<VertexId> TetStore::ring(VertexId a, VertexId b, std::size_t largest) const {
+    std::vector<std::array<VertexId, 2>> links;
+    for (const CellId cell : stars_[a])
+        if (has(cells_[cell], b)) links.push_back(others(cells_[cell], a, b));
+    if (links.size() < 3 || links.size() > largest) return {};
+    std::vector<VertexId> around = {links[0][0]};
+    for (VertexId next = links[0][1]; next != around[0];) {
+        around.push_back(next);
+        const auto link =
+            std::find_if(links.begin(), links.end(), [&](const auto& l) { return l[0] == next; });
+        if (link == links.end() || around.size() > links.size()) return {};
+        next = (*link)[1];
+    }
+    return around.size() == links.size() ? around : std::vector<VertexId>{};
+}
+
+std::optional<TetStore::CellId> TetStore::behind(CellId cell, int corner) const {
+    const Triangle face = faces_of(cells_[cell])[corner];
+    for (const CellId other : stars_[face[0]])
+        if (other != cell && has(cells_[other], face[1]) && has(cells_[other], face[2]))
+            return other;
+    return std::nullopt;
+}
+
+void TetStore::replace(const std::vector<CellId>& old, const std::vector<Tetrahedron>& fresh) {
+    for (const CellId cell : old) remove(cell);
+    for (const Tetrahedron& cell : fresh) add(cell);
+}
+
+void TetStore::remove(CellId cell) {
+    alive_[cell] = 0;
+    free_.push_back(cell);
+    for (const VertexId v : cells_[cell]) std::erase(stars_[v], cell);
+}
+
+void TetStore::add(const Tetrahedron& cell) {
+    CellId id = static_cast<CellId>(cells_.size());
+    if (free_.empty()) {
+        cells_.push_back(cell);
+        alive_.push_back(1);
+    } else {
+        id = free_.back();
+        free_.pop_back();
+        cells_[id] = cell;
+        alive_[id] = 1;
+    }
+    for (const VertexId v : cell) stars_[v].push_back(id);
+}
+
+std::vector<Tetrahedron> TetStore::cells() const {
+    std::vector<Tetrahedron> living;
+    for (CellId cell = 0; cell < cells_.size(); ++cell)
+        if (alive(cell)) living.push_back(cells_[cell]);
+    return living;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,19 @@
+// TetGen 1.5 reports every error through the weak function terminatetetgen(), which frees the mesh
+// and then throws, so that unwinding frees it a second time (SIGSEGV). This strong definition takes
+// its place at link time and only throws; the mesh's own destructor frees the memory once. The file
+// must not include tetgen.h, which defines the function inline.
+// It is referred to by tetgen_run.cpp so that the linker takes it out of the static library.
+class tetgenmesh;
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name is TetGen's.
+__attribute__((visibility("default"))) void terminatetetgen(tetgenmesh* /*mesh*/, int code) {
+    throw code;
+}
+
+namespace vesselbench {
+
+bool tetgen_guard_is_linked() {
+    return true;
+}
+
+}  // namespace vesselbench

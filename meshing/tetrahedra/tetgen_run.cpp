@@ -1,0 +1,166 @@
+#include "meshing/tetrahedra/tetgen_run.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <tetgen.h>
+
+namespace vesselbench {
+
+bool tetgen_guard_is_linked();
+
+namespace {
+
+// TetGen's refinement callback has no room for a context.
+thread_local const TooLarge* current_wish = nullptr;
+
+bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL* /*metric*/, REAL /*volume*/) {
+    const Vec3 pa(a[0], a[1], a[2]), pb(b[0], b[1], b[2]), pc(c[0], c[1], c[2]),
+        pd(d[0], d[1], d[2]);
+    const double volume = std::abs((pb - pa).cross(pc - pa).dot(pd - pa)) / 6.0;
+    return (*current_wish)((pa + pb + pc + pd) / 4.0, volume);
+}
+
+std::string meaning_of(int code) {
+    switch (code) {
+        case 1:
+            return "out of memory";
+        case 2:
+            return "TetGen met an internal error";
+        case 3:
+            return "two facets of the surface intersect";
+        case 4:
+            return "a feature of the surface is too small for the tolerance";
+        case 5:
+            return "two facets of the surface lie almost on each other";
+        case 10:
+            return "TetGen does not accept the surface as input";
+        default:
+            return "TetGen stopped with code " + std::to_string(code);
+    }
+}
+
+void fill_input(const Surface& surface, tetgenio& input) {
+    input.numberofpoints = static_cast<int>(surface.vertex_count());
+    input.pointlist = new REAL[3 * surface.vertex_count()];
+    for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+        for (int k = 0; k < 3; ++k) input.pointlist[3 * v + k] = surface.points()[v][k];
+    input.numberoffacets = static_cast<int>(surface.triangle_count());
+    input.facetlist = new tetgenio::facet[surface.triangle_count()];
+    input.facetmarkerlist = new int[surface.triangle_count()];
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+        tetgenio::facet& facet = input.facetlist[t];
+        tetgenio::init(&facet);
+        facet.numberofpolygons = 1;
+        facet.polygonlist = new tetgenio::polygon[1];
+        facet.polygonlist[0].numberofvertices = 3;
+        facet.polygonlist[0].vertexlist = new int[3];
+        for (int k = 0; k < 3; ++k)
+            facet.polygonlist[0].vertexlist[k] = static_cast<int>(surface.triangles()[t][k]);
+        input.facetmarkerlist[t] = static_cast<int>((*surface.patch_labels)[t]) + 1;
+    }
+}
+
+std::vector<Tetrahedron> tetrahedra_of(const tetgenio& output, const Positions& points) {
+    std::vector<Tetrahedron> tetrahedra(static_cast<std::size_t>(output.numberoftetrahedra));
+    for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+        Tetrahedron& tet = tetrahedra[t];
+        for (int k = 0; k < 4; ++k)
+            tet[k] = static_cast<VertexId>(output.tetrahedronlist[t * output.numberofcorners + k]);
+        const Vec3& a = points[tet[0]];
+        const double six_fold =
+            (points[tet[1]] - a).cross(points[tet[2]] - a).dot(points[tet[3]] - a);
+        if (six_fold < 0.0) std::swap(tet[2], tet[3]);
+    }
+    return tetrahedra;
+}
+
+// Outward faces of the tetrahedra that no second one shares, by their sorted corners.
+std::map<Triangle, Triangle> outer_faces(const std::vector<Tetrahedron>& tetrahedra) {
+    std::vector<std::pair<Triangle, Triangle>> faces;
+    faces.reserve(4 * tetrahedra.size());
+    for (const Tetrahedron& tet : tetrahedra)
+        for (const Triangle& face : faces_of(tet)) {
+            Triangle key = face;
+            std::sort(key.begin(), key.end());
+            faces.emplace_back(key, face);
+        }
+    std::sort(faces.begin(), faces.end());
+    std::map<Triangle, Triangle> outer;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const bool twice = i + 1 < faces.size() && faces[i + 1].first == faces[i].first;
+        if (twice)
+            ++i;
+        else
+            outer.insert(outer.end(), faces[i]);
+    }
+    return outer;
+}
+
+VolumeMesh mesh_of(const tetgenio& output, const Surface& surface) {
+    VolumeMesh mesh;
+    mesh.patches = surface.patches;
+    mesh.points.resize(static_cast<std::size_t>(output.numberofpoints));
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        mesh.points[v] =
+            Vec3(output.pointlist[3 * v], output.pointlist[3 * v + 1], output.pointlist[3 * v + 2]);
+    mesh.tetrahedra = tetrahedra_of(output, mesh.points);
+    const auto outer = outer_faces(mesh.tetrahedra);
+    for (int f = 0; f < output.numberoftrifaces; ++f) {
+        Triangle key;
+        for (int k = 0; k < 3; ++k) key[k] = static_cast<VertexId>(output.trifacelist[3 * f + k]);
+        std::sort(key.begin(), key.end());
+        const auto found = outer.find(key);
+        if (found == outer.end()) continue;
+        mesh.boundary.push_back(found->second);
+        mesh.boundary_patches.push_back(
+            static_cast<std::uint16_t>(std::max(1, output.trifacemarkerlist[f]) - 1));
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
+                        const TooLarge& too_large) {
+    TetgenResult result;
+    if (!tetgen_guard_is_linked()) return result;
+    tetgenio input, output;
+    fill_input(surface, input);
+    if (too_large) {
+        current_wish = &too_large;
+        input.tetunsuitable = unsuitable;
+    }
+    std::string text = switches + "Q";
+    try {
+        tetrahedralize(text.data(), &input, &output);
+        result.mesh = mesh_of(output, surface);
+    } catch (int code) {
+        result.error_code = code;
+        result.error = meaning_of(code);
+    }
+    current_wish = nullptr;
+    return result;
+}
+
+std::vector<TriangleId> tetgen_intersecting_facets(const Surface& surface) {
+    tetgenio input, output;
+    fill_input(surface, input);
+    for (int t = 0; t < input.numberoffacets; ++t) input.facetmarkerlist[t] = t + 1;
+    std::string text = "pdQ";
+    try {
+        tetrahedralize(text.data(), &input, &output);
+    } catch (int) {
+        return {};
+    }
+    std::vector<TriangleId> facets;
+    for (int f = 0; f < output.numberoftrifaces; ++f)
+        if (output.trifacemarkerlist != nullptr && output.trifacemarkerlist[f] > 0)
+            facets.push_back(static_cast<TriangleId>(output.trifacemarkerlist[f] - 1));
+    std::sort(facets.begin(), facets.end());
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    return facets;
+}
+
+}  // namespace vesselbench

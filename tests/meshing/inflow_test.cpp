@@ -1,0 +1,73 @@
+#include "meshing/products/inflow.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "meshing/products/cfd_parameters.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+
+namespace {
+
+std::vector<Triangle> triangles_of(const Surface& surface, std::uint16_t patch) {
+    std::vector<Triangle> triangles;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if ((*surface.patch_labels)[t] == patch) triangles.push_back(surface.triangles()[t]);
+    return triangles;
+}
+
+}  // namespace
+
+SCENARIO("the developed profile is the parabola on a circle", "[meshing][inflow]") {
+    const Surface tube = test::fine_tube(2.0, 6.0, 36);
+    const auto cap = triangles_of(tube, 1);
+    const auto profile = developed_profile(tube.points(), cap);
+    double flux = 0.0, area = 0.0;
+    for (std::size_t t = 0; t < cap.size(); ++t) {
+        const double part = 0.5 * area_normal(tube.points(), cap[t]).norm();
+        const Vec3 centre =
+            (tube.points()[cap[t][0]] + tube.points()[cap[t][1]] + tube.points()[cap[t][2]]) / 3.0;
+        flux += part * profile[t];
+        area += part;
+        CHECK(profile[t] == Approx(2.0 * (1.0 - centre.squaredNorm() / 4.0)).margin(0.04));
+    }
+    CHECK(flux == Approx(area));
+}
+
+SCENARIO("a coarse fan still gets the parabola", "[meshing][inflow]") {
+    const Surface tube = test::closed_tube(1.0, 3.0, 24, 5);
+    const auto profile = developed_profile(tube.points(), triangles_of(tube, 1));
+    for (const double u : profile) CHECK(u == Approx(1.0).epsilon(1e-6));  // all slices are alike
+}
+
+SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {
+    const Surface tube = test::fine_tube(2.0, 8.0, 60);
+    GIVEN("the thesis' flow of 1.2 cm^3/s") {
+        const FlowSummary summary = flow_summary(tube, {});
+        THEN("Re = 4 Q rho / (pi D mu)") {
+            REQUIRE(summary.inlets.size() == 1);
+            CHECK(summary.inlets[0].reynolds == Approx(95.5).epsilon(0.01));
+            CHECK(summary.outlets == 1);
+            CHECK(summary.warnings.empty());
+        }
+    }
+    GIVEN("thirty times that flow, in a bend") {
+        const FlowSummary summary = flow_summary(tube, {.flow = 36.0}, 40.0);
+        THEN("both are warned of") {
+            CHECK(summary.warnings.size() == 2);
+        }
+    }
+    GIVEN("a closed sphere without openings") {
+        THEN("that is an error") {
+            CHECK_THROWS_AS(flow_summary(test::icosphere(1.0, 1), {}), InvalidInput);
+        }
+    }
+    GIVEN("a viscosity of zero") {
+        THEN("that is an error") {
+            CHECK_THROWS_AS(flow_summary(tube, {.viscosity = 0.0}), InvalidInput);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+#include "meshing/products/print_check.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+Json facing_json(const std::optional<FacingPlaces>& places) {
+    if (!places) return nullptr;
+    return {{"distance_mm", places->distance},
+            {"from_mm", point_json(places->from)},
+            {"to_mm", point_json(places->to)}};
+}
+
+Json problems_json(const PrintCheck& check) {
+    Json problems = Json::array();
+    for (const SurfaceProblem& problem : check.problems) {
+        Json places = Json::array();
+        for (const Vec3& p : problem.places) places.push_back(point_json(p));
+        problems.push_back({{"cause", problem.cause},
+                            {"count", problem.count},
+                            {"places_mm", places},
+                            {"remedy", problem.remedy}});
+    }
+    return problems;
+}
+
+void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const std::string& what,
+                   Outcome& outcome) {
+    if (!places || places->distance >= limit) return;
+    char text[200];
+    std::snprintf(text, sizeof text, " is %.3g mm at (%.4g, %.4g, %.4g) mm, below %.3g mm",
+                  places->distance, places->from.x(), places->from.y(), places->from.z(), limit);
+    outcome.warnings.push_back(what + text);
+}
+
+Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const PrintCheck check = print_check(surface_of(scene), progress);
+    Outcome outcome;
+    outcome.scene = scene;
+    outcome.resolved = arguments;
+    for (const SurfaceProblem& problem : check.problems)
+        outcome.warnings.push_back(to_string(problem));
+    warn_if_below(check.lumen, arguments.real("thinnest"), "the thinnest place of the model",
+                  outcome);
+    warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
+                  outcome);
+    outcome.report =
+        std::make_shared<Json>(Json{{"printable", check.printable()},
+                                    {"unit", "mm"},
+                                    {"size_mm", point_json(check.size)},
+                                    {"volume_mm3", check.volume},
+                                    {"area_mm2", check.area},
+                                    {"smallest_wall_distance", facing_json(check.lumen)},
+                                    {"smallest_gap", facing_json(check.gap)},
+                                    {"problems", problems_json(check)}});
+    return outcome;
+}
+
+}  // namespace
+
+Operation print_check_operation() {
+    return {.name = "print-check",
+            .usual_step = Step::Product,
+            .allowed = {Step::Product},
+            .summary = "check that the model can be printed: watertight, thin places, narrow gaps",
+            .parameters = {{.name = "thinnest",
+                            .unit = "mm",
+                            .default_value = 0.8,
+                            .help = "warn where opposite walls of the model are closer",
+                            .minimum = 0.0,
+                            .maximum = 100.0},
+                           {.name = "closest",
+                            .unit = "mm",
+                            .default_value = 0.5,
+                            .help = "warn where two branches are closer: they may fuse in print",
+                            .minimum = 0.0,
+                            .maximum = 100.0}},
+            .run = &run_print_check,
+            .thesis = "2.3"};
+}
+
+}  // namespace vesselbench
