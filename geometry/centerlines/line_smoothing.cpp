@@ -67,15 +67,14 @@ LineFit fit_at(const Line& line, const Unrolled& un, std::size_t at, double wind
         fit.tangent = (line.points[un.source[b]] - line.points[un.source[a]]).normalized();
         return fit;
     }
-    const Eigen::Matrix<double, 3, 3> x = r.A.ldlt().solve(r.b.leftCols<3>());
-    if (!x.allFinite() || !(x.row(1).norm() > 0.0)) return fit;
-    fit.point = origin + x.row(0).transpose();
-    fit.tangent = x.row(1).transpose().normalized();
-    fit.curvature = 2.0 * x.row(2).transpose() / (window * window);
+    const Eigen::Matrix<double, 3, 4> x = r.A.ldlt().solve(r.b);
+    const auto way = x.leftCols<3>();
+    if (!x.allFinite() || !(way.row(1).norm() > 0.0)) return fit;
+    fit.point = origin + way.row(0).transpose();
+    fit.tangent = way.row(1).transpose().normalized();
+    fit.curvature = 2.0 * way.row(2).transpose() / (window * window);
+    fit.radius = x(0, 3);
     fit.curvature -= fit.curvature.dot(fit.tangent) * fit.tangent;
-    const Eigen::Vector2d straight =
-        r.A.topLeftCorner<2, 2>().ldlt().solve(r.b.col(3).head<2>().eval());
-    if (straight.allFinite()) fit.radius = straight[0];
     return fit;
 }
 

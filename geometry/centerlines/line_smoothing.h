@@ -21,7 +21,7 @@ struct LineFit {
     Vec3 point = Vec3::Zero();
     Vec3 tangent = Vec3::UnitZ();  ///< unit
     Vec3 curvature = Vec3::Zero();
-    double radius = 0.0;  ///< fitted by a straight line
+    double radius = 0.0;
 };
 
 /// Fits of all points of a line. \param window half width in local radii [-]

@@ -24,11 +24,9 @@ struct Sector {
     double nearest = std::numeric_limits<double>::infinity();
     double area = 0.0;
     double radius = 0.0;
-    Vec2 direction = Vec2::Zero();
 };
 
 struct PlaneSample {
-    Vec2 offset;
     double distance = 0.0;
     double area = 0.0;
     std::size_t sector = 0;
@@ -57,6 +55,25 @@ Vec2 sector_direction(std::size_t sector) {
     return {std::cos(angle), std::sin(angle)};
 }
 
+/// Sectors without samples between ones with samples: a coarse mesh, not an opening.
+void bridge_gaps(std::array<Sector, kSectors>& sectors) {
+    constexpr std::size_t kWidest = 2;
+    const auto given = sectors;
+    for (std::size_t k = 0; k < kSectors; ++k) {
+        if (given[k].area <= 0.0) continue;
+        std::size_t gap = 0;
+        while (gap <= kWidest && given[(k + gap + 1) % kSectors].area <= 0.0) ++gap;
+        if (gap == 0 || gap > kWidest) continue;
+        const Sector& next = given[(k + gap + 1) % kSectors];
+        for (std::size_t g = 1; g <= gap; ++g) {
+            const double f = static_cast<double>(g) / static_cast<double>(gap + 1);
+            Sector& between = sectors[(k + g) % kSectors];
+            between.radius = (1.0 - f) * given[k].radius + f * next.radius;
+            between.area = std::min(given[k].area, next.area);
+        }
+    }
+}
+
 std::array<Sector, kSectors> average(const std::vector<PlaneSample>& samples) {
     std::array<Sector, kSectors> sectors;
     for (const PlaneSample& s : samples) {
@@ -67,13 +84,12 @@ std::array<Sector, kSectors> average(const std::vector<PlaneSample>& samples) {
         if (s.distance > kSameWall * sector.nearest) continue;
         sector.area += s.area;
         sector.radius += s.area * s.distance;
-        sector.direction += s.area * s.offset / s.distance;
     }
     for (Sector& s : sectors) {
         if (s.area <= 0.0) continue;
         s.radius /= s.area;
-        s.direction.normalize();
     }
+    bridge_gaps(sectors);
     return sectors;
 }
 
@@ -108,9 +124,10 @@ double circle_radius(const std::array<Sector, kSectors>& sectors, const Vec2& ce
         double sum = 0.0;
         double weights = 0.0;
         for (std::size_t n = 0; n < kWeights.size(); ++n) {
-            const Sector& s = sectors[(k + n + kSectors - 2) % kSectors];
+            const std::size_t at = (k + n + kSectors - 2) % kSectors;
+            const Sector& s = sectors[at];
             if (s.area <= 0.0) continue;
-            sum += kWeights[n] * (s.radius * s.direction - centre).norm();
+            sum += kWeights[n] * (s.radius * sector_direction(at) - centre).norm();
             weights += kWeights[n];
         }
         least = std::min(least, sum / weights);
@@ -182,7 +199,7 @@ WallSection WallSections::at(const LinePlace& place, double softness) const {
             if (s.normal.dot(direction) < 0.2) return;  // a wall seen from outside, or a closure
             const double u = along / half;
             const double weight = (1.0 - u * u) * (1.0 - u * u);
-            inside.push_back({offset, distance, weight * s.area, sector_of(offset)});
+            inside.push_back({distance, weight * s.area, sector_of(offset)});
         };
         tree_.traverse(touches, [&](std::uint32_t i) { take(samples_[i]); });
         if (inside.size() >= 4 * kSectors) break;
@@ -193,8 +210,7 @@ WallSection WallSections::at(const LinePlace& place, double softness) const {
     for (std::size_t k = 0; k < kSectors; ++k) {
         const bool wall = sectors[k].area > 0.0;
         filled += wall ? 1 : 0;
-        contour[k] = wall ? Vec2(sectors[k].radius * sectors[k].direction)
-                          : Vec2(kNoWall * place.radius * sector_direction(k));
+        contour[k] = (wall ? sectors[k].radius : kNoWall * place.radius) * sector_direction(k);
     }
     section.covered = static_cast<double>(filled) / kSectors;
     if (filled == 0) return section;

@@ -6,11 +6,19 @@
 
 namespace vesselbench {
 
-/// Writes centerlines as a .vtp file of polylines, one per branch from its start to its end node,
-/// in mm, with the arrays VMTK's users expect: per point `MaximumInscribedSphereRadius` [mm] and
-/// `Abscissas` [mm] from the branch's start; per line `GroupIds` and `CenterlineIds` (the branch's
-/// number), `Blanking` (0), and `StartNodeIds`, `EndNodeIds` (nodes of the graph).
-/// \throw UsageError for another suffix, IoError if the file cannot be written
+/// Writes a centerline graph as a VTP file in mm, whole or not at all: one polyline per branch.
+/// Point arrays: `MaximumInscribedSphereRadius` [mm], `Abscissas` [mm] from the branch's start,
+/// `BranchId`. Cell arrays: `CenterlineIds`, `TractIds`, `GroupIds`, `Blanking` as VMTK's users
+/// expect them after branch extraction (one tract and one group per branch, none blanked),
+/// `StartNodeIds`, `EndNodeIds` (equal numbers meet), `Length` [mm].
+/// \throw UsageError for another suffix, IoError if the file cannot be written, InvalidInput if the
+/// graph has no branch
 void write_centerlines(const CenterlineGraph& graph, const std::string& path);
+
+/// Reads a VTP file of ours, or VMTK's: a branch per polyline. Without node numbers, line ends at
+/// the same place (to a millionth of the extent) are one node. Radii come from
+/// `MaximumInscribedSphereRadius` or `Radius`; without either they are 0.
+/// \throw IoError if the file cannot be read, InvalidInput if it holds no line
+[[nodiscard]] CenterlineGraph read_centerlines(const std::string& path);
 
 }  // namespace vesselbench
