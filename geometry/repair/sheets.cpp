@@ -159,8 +159,7 @@ bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marke
             report.places.push_back({RepairKind::Orientation, place, 0.0});
             for (const VertexId v : mesh.triangles[t]) mesh.cut[v] = 1;
         }
-    if (static_cast<double>(count) >
-        kMostContradictions * static_cast<double>(marked.size()) + 2.0) {
+    if (static_cast<double>(count) > kMostContradictions * static_cast<double>(marked.size())) {
         char text[80];
         std::snprintf(text, sizeof text, "%.4g, %.4g, %.4g", place.x(), place.y(), place.z());
         throw AlgorithmFailure(

@@ -10,6 +10,9 @@ namespace vesselbench {
 [[nodiscard]] Operation extrude_opening_operation();
 [[nodiscard]] Operation fill_hole_operation();
 [[nodiscard]] Operation print_check_operation();
+[[nodiscard]] Operation keep_component_operation();
+[[nodiscard]] Operation load_surface_operation();
+[[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation smooth_operation();
 [[nodiscard]] Operation tetrahedralize_operation();
 

@@ -1,0 +1,70 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/edges.h"
+#include "geometry/errors.h"
+#include "geometry/io/surface_file.h"
+#include "geometry/measure.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+#include "workbench/operation.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+Outcome run(const std::string& name, const Scene& scene, const Arguments& arguments) {
+    Progress progress;
+    const Operation& operation = find_operation(name);
+    return operation.run(scene, checked_arguments(operation, arguments), progress);
+}
+
+Scene scene_of(Surface surface) {
+    Scene scene;
+    scene.surface = std::move(surface);
+    return scene;
+}
+
+}  // namespace
+
+SCENARIO("load-surface says what it decided about the unit", "[workbench][source]") {
+    const std::string file = temporary_folder() + "/tube.off";
+    write_surface(open_tube(2.0, 30.0, 24, 20), file);
+    const Outcome stated = run("load-surface", {}, {{"file", file}});
+    CHECK(stated.resolved.text("units") == "mm");
+    CHECK(stated.report->at("file") == "tube.off");
+    CHECK(stated.report->at("boundary_loops") == 2);
+    const Outcome given = run("load-surface", {}, {{"file", file}, {"units", "cm"}});
+    CHECK(given.report->at("size_mm")[2].get<double>() == Approx(300.0));
+    CHECK_THROWS_AS(run("load-surface", {}, {{"file", file}, {"units", "inch"}}), UsageError);
+    CHECK_THROWS_AS(run("load-surface", {}, {}), UsageError);
+    CHECK_THROWS_AS(run("load-surface", {}, {{"file", "absent.stl"}}), IoError);
+}
+
+SCENARIO("keep-component keeps the largest part, several, or the one at a point",
+         "[workbench][source]") {
+    const Scene scene =
+        scene_of(merged(merged(icosphere(1.0, 1), icosphere(2.0, 2, Vec3(10, 0, 0))),
+                        icosphere(1.0, 0, Vec3(20, 0, 0))));
+    CHECK(run("keep-component", scene, {}).scene.surface->triangle_count() == 320);
+    CHECK(run("keep-component", scene, {{"count", std::int64_t{2}}})
+              .scene.surface->triangle_count() == 400);
+    const Outcome chosen = run("keep-component", scene, {{"seed", Vec3(21, 0, 0)}});
+    CHECK(chosen.scene.surface->triangle_count() == 20);
+    CHECK(chosen.report->at("components_before") == 3);
+    CHECK_THROWS_AS(run("keep-component", {}, {}), InvalidInput);
+}
+
+SCENARIO("repair lists what it did, and its replay gives the same bits", "[workbench][source]") {
+    const Scene scene = scene_of(merged(flipped(icosphere(5.0, 3)), icosphere(0.2, 0)));
+    const Outcome outcome = run("repair", scene, {});
+    CHECK(is_closed_manifold(*outcome.scene.surface));
+    CHECK(enclosed_volume(*outcome.scene.surface) > 0.0);
+    CHECK(outcome.report->at("turned_inside_out") == true);
+    CHECK(outcome.report->at("removed_components") == 1);
+    CHECK(outcome.report->at("places").at("component").size() == 1);
+    CHECK_FALSE(outcome.warnings.empty());
+    const Outcome again = run("repair", scene, outcome.resolved);
+    CHECK(again.scene.surface->points() == outcome.scene.surface->points());
+}

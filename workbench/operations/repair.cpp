@@ -1,0 +1,135 @@
+#include "geometry/repair.h"
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Of each kind of repair at most this many places are listed; all are counted.
+constexpr std::size_t kMostPlaces = 50;
+
+/// A removed piece of more than this part of the triangles [-] is worth a warning.
+constexpr double kWorthAWarning = 0.01;
+
+ordered_json point_json(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+ordered_json places_json(const std::vector<RepairPlace>& places) {
+    ordered_json by_kind = ordered_json::object();
+    for (const RepairPlace& place : places) {
+        ordered_json& list = by_kind[to_string(place.kind)];
+        if (list.size() < kMostPlaces)
+            list.push_back({{"position_mm", point_json(place.position)}, {"size_mm", place.size}});
+    }
+    return by_kind;
+}
+
+ordered_json openings_json(const std::vector<KeptOpening>& openings) {
+    ordered_json list = ordered_json::array();
+    for (const KeptOpening& opening : openings)
+        list.push_back({{"centre_mm", point_json(opening.centre)},
+                        {"radius_mm", opening.radius},
+                        {"edges", opening.edges}});
+    return list;
+}
+
+ordered_json report_json(const RepairReport& report) {
+    return {{"changed", report.changed()},
+            {"welded_vertices", report.welded_vertices},
+            {"unused_vertices", report.unused_vertices},
+            {"degenerate_triangles", report.degenerate_triangles},
+            {"duplicate_triangles", report.duplicate_triangles},
+            {"removed_components", report.removed_components},
+            {"removed_component_triangles", report.removed_component_triangles},
+            {"non_manifold_edges", report.non_manifold_edges},
+            {"non_manifold_vertices", report.non_manifold_vertices},
+            {"turned_triangles", report.turned_triangles},
+            {"turned_inside_out", report.turned_inside_out},
+            {"self_intersections", report.self_intersections},
+            {"smoothed_vertices", report.smoothed_vertices},
+            {"refilled_triangles", report.refilled_triangles},
+            {"closed_holes", report.closed_holes},
+            {"collapsed_edges", report.collapsed_edges},
+            {"flipped_edges", report.flipped_edges},
+            {"openings", openings_json(report.openings)},
+            {"places", places_json(report.places)}};
+}
+
+std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before) {
+    std::vector<std::string> warnings;
+    if (static_cast<double>(report.removed_component_triangles) >
+        kWorthAWarning * static_cast<double>(before.triangle_count()))
+        warnings.push_back("repair removed " + std::to_string(report.removed_components) +
+                           " unconnected pieces with " +
+                           std::to_string(report.removed_component_triangles) +
+                           " triangles; keep_components= keeps more of them");
+    if (report.turned_inside_out)
+        warnings.push_back("the surface was inside out and has been turned over");
+    return warnings;
+}
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    RepairParameters parameters;
+    parameters.close_holes_up_to = arguments.optional_real("close_holes_up_to");
+    parameters.keep_components = static_cast<std::size_t>(arguments.integer("keep_components"));
+    parameters.remove_self_intersections = arguments.flag("self_intersections");
+    parameters.smallest_feature = arguments.real("smallest_feature");
+    Repaired repaired = repair(surface, parameters, progress);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    outcome.report = std::make_shared<ordered_json>(report_json(repaired.report));
+    outcome.warnings = warnings_of(repaired.report, surface);
+    outcome.scene = with_surface(scene, std::move(repaired.surface));
+    return outcome;
+}
+
+}  // namespace
+
+Operation repair_operation() {
+    using enum ParameterType;
+    return {
+        .name = "repair",
+        .usual_step = Step::Source,
+        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                    Step::Smoothing, Step::Deformation, Step::Remeshing},
+        .summary = "weld, orient and clean the surface, remove self-intersections and stray holes",
+        .parameters =
+            {{.name = "close_holes_up_to",
+              .type = Real,
+              .unit = "mm",
+              .help = "holes up to this radius are closed; without it those are closed that are "
+                      "no vessel ends: much narrower than the lumen behind them, or ragged",
+              .minimum = 0.0},
+             {.name = "keep_components",
+              .type = Integer,
+              .unit = "-",
+              .default_value = std::int64_t{1},
+              .help = "how many unconnected pieces are kept, those of largest area first",
+              .minimum = 1},
+             {.name = "self_intersections",
+              .type = Flag,
+              .default_value = true,
+              .help = "remove places where the surface passes through itself"},
+             {.name = "smallest_feature",
+              .type = Real,
+              .unit = "-",
+              .default_value = 1e-3,
+              .help = "edges and triangle heights below this part of the mean edge length are "
+                      "removed",
+              .minimum = 0.0,
+              .maximum = 0.1}},
+        .run = &run,
+        .isolated = true,
+        .thesis = "3.2"};
+}
+
+}  // namespace vesselbench
