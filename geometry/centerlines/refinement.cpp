@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kTangentWindow = 1.5;  ///< half width of the fits that give directions, in radii
 constexpr double kPointWindow = 1.2;    ///< half width of the fits that smooth points, in radii
-constexpr int kRounds = 7;
-constexpr int kExtendAfter = 4;   ///< round after which blind ends are followed
+constexpr int kRounds = 8;
+constexpr int kCoarseRounds = 4;  ///< with a softer fit, to come near
+constexpr int kExtendAfter = 7;   ///< round after which blind ends are followed
 constexpr double kCovered = 0.9;  ///< a point is in another vessel within this much of its sphere
 constexpr double kEnoughWall = 0.5;  ///< fraction of directions with wall that makes a section
 constexpr double kMostNoise = 1.08;  ///< the section's radius may exceed the wall's nearest point
@@ -22,7 +23,12 @@ constexpr double kMostNoise = 1.08;  ///< the section's radius may exceed the wa
 
 constexpr double kClosureDepth = 1.5;  ///< depths within so many radii of an end are not trusted
 
-enum class Hold : std::uint8_t { Free, Fixed, Covered };
+enum class Hold : std::uint8_t {
+    Free,
+    Fixed,    ///< an opening's centre
+    Covered,  ///< within another vessel at a furcation
+    Extended  ///< the last stretch to a blind end
+};
 
 /// A strand on its way from voxels to the middle of its vessel.
 struct Work {
@@ -200,7 +206,7 @@ void hold_end(const RoughGraph& rough, Work& work, bool at_front) {
 void centre_points(Work& work, const WallSections& wall, double softness) {
     const auto fits = fit_line(work.line, kTangentWindow, 0.0);
     const auto centre = [&](std::size_t i) {
-        if (work.hold[i] == Hold::Covered) return;
+        if (work.hold[i] == Hold::Covered || work.hold[i] == Hold::Extended) return;
         const double before = work.line.radii[i];
         const LinePlace place{fits[i].point, fits[i].tangent, fits[i].curvature, before};
         const WallSection section = wall.at(place, softness);
@@ -227,6 +233,20 @@ void smooth_points(Work& work) {
     }
 }
 
+/// Spreads the points of every branch of a strand evenly again, in local radii; their number stays.
+void space_evenly(Work& work) {
+    const Line before = work.line;
+    for (std::size_t m = 0; m + 1 < work.marks.size(); ++m) {
+        const std::size_t first = work.marks[m];
+        const std::size_t count = work.marks[m + 1] - first + 1;
+        const Line even = resampled(part_of(before, first, work.marks[m + 1]), 1e6, count);
+        for (std::size_t i = 1; i + 1 < count; ++i) {
+            work.line.points[first + i] = even.points[i];
+            work.line.radii[first + i] = even.radii[i];
+        }
+    }
+}
+
 /// Follows a blind end along its direction as long as the section keeps half of its radius and the
 /// end wall is not near.
 void extend_back(Work& work, const WallSections& wall, double spacing) {
@@ -245,7 +265,7 @@ void extend_back(Work& work, const WallSections& wall, double spacing) {
         line.points.push_back(0.5 * (place.point + section.centre));
         line.radii.push_back(section.radius);
         line.weights.push_back(1.0);
-        work.hold.push_back(Hold::Free);
+        work.hold.push_back(Hold::Extended);
         work.marks.back() = line.points.size() - 1;
     }
 }
@@ -309,7 +329,8 @@ void limit_radii(std::vector<Work>& works, const WallSections& wall) {
         for (std::size_t i = 0; i < nearest[w].size(); ++i) {
             const double limit = noise * nearest[w][i];
             double& r = works[w].line.radii[i];
-            r = works[w].hold[i] == Hold::Covered ? limit : std::min(r, limit);
+            const bool section = works[w].hold[i] == Hold::Free || works[w].hold[i] == Hold::Fixed;
+            r = section ? std::min(r, limit) : limit;
         }
     }
 }
@@ -387,8 +408,9 @@ CenterlineGraph refine(const RoughGraph& rough, const WallSections& wall, double
     for (int round = 0; round < kRounds; ++round) {
         progress.report(static_cast<double>(round) / kRounds, "centring the lines");
         for (Work& work : works) {
-            centre_points(work, wall, round < kExtendAfter ? 0.1 : 0.05);
+            centre_points(work, wall, round < kCoarseRounds ? 0.1 : 0.05);
             smooth_points(work);
+            if (round % 2 == 1 && round + 1 < kExtendAfter) space_evenly(work);
             if (round + 1 == kExtendAfter) extend_blind_ends(rough, work, wall, spacing);
         }
     }
