@@ -6,10 +6,11 @@ namespace vesselbench {
 
 std::span<const Operation> operation_table() {
     static const std::vector<Operation> table = {
-        fill_hole_operation(),      extrude_opening_operation(), smooth_operation(),
-        tetrahedralize_operation(), print_check_operation(),
-        load_surface_operation(), keep_component_operation(),  repair_operation(),
-        fill_hole_operation(),    extrude_opening_operation(), smooth_operation(),
+        fill_hole_operation(),       extrude_opening_operation(), smooth_operation(),
+        tetrahedralize_operation(),  print_check_operation(),     load_surface_operation(),
+        keep_component_operation(),  repair_operation(),          fill_hole_operation(),
+        extrude_opening_operation(), smooth_operation(),          fill_hole_operation(),
+        extrude_opening_operation(), smooth_operation(),          remesh_operation(),
     };
     return table;
 }

@@ -15,5 +15,6 @@ namespace vesselbench {
 [[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation smooth_operation();
 [[nodiscard]] Operation tetrahedralize_operation();
+[[nodiscard]] Operation remesh_operation();
 
 }  // namespace vesselbench

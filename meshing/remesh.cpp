@@ -1,0 +1,217 @@
+#include "meshing/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "geometry/errors.h"
+#include "geometry/self_intersections.h"
+#include "geometry/surface_distance.h"
+#include "meshing/remesher.h"
+#include "meshing/sizing_field.h"
+#include "meshing/triangle_shape.h"
+#include "meshing/uniform_remesh.h"
+#include "meshing/vertex_fields.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kRounds = 8;  // of split, collapse, flip, relax
+/// In the first round edges are split well below the wanted length [-]: what is collapsed next then
+/// forgets the pattern of a coarse source.
+constexpr double kFirstSplit = 0.8;
+
+constexpr int kFinalRounds = 5;   // of flip and relax: sizes have settled, angles follow
+constexpr int kMostAttempts = 3;  // at a result without self-intersections, finer each time
+constexpr double kFiner = 0.6;
+
+constexpr double kEdgePerRadius = 0.35;              // 18 triangles around
+constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
+
+/// Polishing visits so many triangles in all, but twice each at least: small meshes, in which rims
+/// take a larger share, need it most and can afford it.
+constexpr std::size_t kPolishBudget = 20000;
+constexpr int kFewestPolishRounds = 2, kMostPolishRounds = 8;
+
+constexpr double kQuality = 0.5;  // below it a triangle is worked on singly
+
+/// Angles, once the sizes have settled.
+Surface finished(Remesher& remesher, const Progress& progress) {
+    for (int round = 0; round < kFinalRounds; ++round) {
+        progress.report(0.5 * round / kFinalRounds, "improving triangles");
+        remesher.flip_edges(Remesher::FlipRule::Angle);
+        remesher.relax(Remesher::RelaxRule::Shape);
+    }
+    const int polish_rounds =
+        std::clamp(static_cast<int>(kPolishBudget /
+                                    std::max<std::size_t>(remesher.mesh().triangle_count(), 1)),
+                   kFewestPolishRounds, kMostPolishRounds);
+    for (int round = 0; round < polish_rounds; ++round) {
+        progress.report(0.5 + 0.5 * round / polish_rounds, "improving triangles");
+        remesher.polish();
+    }
+    remesher.improve_worst(kQuality);
+    return remesher.result();
+}
+
+void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
+    for (int round = 0; round < rounds; ++round) {
+        progress.report(static_cast<double>(round) / rounds, "remeshing");
+        remesher.split_long_edges(round == 0 ? kFirstSplit : Remesher::kLong);
+        remesher.collapse_short_edges();
+        remesher.flip_edges(round % 2 == 0 ? Remesher::FlipRule::Valence
+                                           : Remesher::FlipRule::Angle);
+        remesher.relax(Remesher::RelaxRule::Size);
+        remesher.relax(Remesher::RelaxRule::Shape);
+    }
+}
+
+Surface remesh_graded(const Surface& surface, const std::vector<double>& sizes,
+                      const Progress& progress) {
+    Remesher remesher(surface, sizes, surface);
+    run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
+    return finished(remesher, progress.part(0.8, 1.0));
+}
+
+Surface remesh_uniformly(const Surface& surface, double edge, const Progress& progress) {
+    progress.report(0.0, "remeshing");
+    const Surface even = remesh_uniform(surface, edge);
+    Remesher remesher(surface, std::vector<double>(surface.vertex_count(), edge), even);
+    run_rounds(remesher, kRounds / 2, progress.part(0.4, 0.8));  // repairs the slivers at the rims
+    return finished(remesher, progress.part(0.8, 1.0));
+}
+
+Surface with_attributes(Surface result, const Surface& source) {
+    if (source.attributes.empty()) return result;
+    const SurfaceDistance search(source);
+    std::map<std::string, std::vector<double>> values;
+    for (const Vec3& p : result.points()) {
+        const SurfacePoint at = search.closest_point(p);
+        const Triangle& triangle = source.triangles()[at.triangle];
+        const Vec3 weights = barycentric(source.points(), triangle, at.point);
+        for (const auto& [name, field] : source.attributes)
+            values[name].push_back(weights[0] * (*field)[triangle[0]] +
+                                   weights[1] * (*field)[triangle[1]] +
+                                   weights[2] * (*field)[triangle[2]]);
+    }
+    for (auto& [name, field] : values)
+        result.attributes[name] = std::make_shared<const std::vector<double>>(std::move(field));
+    return result;
+}
+
+void measure_quality(const Surface& surface, RemeshReport& report) {
+    double walls = 0.0, caps = 0.0;
+    report.wall_radius_ratio_min = 1.0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const auto& [a, b, c] = surface.triangles()[t];
+        const Positions& points = surface.points();
+        const double skewness = equiangle_skewness(points[a], points[b], points[c]);
+        const double ratio = radius_ratio(points[a], points[b], points[c]);
+        if (surface.patch_of(t).kind != PatchKind::Wall) {
+            report.caps_skewness_mean += skewness;
+            caps += 1.0;
+            continue;
+        }
+        walls += 1.0;
+        report.wall_skewness_mean += skewness;
+        report.wall_radius_ratio_mean += ratio;
+        report.wall_skewness_max = std::max(report.wall_skewness_max, skewness);
+        report.wall_radius_ratio_min = std::min(report.wall_radius_ratio_min, ratio);
+    }
+    report.wall_skewness_mean /= std::max(walls, 1.0);
+    report.wall_radius_ratio_mean /= std::max(walls, 1.0);
+    report.caps_skewness_mean /= std::max(caps, 1.0);
+}
+
+/// Where the result crosses itself, the source's wanted edges within two edges become shorter.
+/// \return true if it crosses itself
+bool refine_crossings(const Surface& source, const Surface& result, std::vector<double>& sizes) {
+    const auto crossings = self_intersections(result);
+    Positions places;
+    for (const auto& [s, t] : crossings)
+        for (const TriangleId crossing : {s, t}) {
+            const auto& [a, b, c] = result.triangles()[crossing];
+            places.push_back((result.points()[a] + result.points()[b] + result.points()[c]) / 3.0);
+        }
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+        if (std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
+                return (place - source.points()[v]).norm() < 2.0 * sizes[v];
+            }))
+            sizes[v] *= kFiner;
+    return !crossings.empty();
+}
+
+[[noreturn]] void refuse_crossing(const Surface& source, const Surface& result) {
+    const auto describe = [](const Surface& surface, TriangleId t) {
+        std::ostringstream text;
+        text << "near (" << surface.points()[surface.triangles()[t][0]].transpose() << ") mm";
+        return text.str();
+    };
+    if (const auto old = self_intersections(source); !old.empty())
+        throw AlgorithmFailure("the surface intersects itself " +
+                               describe(source, old.front().first) + "; use repair before remesh");
+    throw AlgorithmFailure("the remeshed surface would intersect itself " +
+                           describe(result, self_intersections(result).front().first) +
+                           "; use a smaller edge, or separate the walls that touch there");
+}
+
+Surface remesh_graded_until_sound(const Surface& surface, std::vector<double> sizes,
+                                  double gradation, const Progress& progress) {
+    Surface result = remesh_graded(surface, sizes, progress);
+    for (int attempt = 0; refine_crossings(surface, result, sizes); ++attempt) {
+        if (attempt == kMostAttempts) refuse_crossing(surface, result);
+        limit_slope(surface, slope_of(gradation), sizes);
+        result = remesh_graded(surface, sizes, progress);
+    }
+    return result;
+}
+
+RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
+                     const std::vector<double>& radii) {
+    RemeshReport report;
+    report.usual_radius = usual_radius(surface, radii);
+    report.edge = parameters.edge.value_or(kEdgePerRadius * report.usual_radius);
+    report.min_edge = parameters.min_edge.value_or(kLeastEdge * report.edge);
+    report.max_edge = parameters.max_edge.value_or(kMostEdge * report.edge);
+    report.triangles_before = surface.triangle_count();
+    return report;
+}
+
+Surface graded(const Surface& surface, const std::vector<double>& radii, const RemeshReport& report,
+               double gradation, const Progress& progress) {
+    std::vector<double> sizes = sizing_field(surface, radii,
+                                             {.edge = report.edge,
+                                              .min_edge = report.min_edge,
+                                              .max_edge = report.max_edge,
+                                              .gradation = gradation},
+                                             progress.part(0.0, 0.2));
+    return remesh_graded_until_sound(surface, std::move(sizes), gradation, progress.part(0.2, 1.0));
+}
+
+Surface uniform(const Surface& surface, const RemeshReport& report, const Progress& progress) {
+    Surface result = remesh_uniformly(surface, report.edge, progress);
+    if (!self_intersections(result).empty()) refuse_crossing(surface, result);
+    return result;
+}
+
+}  // namespace
+
+Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
+                const CenterlineGraph* lines, const Progress& progress) {
+    if (surface.empty()) throw InvalidInput("there is no surface to remesh");
+    if (parameters.edge && !(*parameters.edge > 0.0 && std::isfinite(*parameters.edge)))
+        throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
+    const std::vector<double> radii = local_radii(surface, lines, progress.part(0.0, 0.1));
+    RemeshReport report = decided(surface, parameters, radii);
+    Surface result =
+        parameters.mode == RemeshMode::Uniform
+            ? uniform(surface, report, progress.part(0.1, 1.0))
+            : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
+    result = with_attributes(std::move(result), surface);
+    report.triangles_after = result.triangle_count();
+    measure_quality(result, report);
+    return {std::move(result), report, {}};
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,183 @@
+#include "meshing/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <catch2/catch.hpp>
+#include <tbb/global_control.h>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "geometry/self_intersections.h"
+#include "geometry/surface_distance.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+void check_quality(const RemeshReport& report) {
+    CHECK(report.wall_skewness_mean <= 0.12);
+    CHECK(report.wall_skewness_max <= 0.65);
+    CHECK(report.wall_radius_ratio_mean >= 0.97);
+    CHECK(report.wall_radius_ratio_min >= 0.35);
+    CHECK(report.caps_skewness_mean < 0.2);
+}
+
+void check_sound(const Surface& surface, bool closed) {
+    const Connectivity parts = connectivity(*surface.topology);
+    CHECK(parts.closed == closed);
+    CHECK(parts.manifold);
+    CHECK(parts.oriented);
+    CHECK(self_intersections(surface).empty());
+}
+
+/// Largest ratio of the mean edge lengths of two triangles that share an edge.
+double largest_gradation(const Surface& surface) {
+    const auto triangles = surface.triangles();
+    const CompressedRows& fans = surface.topology->triangles_at();
+    const auto mean_edge = [&](TriangleId t) {
+        const auto& [a, b, c] = triangles[t];
+        const Positions& p = surface.points();
+        return ((p[a] - p[b]).norm() + (p[b] - p[c]).norm() + (p[c] - p[a]).norm()) / 3.0;
+    };
+    double largest = 1.0;
+    for (TriangleId t = 0; t < triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+            for (const TriangleId s : fans.row(triangles[t][i])) {
+                const auto& other = triangles[s];
+                const VertexId next = triangles[t][(i + 1) % 3];
+                if (s != t && std::count(other.begin(), other.end(), next) > 0)
+                    largest = std::max(largest, mean_edge(s) / mean_edge(t));
+            }
+    return largest;
+}
+
+/// A tube that narrows to a third in its middle, closed by flat fans.
+Surface narrowed_tube() {
+    return mapped(closed_tube(3.0, 24.0, 48, 96), [](const Vec3& p) {
+        const double factor = 1.0 - 2.0 / 3.0 * std::exp(-std::pow((p.z() - 12.0) / 3.0, 2));
+        return Vec3(factor * p.x(), factor * p.y(), p.z());
+    });
+}
+
+std::map<std::string, double> patch_areas(const Surface& surface) {
+    std::map<std::string, double> areas;
+    for (const PatchMeasures& patch : measure_patches(surface)) areas[patch.name] = patch.area;
+    return areas;
+}
+
+}  // namespace
+
+SCENARIO("A capped tube is remeshed with its rims, planes and patches kept", "[meshing][remesh]") {
+    const Surface tube = closed_tube(2.0, 12.0, 40, 60);
+    const auto mode = GENERATE(RemeshMode::Graded, RemeshMode::Uniform);
+    const auto [remeshed, report, warnings] = remesh(tube, {.mode = mode, .edge = 0.6});
+    check_sound(remeshed, true);
+    check_quality(report);
+    // Every rim vertex lies on its circle and every cap vertex in its plane.
+    for (TriangleId t = 0; t < remeshed.triangle_count(); ++t)
+        for (const VertexId v : remeshed.triangles()[t]) {
+            const Vec3& p = remeshed.points()[v];
+            const double plane = remeshed.patch_of(t).name == "inlet" ? 0.0 : 12.0;
+            if (remeshed.patch_of(t).kind != PatchKind::Wall)
+                CHECK(p.z() == Approx(plane).margin(1e-12));
+            else if (p.z() < 1e-9 || p.z() > 12.0 - 1e-9)
+                CHECK(std::hypot(p.x(), p.y()) == Approx(2.0).epsilon(1e-9));
+        }
+    const auto before = patch_areas(tube), after = patch_areas(remeshed);
+    REQUIRE(after.size() == 3);
+    for (const auto& [name, area] : before) CHECK(after.at(name) == Approx(area).epsilon(0.02));
+    CHECK(mean_edge_length(remeshed) == Approx(0.6).epsilon(0.1));
+    CHECK(volume(remeshed) == Approx(volume(tube)).epsilon(0.02));
+}
+
+SCENARIO("Edges follow the vessel's radius, and neighbours stay alike", "[meshing][remesh]") {
+    const Surface tube = narrowed_tube();
+    const auto [remeshed, report, warnings] = remesh(tube, {.edge = 0.8});
+    check_sound(remeshed, true);
+    check_quality(report);
+    CHECK(largest_gradation(remeshed) <= 1.5);
+    double narrow = 0.0, wide = 0.0, narrow_count = 0.0, wide_count = 0.0;
+    for (const Triangle& t : remeshed.triangles()) {
+        const double z = remeshed.points()[t[0]].z();
+        const double edge = (remeshed.points()[t[0]] - remeshed.points()[t[1]]).norm();
+        if (std::abs(z - 12.0) < 1.0) narrow += edge, narrow_count += 1.0;
+        if (std::abs(z - 3.0) < 1.0) wide += edge, wide_count += 1.0;
+    }
+    CHECK(narrow / narrow_count < 0.55 * wide / wide_count);
+}
+
+SCENARIO("Closed and open surfaces without caps are remeshed", "[meshing][remesh]") {
+    GIVEN("a sphere") {
+        const auto [remeshed, report, warnings] = remesh(icosphere(5.0, 4), {.edge = 0.7});
+        check_sound(remeshed, true);
+        check_quality(report);
+        CHECK(volume(remeshed) == Approx(volume(icosphere(5.0, 4))).epsilon(0.01));
+    }
+    GIVEN("an open tube") {
+        const Surface tube = open_tube(2.0, 10.0, 40, 50);
+        const auto [remeshed, report, warnings] = remesh(tube, {.edge = 0.5});
+        check_sound(remeshed, false);
+        check_quality(report);
+        CHECK(remeshed.topology->boundary_loops().size() == 2);
+        for (const auto& loop : remeshed.topology->boundary_loops())
+            for (const VertexId v : loop) {
+                const double z = remeshed.points()[v].z();
+                CHECK(std::min(std::abs(z), std::abs(z - 10.0)) < 1e-12);
+            }
+    }
+}
+
+SCENARIO("Slivers and long fans do no harm", "[meshing][remesh]") {
+    // 400 thin triangles around, 3 rows along: aspect ratios of 130, and fans as caps.
+    const auto [remeshed, report, warnings] = remesh(closed_tube(2.0, 12.0, 400, 3), {.edge = 0.5});
+    check_sound(remeshed, true);
+    check_quality(report);
+}
+
+SCENARIO("Attributes are interpolated", "[meshing][remesh]") {
+    Surface tube = closed_tube(2.0, 12.0, 40, 60);
+    std::vector<double> heights;
+    for (const Vec3& p : tube.points()) heights.push_back(p.z());
+    tube.attributes["height"] = std::make_shared<const std::vector<double>>(heights);
+    const Surface remeshed = remesh(tube, {.edge = 0.6}).surface;
+    REQUIRE(remeshed.attributes.contains("height"));
+    for (std::size_t v = 0; v < remeshed.vertex_count(); ++v)
+        CHECK((*remeshed.attributes.at("height"))[v] ==
+              Approx(remeshed.points()[v].z()).margin(1e-9));
+}
+
+SCENARIO("Remeshing is deterministic and knows no unit and no direction", "[meshing][remesh]") {
+    const Surface tube = narrowed_tube();
+    const Remeshed first = remesh(tube, {.edge = 0.8});
+    THEN("one thread gives the same bits") {
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        const Remeshed again = remesh(tube, {.edge = 0.8});
+        CHECK(again.surface.points() == first.surface.points());
+        CHECK(std::ranges::equal(again.surface.triangles(), first.surface.triangles()));
+    }
+    THEN("a turned tube of a thousandth of the size is remeshed alike") {
+        const Eigen::Matrix3d turn = skew_rotation();
+        const Surface other =
+            mapped(tube, [&](const Vec3& p) { return Vec3(1e-3 * (turn * p) + Vec3(1, 2, 3)); });
+        const Remeshed turned = remesh(other, {.edge = 0.8e-3});
+        check_quality(turned.report);
+        CHECK(static_cast<double>(turned.surface.triangle_count()) ==
+              Approx(static_cast<double>(first.surface.triangle_count())).epsilon(0.1));
+    }
+}
+
+SCENARIO("Bad parameters and bad surfaces are refused", "[meshing][remesh]") {
+    const Surface sphere = icosphere(5.0, 2);
+    CHECK_THROWS_WITH(remesh(sphere, {.edge = -1.0}), Catch::Contains("edge"));
+    CHECK_THROWS_WITH(remesh(sphere, {.edge = 1.0, .min_edge = 2.0, .max_edge = 1.0}),
+                      Catch::Contains("max_edge"));
+    CHECK_THROWS_WITH(remesh(sphere, {.gradation = 0.9}), Catch::Contains("gradation"));
+    const Surface fin =
+        make_surface({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)},
+                     {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+    CHECK_THROWS_AS(remesh(fin, {.edge = 0.5}), InvalidInput);
+}

@@ -1,0 +1,91 @@
+#include "meshing/remesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+RemeshParameters parameters_from(const Arguments& arguments) {
+    return {.mode = arguments.text("mode") == "uniform" ? RemeshMode::Uniform : RemeshMode::Graded,
+            .edge = arguments.optional_real("edge"),
+            .min_edge = arguments.optional_real("min_edge"),
+            .max_edge = arguments.optional_real("max_edge"),
+            .gradation = arguments.real("gradation")};
+}
+
+Report report_from(const RemeshReport& figures) {
+    return std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{
+        {"usual_radius_mm", figures.usual_radius},
+        {"edge_mm", figures.edge},
+        {"triangles_before", figures.triangles_before},
+        {"triangles_after", figures.triangles_after},
+        {"wall_equiangle_skewness",
+         {{"mean", figures.wall_skewness_mean}, {"max", figures.wall_skewness_max}}},
+        {"wall_radius_ratio",
+         {{"mean", figures.wall_radius_ratio_mean}, {"min", figures.wall_radius_ratio_min}}},
+        {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
+}
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    Remeshed remeshed = remesh(surface_of(scene), parameters_from(arguments), nullptr, progress);
+    const RemeshReport& figures = remeshed.report;
+    Outcome outcome;
+    outcome.resolved = arguments;
+    outcome.resolved.set("edge", figures.edge);
+    if (arguments.text("mode") == "graded") {
+        outcome.resolved.set("min_edge", figures.min_edge);
+        outcome.resolved.set("max_edge", figures.max_edge);
+    }
+    outcome.report = report_from(figures);
+    outcome.warnings = remeshed.warnings;
+    outcome.scene = with_surface(scene, std::move(remeshed.surface));
+    return outcome;
+}
+
+}  // namespace
+
+Operation remesh_operation() {
+    using enum ParameterType;
+    return {
+        .name = "remesh",
+        .usual_step = Step::Remeshing,
+        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                    Step::Smoothing, Step::Deformation, Step::Remeshing},
+        .summary = "cover the surface with well-shaped triangles; rims, flat caps and patches stay",
+        .parameters =
+            {{.name = "mode",
+              .type = Choice,
+              .default_value = "graded",
+              .help = "graded: smaller where the vessel is thin, curved, or close to another wall; "
+                      "uniform: one edge length",
+              .choices = {"graded", "uniform"}},
+             {.name = "edge",
+              .unit = "mm",
+              .help = "edge length where the vessel has its usual radius (the median over the "
+                      "wall); 0.35 of that radius when left out, which puts 18 triangles around",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "min_edge",
+              .unit = "mm",
+              .help = "graded: no edge shall be shorter; a fifth of edge when left out",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "max_edge",
+              .unit = "mm",
+              .help = "graded: no edge shall be longer; twice edge when left out",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "gradation",
+              .unit = "-",
+              .default_value = 1.5,
+              .help = "graded: neighbouring edges differ by at most this factor",
+              .minimum = 1.05,
+              .maximum = 3.0}},
+        .run = &run,
+        .thesis = "3.3.2, 4.2.9"};
+}
+
+}  // namespace vesselbench
