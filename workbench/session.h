@@ -9,14 +9,16 @@
 
 #include "workbench/edit_record.h"
 #include "workbench/history.h"
+#include "workbench/project.h"
 #include "workbench/run_operation.h"
 
 namespace vesselbench {
 
 struct SessionOptions {
-    std::string author;                     ///< of the edits; empty: the user's login name
-    OperationLookup find = find_operation;  ///< how operations are found by name
-    WorkerOptions worker;                   ///< for isolated operations
+    std::string author;                             ///< of the edits; empty: the user's login name
+    OperationLookup find = find_operation;          ///< how operations are found by name
+    WorkerOptions worker;                           ///< for isolated operations
+    std::size_t embed_limit = kEmbeddedImageBytes;  ///< [bytes] see there
     std::size_t scene_bytes = std::size_t{768}
                               << 20;  ///< scenes held in memory; others are re-read
 };

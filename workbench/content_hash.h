@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace vesselbench {
+
+/// SHA-256 of what is added, piece by piece.
+class ContentHash {
+public:
+    ContentHash();
+    ~ContentHash();
+    ContentHash(const ContentHash&) = delete;
+    ContentHash& operator=(const ContentHash&) = delete;
+
+    void add(std::span<const std::byte> bytes);
+
+    /// The digest in 64 hexadecimal digits; nothing may be added afterwards.
+    [[nodiscard]] std::string hex();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// SHA-256 of a file's content; of a folder: of the digests of its regular files, in the order of
+/// their names. \throw IoError if it cannot be read
+[[nodiscard]] std::string hash_of_file(const std::filesystem::path& path);
+
+}  // namespace vesselbench

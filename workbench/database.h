@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace vesselbench {
+
+/// A prepared SQL statement; parameters and columns count from 0. Texts and blobs that are bound
+/// must live until the last step().
+class Statement {
+public:
+    Statement(sqlite3* database, const std::string& name, const std::string& sql);
+
+    Statement& bind(int parameter, std::int64_t number);
+    Statement& bind(int parameter, double number);
+    Statement& bind(int parameter, const std::string& text);
+    Statement& bind(int parameter, std::span<const std::byte> blob);
+
+    /// To the next row. \return false behind the last one
+    bool step();
+
+    [[nodiscard]] bool is_null(int column) const;
+    [[nodiscard]] std::int64_t integer(int column) const;
+    [[nodiscard]] double real(int column) const;
+    [[nodiscard]] std::string text(int column) const;
+    /// Valid until the next step().
+    [[nodiscard]] std::span<const std::byte> blob(int column) const;
+
+private:
+    struct Finalize {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+
+    std::string name_;
+    sqlite3* database_ = nullptr;
+    std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+enum class OpenMode {
+    Create,     ///< a new file
+    Write,      ///< reads and writes
+    Read,       ///< beside a writer
+    Frozen,     ///< a file that nobody can change, in a folder that cannot be written
+    Temporary,  ///< no name; gone when it is closed
+};
+
+/// An SQLite connection. Failures throw IoError; what is no database or is damaged, InvalidInput;
+/// both name the file without its folder.
+class Database {
+public:
+    Database(const std::filesystem::path& file, OpenMode mode);
+
+    [[nodiscard]] Statement prepare(const std::string& sql) const;
+    void run(const std::string& sql) const;
+
+    /// The first column of the first row, a whole number.
+    [[nodiscard]] std::int64_t number(const std::string& sql) const;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    struct Close {
+        void operator()(sqlite3* database) const;
+    };
+
+    std::string name_;
+    std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// All or nothing: rolled back unless commit() was reached.
+class Transaction {
+public:
+    explicit Transaction(const Database& database);
+    ~Transaction();
+    Transaction(const Transaction&) = delete;
+    Transaction& operator=(const Transaction&) = delete;
+
+    void commit();
+
+private:
+    const Database& database_;
+    bool open_ = true;
+};
+
+}  // namespace vesselbench
