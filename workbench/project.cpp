@@ -252,9 +252,12 @@ SceneRow store_scene(PartStore& store, const Scene& scene, const Scene* input) {
     return row;
 }
 
+/// \throw IoError if that cannot be told
 bool missing(const std::filesystem::path& path) {
     std::error_code error;
-    return !std::filesystem::exists(path, error);
+    const bool there = std::filesystem::exists(path, error);
+    if (error) throw IoError("cannot reach " + path.filename().string() + ": " + error.message());
+    return !there;
 }
 
 /// A name beside the file under which it is written before it is renamed.

@@ -1,0 +1,332 @@
+#include "workbench/session.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "tests/support/shapes.h"
+#include "tests/workbench/test_operations.h"
+
+using namespace vesselbench;
+
+namespace {
+
+const Vec3 kTop(1.0, 2.0, 10.0 + 1.0 / 3.0);  // of make-sphere's default sphere
+
+SessionOptions options() {
+    SessionOptions made;
+    made.author = "Ada";
+    made.find = test::find_test_operation;
+    made.worker = test::test_worker();
+    return made;
+}
+
+Session sphere_session() {
+    Session session = Session::unsaved(options());
+    session.apply("make-sphere", {});
+    return session;
+}
+
+Arguments bump_at(const Vec3& at, double height) {
+    return {{"at", at}, {"reach", 4.0}, {"height", height}};
+}
+
+double top_of(const Scene& scene) {
+    double top = -1e9;
+    for (const Vec3& p : surface_of(scene).points()) top = std::max(top, p.z());
+    return top;
+}
+
+std::vector<EditStatus> statuses(const Session& session) {
+    std::vector<EditStatus> all;
+    for (const auto& line : session.log()) all.push_back(line.status);
+    return all;
+}
+
+constexpr auto kDone = EditStatus::Done;
+constexpr auto kPending = EditStatus::Pending;
+constexpr auto kStale = EditStatus::Stale;
+
+}  // namespace
+
+SCENARIO("The log tells of each edit what it was and what it did", "[workbench][session]") {
+    Session session = sphere_session();
+    EditOptions how;
+    how.note = "the bulge is real";
+    const LogEntry entry = session.apply("bump", {{"at", kTop}, {"reach", 4.0}}, how);
+    CHECK(entry.edit.author == "Ada");
+    CHECK(entry.edit.note == "the bulge is real");
+    CHECK(entry.edit.time.size() == 20);
+    CHECK(entry.edit.given.has("at"));
+    CHECK_FALSE(entry.edit.given.has("height"));
+    REQUIRE(entry.result);
+    CHECK(entry.result->resolved.has("height"));
+    CHECK(entry.result->device == "cpu");
+    CHECK_FALSE(entry.result->program_version.empty());
+    const SurfaceChange& change = entry.result->change;
+    CHECK(change.triangles_before == 320);
+    CHECK(change.triangles_after == 320);
+    CHECK(change.moved_vertices > 0);
+    CHECK(change.largest_deviation.value() == Approx(entry.result->resolved.real("height")));
+    CHECK(change.volume_after.value() > change.volume_before.value());
+    const auto log = session.log();
+    REQUIRE(log.size() == 2);
+    CHECK(log[1].edit == entry.edit);
+    CHECK(log[1].result->change == change);
+    CHECK(log[1].result->report == entry.result->report);
+}
+
+SCENARIO("Undo and redo walk the states", "[workbench][session]") {
+    Session session = sphere_session();
+    const double before = top_of(session.scene());
+    session.apply("bump", bump_at(kTop, 0.5));
+    session.undo();
+    CHECK(top_of(session.scene()) == before);
+    session.redo();
+    CHECK(top_of(session.scene()) == before + 0.5);
+    session.undo(1);
+    CHECK_FALSE(session.scene().surface);
+    session.redo(2);
+    CHECK(top_of(session.scene()) == before + 0.5);
+    CHECK_THROWS_AS(session.redo(), UsageError);
+}
+
+SCENARIO("Changing an earlier edit replays the later ones", "[workbench][session]") {
+    Session session = sphere_session();
+    const double height =
+        session.apply("bump", {{"at", kTop}, {"reach", 4.0}}).result->resolved.real("height");
+    session.apply("scale", {});
+    session.change_edit(1, {{"radius", 10.5}});
+    CHECK(statuses(session) == std::vector{kDone, kPending, kPending});
+    const double top = top_of(session.scene());
+    THEN("with what they had decided") {
+        CHECK(session.log()[1].result->resolved.real("height") == height);
+        CHECK(top == 2.0 * (top_of(session.scene_after(1)) + height));
+    }
+    CHECK(statuses(session) == std::vector{kDone, kDone, kDone});
+    CHECK(session.log()[0].edit.edit.revision == 2);
+    THEN("and replay agrees") {
+        for (const auto& entry : session.replay()) {
+            CHECK(entry.replayed);
+            CHECK(entry.differences.empty());
+        }
+    }
+}
+
+SCENARIO("An edit that no longer applies becomes stale, and says why", "[workbench][session]") {
+    Session session = sphere_session();
+    session.apply("bump", bump_at(kTop, 0.5));
+    EditOptions smoothing;
+    smoothing.step = Step::Smoothing;
+    session.apply("bump", {{"at", Vec3(1, 2, 0)}, {"reach", 100.0}, {"height", 1.0}}, smoothing);
+    session.change_edit(1, {{"radius", 3.0}});
+    const Scene scene = session.scene();
+    CHECK(statuses(session) == std::vector{kDone, kStale, kDone});
+    CHECK(session.log()[1].reason == "no vertex lies within reach of the place");
+    CHECK(top_of(scene) == Approx(top_of(session.scene_after(1)) + 1.0));
+    THEN("it comes back with the old first edit") {
+        session.undo();
+        CHECK(statuses(session) == std::vector{kDone, kDone, kDone});
+    }
+    THEN("it can be mended by a change") {
+        session.change_edit(2, bump_at(Vec3(1.0, 2.0, 3.0), 0.1));
+        CHECK(statuses(session) == std::vector{kDone, kDone, kPending});
+    }
+}
+
+SCENARIO("An edit of an earlier step goes before the later ones", "[workbench][session]") {
+    Session session = sphere_session();
+    session.apply("scale", {});
+    session.apply("bump", bump_at(kTop, 0.5));
+    CHECK(session.log()[1].edit.operation == "bump");
+    CHECK(statuses(session) == std::vector{kDone, kDone, kPending});
+    CHECK(top_of(session.scene()) == 2.0 * top_of(session.scene_after(3)));
+}
+
+SCENARIO("Variants share the trunk only", "[workbench][session]") {
+    Session session = sphere_session();
+    const double top = top_of(session.scene());
+    EditOptions print;
+    print.variant = "rp";
+    session.apply("scale", {{"factor", 3.0}}, print);
+    session.apply("scale", {});
+    CHECK(top_of(session.scene("cfd")) == 2.0 * top);
+    CHECK(top_of(session.scene("rp")) == 3.0 * top);
+    CHECK(top_of(session.scene("none yet")) == top);
+}
+
+SCENARIO("What cannot be done leaves the session as it was", "[workbench][session]") {
+    Session session = sphere_session();
+    const StateId state = session.history().current();
+    CHECK_THROWS_AS(session.apply("no-such-thing", {}), UsageError);
+    CHECK_THROWS_AS(session.apply("bump", {{"where", kTop}}), UsageError);
+    CHECK_THROWS_AS(session.apply("bump", bump_at(Vec3(99, 0, 0), 1.0)), AlgorithmFailure);
+    CHECK_THROWS_AS(session.apply("crash", {}), AlgorithmFailure);
+    CHECK_THROWS_AS(session.change_edit(7, {}), UsageError);
+    CHECK_THROWS_AS(session.change_edit(1, {{"levels", 0.5}}), UsageError);
+    CHECK_THROWS_AS(session.remove_edit(2), UsageError);
+    EditOptions wrong_step;
+    wrong_step.step = Step::Product;
+    CHECK_THROWS_AS(session.apply("bump", bump_at(kTop, 1.0), wrong_step), UsageError);
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK_THROWS_AS(session.apply("bump", bump_at(kTop, 1.0), {}, Progress({}, stop.get_token())),
+                    Cancelled);
+    CHECK(session.history().current() == state);
+    CHECK(session.history().results().size() == 1);
+    CHECK(session.log().size() == 1);
+}
+
+SCENARIO("A project holds the whole session", "[workbench][session]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    std::vector<LogEntry> log;
+    Positions points;
+    {
+        Session session = Session::create(file, options());
+        session.apply("make-sphere", {});
+        session.apply("bump", bump_at(kTop, 0.5));
+        session.apply("far-bump", bump_at(kTop, 0.25));
+        session.apply("flatten", {});
+        session.change_edit(2, bump_at(kTop, 0.75));
+        points = surface_of(session.scene()).points();
+        session.undo();
+        log = session.log();
+        CHECK_THROWS_AS(Session::create(file, options()), IoError);
+    }
+    CHECK_FALSE(std::filesystem::exists(file + "-lock"));
+    CHECK_FALSE(std::filesystem::exists(file + "-wal"));
+    Session session = Session::open(file, options());
+    CHECK(session.read_only_reason().empty());
+    const auto again = session.log();
+    REQUIRE(again.size() == log.size());
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        CHECK(again[i].edit == log[i].edit);
+        CHECK(again[i].result->resolved == log[i].result->resolved);
+        CHECK(again[i].result->change == log[i].result->change);
+    }
+    session.redo();
+    const Scene scene = session.scene();
+    CHECK(surface_of(scene).points() == points);
+    CHECK(scene.surface->patches.size() == 2);
+    CHECK(scene.surface->attributes.contains("weight"));
+    CHECK(scene.volume_mesh->tetrahedra.size() == 1);
+    CHECK(scene.neighbours.contains("bone"));
+    THEN("states that differ in shape only share their topology in memory, read back too") {
+        CHECK(session.scene_after(1).surface->topology == scene.surface->topology);
+    }
+    THEN("replay finds no difference") {
+        const auto replayed = session.replay();
+        CHECK(replayed.size() == 4);
+        for (const auto& entry : replayed) {
+            CHECK(entry.replayed);
+            CHECK(entry.differences.empty());
+        }
+    }
+    THEN("a copy is a project of its own") {
+        const std::string copy = file + ".copy";
+        session.save_as(copy);
+        CHECK_THROWS_AS(session.save_as(copy), IoError);
+        session.apply("bump", bump_at(kTop, 1.0));
+        Session other = Session::open(copy, options());
+        CHECK(other.log().size() == 4);
+        CHECK(surface_of(other.scene()).points() == points);
+    }
+}
+
+SCENARIO("Replay finds what is not reproduced", "[workbench][session]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    {
+        Session session = Session::create(file, options());
+        session.apply("make-sphere", {});
+        session.apply("bump", bump_at(kTop, 0.5));
+    }
+    SessionOptions other = options();
+    other.find = [](const std::string& name) -> const Operation& {
+        static Operation changed = test::find_test_operation("bump");
+        changed.run = [](const Scene& scene, const Arguments& arguments, Progress& progress) {
+            Outcome outcome = test::find_test_operation("bump").run(scene, arguments, progress);
+            Positions points = outcome.scene.surface->points();
+            points.back().x() = std::nextafter(points.back().x(), 100.0);
+            outcome.scene.surface = outcome.scene.surface->with_positions(std::move(points));
+            return outcome;
+        };
+        return name == "bump" ? changed : test::find_test_operation(name);
+    };
+    Session session = Session::open(file, other);
+    const auto replayed = session.replay();
+    CHECK(replayed[0].differences.empty());
+    CHECK(replayed[1].differences == std::vector<std::string>{"positions"});
+}
+
+SCENARIO("Source files are embedded, their folders are not", "[workbench][session]") {
+    const std::string folder = test::temporary_folder();
+    std::filesystem::create_directory(folder + "/patient-name");
+    const std::string source = folder + "/patient-name/radius.txt";
+    std::ofstream(source) << 7.5;
+    const std::string file = folder + "/case.vbench";
+    {
+        Session session = Session::create(file, options());
+        session.apply("load-sphere", {{"file", source}});
+        CHECK(session.log()[0].edit.given.text("file") == "radius.txt");
+        CHECK(session.replay()[0].replayed == false);
+    }
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+    CHECK(bytes.find("patient-name") == std::string::npos);
+    Session session = Session::open(file, options());
+    THEN("without the file the scene is there, and replay checks what is stored") {
+        std::filesystem::remove(source);
+        CHECK(top_of(session.scene()) == Approx(7.5));
+        const auto replayed = session.replay();
+        CHECK_FALSE(replayed[0].replayed);
+        CHECK(replayed[0].differences.empty());
+        CHECK(replayed[0].note.find("radius.txt") != std::string::npos);
+        CHECK_THROWS_AS(session.change_edit(1, session.log()[0].edit.given), IoError);
+    }
+    THEN("beside the project it is found again, if it is the same") {
+        std::filesystem::copy(source, folder + "/radius.txt");
+        CHECK(session.replay()[0].replayed);
+        session.change_edit(1, session.log()[0].edit.given);
+        std::ofstream(folder + "/radius.txt") << 8.5;
+        CHECK_FALSE(session.replay()[0].replayed);
+    }
+}
+
+SCENARIO("Large images are referenced by their hash", "[workbench][session]") {
+    const std::string folder = test::temporary_folder();
+    const std::string source = folder + "/scan.txt";
+    std::ofstream(source) << 3.0;
+    SessionOptions small = options();
+    small.embed_limit = 1000;
+    const std::string file = folder + "/case.vbench";
+    std::vector<float> voxels;
+    {
+        Session session = Session::create(file, small);
+        session.apply("make-image", {{"file", source}, {"edge", std::int64_t{40}}});
+        voxels = *session.scene().image->voxels;
+    }
+    CHECK(std::filesystem::file_size(file) < 200000);
+    Session session = Session::open(file, small);
+    CHECK(*session.scene().image->voxels == voxels);
+    CHECK(session.replay()[0].differences.empty());
+    THEN("without the file the error names it") {
+        Session other = Session::open(file, small);
+        std::ofstream(source) << 4.0;
+        CHECK_THROWS_AS(other.scene(), IoError);
+    }
+}
+
+SCENARIO("Memory is bounded, and what was dropped is read again", "[workbench][session]") {
+    SessionOptions tight = options();
+    tight.scene_bytes = 200000;
+    Session session = Session::unsaved(tight);
+    session.apply("make-sphere", {{"levels", std::int64_t{4}}});
+    for (int i = 0; i < 20; ++i) session.apply("bump", bump_at(kTop, 0.1));
+    const double top = top_of(session.scene());
+    for (int i = 0; i < 20; ++i) session.undo();
+    CHECK(top_of(session.scene()) == Approx(top - 2.0));
+    for (int i = 0; i < 20; ++i) session.redo();
+    CHECK(top_of(session.scene()) == top);
+}

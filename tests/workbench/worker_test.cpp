@@ -1,0 +1,110 @@
+#include "workbench/worker.h"
+
+#include <thread>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "tests/support/shapes.h"
+#include "tests/workbench/test_operations.h"
+#include "workbench/run_operation.h"
+
+using namespace vesselbench;
+using namespace std::chrono_literals;
+
+namespace {
+
+Scene sphere() {
+    Scene scene;
+    scene.surface = test::icosphere(10.0, 3);
+    return scene;
+}
+
+Outcome run(const std::string& name, const Scene& scene, const Arguments& given,
+            WorkerOptions worker = test::test_worker(), Progress progress = {}) {
+    return run_operation(test::find_test_operation(name), scene, given, progress, worker);
+}
+
+std::string text_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return {};
+}
+
+const Arguments kTop = {{"at", Vec3(0.0, 0.0, 10.0)}, {"reach", 3.0}};
+
+}  // namespace
+
+SCENARIO("An isolated operation gives what it gives in process", "[workbench][worker]") {
+    const Scene scene = sphere();
+    const Outcome near = run("bump", scene, kTop);
+    const Outcome far = run("far-bump", scene, kTop);
+    CHECK(far.scene.surface->points() == near.scene.surface->points());
+    CHECK(far.resolved == near.resolved);
+    CHECK(far.resolved.has("height"));
+    CHECK(far.report->dump() == near.report->dump());
+    THEN("what it left alone is shared with its input") {
+        CHECK(far.scene.surface->topology == scene.surface->topology);
+        CHECK(far.scene.surface->positions != scene.surface->positions);
+    }
+}
+
+SCENARIO("Errors keep their class across the processes", "[workbench][worker]") {
+    const auto refuse = [](const char* as) { return run("refuse", {}, {{"as", std::string(as)}}); };
+    CHECK_THROWS_AS(refuse("usage"), UsageError);
+    CHECK_THROWS_AS(refuse("input"), InvalidInput);
+    CHECK_THROWS_AS(refuse("io"), IoError);
+    CHECK_THROWS_AS(refuse("algorithm"), AlgorithmFailure);
+    CHECK(text_of([&] { (void)refuse("io"); }) == "refused as io");
+    CHECK_THROWS_AS(run("refuse", {}, {}), UsageError);
+}
+
+SCENARIO("The session outlives what its workers do", "[workbench][worker]") {
+    CHECK_THROWS_AS(run("crash", sphere(), {}), AlgorithmFailure);
+    THEN("a crash while reading a file is the file's fault") {
+        const Arguments given = {{"file", std::string("/somewhere/bad.stl")}};
+        CHECK_THROWS_AS(run("crash-on-file", {}, given), InvalidInput);
+        const std::string text = text_of([&] { (void)run("crash-on-file", {}, given); });
+        CHECK(text.find("bad.stl") != std::string::npos);
+        CHECK(text.find("somewhere") == std::string::npos);
+    }
+    THEN("one that takes too long is stopped") {
+        WorkerOptions worker = test::test_worker();
+        worker.time_limit = 1s;
+        CHECK_THROWS_AS(run("hang", {}, {}, worker), AlgorithmFailure);
+    }
+    THEN("one that wants too much memory is refused it") {
+        WorkerOptions worker = test::test_worker();
+        worker.memory_limit = std::size_t{2} << 30;
+        CHECK_THROWS_AS(run("greedy", {}, {}, worker), AlgorithmFailure);
+        CHECK(text_of([&] { (void)run("greedy", {}, {}, worker); }).find("2 GiB") !=
+              std::string::npos);
+    }
+    THEN("a worker that cannot be started is told") {
+        WorkerOptions worker;
+        worker.command = {"/no/such/program"};
+        CHECK_THROWS_AS(run("hang", {}, {}, worker), IoError);
+        worker.command = {"/bin/false"};
+        CHECK_THROWS_AS(run("hang", {}, {}, worker), AlgorithmFailure);
+    }
+}
+
+SCENARIO("Cancelling kills the worker at once", "[workbench][worker]") {
+    std::stop_source stop;
+    double seen = -1.0;
+    const Progress progress(
+        [&](double fraction, std::string_view what) {
+            seen = fraction;
+            CHECK(what == "waiting");
+            if (fraction > 0.0) stop.request_stop();
+        },
+        stop.get_token());
+    const auto start = std::chrono::steady_clock::now();
+    CHECK_THROWS_AS(run("hang", {}, {}, test::test_worker(), progress), Cancelled);
+    CHECK(seen >= 0.0);
+    CHECK(std::chrono::steady_clock::now() - start < 20s);
+}
