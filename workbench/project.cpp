@@ -17,6 +17,7 @@
 #include "workbench/part_store.h"
 #include "workbench/serialization.h"
 #include "workbench/stored_text.h"
+#include "workbench/version.h"
 
 namespace vesselbench {
 
@@ -47,7 +48,9 @@ void make_tables(const Database& database) {
         " hash TEXT NOT NULL, place TEXT NOT NULL, PRIMARY KEY(edit, revision, parameter))"
         " WITHOUT ROWID;"
         "INSERT INTO states VALUES(0, 0, 0, 0, 0, 0);"
-        "INSERT INTO meta VALUES('current', 0), ('written by', '" VESSELBENCH_VERSION "');");
+        "INSERT INTO meta VALUES('current', 0);");
+    const std::string program = version();
+    database.prepare("INSERT INTO meta VALUES('written by', ?)").bind(0, program).step();
     PartStore::make_table(database);
     database.run("PRAGMA application_id = " + std::to_string(kApplication));
     database.run("PRAGMA user_version = " + std::to_string(kVersion));

@@ -14,6 +14,7 @@
 #include "workbench/scene_cache.h"
 #include "workbench/source_files.h"
 #include "workbench/surface_change.h"
+#include "workbench/version.h"
 
 namespace vesselbench {
 
@@ -138,7 +139,7 @@ struct Session::Parts {
 
     static void stamp(ResultRecord& record) {
         record.time = utc_now();
-        record.program_version = VESSELBENCH_VERSION;
+        record.program_version = version();
     }
 
     /// Writes the difference between the history and `next`, then makes it the history.
