@@ -62,13 +62,13 @@ std::string writer_of(const Database& database) {
 }
 
 void check_version(const Database& database) {
-    const auto version = database.number("PRAGMA user_version");
-    if (database.number("PRAGMA application_id") != kApplication || version < 1)
+    const auto stored = database.number("PRAGMA user_version");
+    if (database.number("PRAGMA application_id") != kApplication || stored < 1)
         throw InvalidInput(database.name() + " is not a vesselbench project");
-    if (version > kVersion)
-        throw InvalidInput(database.name() + " is a project of version " + std::to_string(version) +
+    if (stored > kVersion)
+        throw InvalidInput(database.name() + " is a project of version " + std::to_string(stored) +
                            ", written by vesselbench " + writer_of(database) +
-                           "; this vesselbench, " VESSELBENCH_VERSION ", reads up to version " +
+                           "; this vesselbench, " + version() + ", reads up to version " +
                            std::to_string(kVersion) + ": use the newer program");
 }
 
