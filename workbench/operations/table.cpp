@@ -11,6 +11,7 @@ std::span<const Operation> operation_table() {
         keep_component_operation(),  repair_operation(),          fill_hole_operation(),
         extrude_opening_operation(), smooth_operation(),          fill_hole_operation(),
         extrude_opening_operation(), smooth_operation(),          remesh_operation(),
+        extrude_opening_operation(), smooth_operation(),
     };
     return table;
 }
