@@ -1,6 +1,7 @@
 #include "meshing/tetrahedra/optimise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -118,13 +119,9 @@ class RingTriangulation {
 public:
     RingTriangulation(const TetStore& store, VertexId a, VertexId b,
                       const std::vector<VertexId>& ring)
-        : p_(store.points),
-          a_(a),
-          b_(b),
-          ring_(ring),
-          cost_(ring.size() * ring.size(), 0.0),
-          split_(cost_.size(), 0) {
+        : p_(store.points), a_(a), b_(b), ring_(ring) {
         const std::size_t n = ring.size();
+        for (std::size_t i = 0; i + 1 < n; ++i) cost_[at(i, i + 1)] = 0.0;
         for (std::size_t span = 2; span < n; ++span)
             for (std::size_t i = 0; i + span < n; ++i) solve(i, i + span);
     }
@@ -151,7 +148,7 @@ private:
             const double total = rest + energy(x, y, z, p_[b_]) + energy(x, z, y, p_[a_]);
             if (total < best) {
                 best = total;
-                split_[at(i, j)] = k;
+                split_[at(i, j)] = static_cast<std::uint8_t>(k);
             }
         }
         cost_[at(i, j)] = best;
@@ -169,17 +166,19 @@ private:
     const Positions& p_;
     VertexId a_, b_;
     const std::vector<VertexId>& ring_;
-    std::vector<double> cost_;
-    std::vector<std::size_t> split_;
+    std::array<double, TetStore::kLargestRing * TetStore::kLargestRing> cost_;
+    std::array<std::uint8_t, TetStore::kLargestRing * TetStore::kLargestRing> split_;
 };
 
 bool remove_edge(TetStore& store, VertexId a, VertexId b, std::size_t largest_ring) {
-    const std::vector<VertexId> ring = store.ring(a, b, largest_ring);
-    if (ring.empty()) return false;
-    const RingTriangulation triangulation(store, a, b, ring);
-    const std::vector<CellId> old = store.cells_at(a, b);
-    if (triangulation.cost() >= energy(store, old) * (1.0 - kGain)) return false;
-    store.replace(old, triangulation.cells());
+    thread_local TetStore::Ring ring;
+    if (!store.find_ring(a, b, largest_ring, ring)) return false;
+    const double limit = energy(store, ring.cells) * (1.0 - kGain);
+    // Each of the 2 (n - 2) new cells has an energy of 1 at least.
+    if (2.0 * static_cast<double>(ring.vertices.size() - 2) >= limit) return false;
+    const RingTriangulation triangulation(store, a, b, ring.vertices);
+    if (triangulation.cost() >= limit) return false;
+    store.replace(ring.cells, triangulation.cells());
     return true;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
+#include <numeric>
 
 #include "geometry/errors.h"
 
@@ -13,26 +13,55 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-struct RawFace {
-    Triangle key;      // corners, ascending
-    Triangle corners;  // outward of its cell
-    std::uint32_t cell;
+constexpr std::uint32_t kOutside = MeshFace::kOutside;
+
+struct Side {
+    VertexId middle, high;    // the corners beside the lowest one, ascending
+    std::uint32_t cell_face;  // 4 * cell + number of the face
 };
 
-std::vector<RawFace> raw_faces(const VolumeMesh& mesh) {
-    std::vector<RawFace> faces;
-    faces.reserve(4 * mesh.tetrahedra.size());
-    for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell) {
-        for (const Triangle& corners : faces_of(mesh.tetrahedra[cell])) {
-            RawFace face{corners, corners, cell};
-            std::sort(face.key.begin(), face.key.end());
-            faces.push_back(face);
-        }
-    }
-    std::sort(faces.begin(), faces.end(), [](const RawFace& l, const RawFace& r) {
-        return std::tie(l.key, l.cell) < std::tie(r.key, r.cell);
+// The sides of all cells in buckets by their lowest corner, in the order of the cells.
+struct SideBuckets {
+    std::vector<std::uint32_t> offsets;
+    std::vector<Side> sides;
+};
+
+SideBuckets side_buckets(const VolumeMesh& mesh) {
+    SideBuckets buckets;
+    buckets.offsets.assign(mesh.points.size() + 1, 0);
+    const auto for_each_side = [&](const auto& use) {
+        for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell)
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                Triangle key = faces_of(mesh.tetrahedra[cell])[k];
+                std::sort(key.begin(), key.end());
+                use(key, 4 * cell + k);
+            }
+    };
+    for_each_side([&](const Triangle& key, std::uint32_t) { ++buckets.offsets[key[0] + 1]; });
+    std::partial_sum(buckets.offsets.begin(), buckets.offsets.end(), buckets.offsets.begin());
+    std::vector<std::uint32_t> next = buckets.offsets;
+    buckets.sides.resize(4 * mesh.tetrahedra.size());
+    for_each_side([&](const Triangle& key, std::uint32_t cell_face) {
+        buckets.sides[next[key[0]]++] = {key[1], key[2], cell_face};
     });
-    return faces;
+    return buckets;
+}
+
+// Cell behind each of the 4 * #cells sides, or kOutside.
+std::vector<std::uint32_t> cells_behind(const VolumeMesh& mesh) {
+    const SideBuckets buckets = side_buckets(mesh);
+    std::vector<std::uint32_t> behind(4 * mesh.tetrahedra.size(), kOutside);
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        for (std::uint32_t i = buckets.offsets[v]; i < buckets.offsets[v + 1]; ++i)
+            for (std::uint32_t j = i + 1; j < buckets.offsets[v + 1]; ++j) {
+                const Side &a = buckets.sides[i], &b = buckets.sides[j];
+                if (a.middle != b.middle || a.high != b.high) continue;
+                if (behind[a.cell_face] != kOutside || behind[b.cell_face] != kOutside)
+                    throw InvalidInput("volume mesh: a face belongs to three cells");
+                behind[a.cell_face] = b.cell_face / 4;
+                behind[b.cell_face] = a.cell_face / 4;
+            }
+    return behind;
 }
 
 using PatchOfFace = std::vector<std::pair<Triangle, std::uint16_t>>;
@@ -48,7 +77,8 @@ PatchOfFace sorted_boundary(const VolumeMesh& mesh) {
     return patches;
 }
 
-std::uint16_t patch_of(const PatchOfFace& patches, const Triangle& key) {
+std::uint16_t patch_of(const PatchOfFace& patches, Triangle key) {
+    std::sort(key.begin(), key.end());
     const auto found =
         std::lower_bound(patches.begin(), patches.end(), std::pair{key, std::uint16_t{0}});
     if (found == patches.end() || found->first != key)
@@ -179,28 +209,27 @@ std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& 
 }
 
 std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh) {
-    const std::vector<RawFace> raw = raw_faces(mesh);
+    const std::vector<std::uint32_t> behind = cells_behind(mesh);
     const PatchOfFace patches = sorted_boundary(mesh);
-    std::vector<MeshFace> faces;
-    faces.reserve(raw.size() / 2 + mesh.boundary.size());
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-        MeshFace face{.corners = raw[i].corners, .owner = raw[i].cell};
-        if (i + 1 < raw.size() && raw[i + 1].key == raw[i].key) {
-            if (i + 2 < raw.size() && raw[i + 2].key == raw[i].key)
-                throw InvalidInput("volume mesh: a face belongs to three cells");
-            face.neighbour = raw[++i].cell;
-        } else {
-            face.patch = patch_of(patches, raw[i].key);
+    std::vector<MeshFace> faces, outer;
+    faces.reserve(2 * mesh.tetrahedra.size() + mesh.boundary.size());
+    for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell) {
+        const auto corners = faces_of(mesh.tetrahedra[cell]);
+        const std::size_t first = faces.size();
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const std::uint32_t other = behind[4 * cell + k];
+            if (other == kOutside)
+                outer.push_back(
+                    {.corners = corners[k], .owner = cell, .patch = patch_of(patches, corners[k])});
+            else if (cell < other)
+                faces.push_back({.corners = corners[k], .owner = cell, .neighbour = other});
         }
-        faces.push_back(face);
+        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(first), faces.end(),
+                  [](const auto& l, const auto& r) { return l.neighbour < r.neighbour; });
     }
-    const auto rank = [](const MeshFace& f) {
-        const bool outer = f.neighbour == MeshFace::kOutside;
-        return std::tuple(outer, outer ? f.patch : std::uint16_t{0}, f.owner, f.neighbour,
-                          f.corners);
-    };
-    std::sort(faces.begin(), faces.end(),
-              [&](const MeshFace& l, const MeshFace& r) { return rank(l) < rank(r); });
+    std::stable_sort(outer.begin(), outer.end(),
+                     [](const auto& l, const auto& r) { return l.patch < r.patch; });
+    faces.insert(faces.end(), outer.begin(), outer.end());
     return faces;
 }
 

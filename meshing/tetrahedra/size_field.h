@@ -17,22 +17,27 @@ public:
     /// \param growth largest growth of the edge length per distance [-], >= 0
     SizeField(const Surface& surface, double growth);
 
-    /// Wanted edge length at a place [mm], trilinear; beyond the grid the nearest place's.
-    [[nodiscard]] double at(const Vec3& place, double factor) const;
-
-private:
     struct Node {
         float size;      ///< smallest of (edge length + growth * distance) over all vertices [mm]
         float distance;  ///< to the surface's vertices [mm], along the grid
     };
 
+    /// The nearest grid node to a place.
+    [[nodiscard]] const Node& near(const Vec3& place) const;
+
+    /// Wanted edge length at a node [mm].
+    [[nodiscard]] static double size_of(const Node& node, double factor);
+
+    /// Wanted edge length at a place [mm], trilinear; beyond the grid the nearest place's.
+    [[nodiscard]] double at(const Vec3& place, double factor) const;
+
+private:
     [[nodiscard]] std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * count_[1] + j) * count_[0] + i;
     }
 
     void seed(const Surface& surface);
     void sweep(double growth);
-    [[nodiscard]] double size_of(const Node& node, double factor) const;
 
     Vec3 origin_ = Vec3::Zero();
     double spacing_ = 1.0;

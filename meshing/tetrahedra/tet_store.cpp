@@ -32,27 +32,25 @@ TetStore::TetStore(const VolumeMesh& mesh)
         for (const VertexId v : triangle) on_boundary_[v] = 1;
 }
 
-std::vector<TetStore::CellId> TetStore::cells_at(VertexId a, VertexId b) const {
-    std::vector<CellId> found;
+bool TetStore::find_ring(VertexId a, VertexId b, std::size_t largest, Ring& ring) const {
+    ring.cells.clear();
+    ring.vertices.clear();
     for (const CellId cell : stars_[a])
-        if (has(cells_[cell], b)) found.push_back(cell);
-    return found;
-}
-
-std::vector<VertexId> TetStore::ring(VertexId a, VertexId b, std::size_t largest) const {
-    std::vector<std::array<VertexId, 2>> links;
-    for (const CellId cell : stars_[a])
-        if (has(cells_[cell], b)) links.push_back(others(cells_[cell], a, b));
-    if (links.size() < 3 || links.size() > largest) return {};
-    std::vector<VertexId> around = {links[0][0]};
-    for (VertexId next = links[0][1]; next != around[0];) {
-        around.push_back(next);
+        if (has(cells_[cell], b)) ring.cells.push_back(cell);
+    const std::size_t count = ring.cells.size();
+    if (count < 3 || count > largest || count > kLargestRing) return false;
+    std::array<std::array<VertexId, 2>, kLargestRing> links;
+    for (std::size_t i = 0; i < count; ++i) links[i] = others(cells_[ring.cells[i]], a, b);
+    ring.vertices.push_back(links[0][0]);
+    for (VertexId next = links[0][1]; next != ring.vertices[0];) {
+        ring.vertices.push_back(next);
+        const auto end = links.begin() + static_cast<std::ptrdiff_t>(count);
         const auto link =
-            std::find_if(links.begin(), links.end(), [&](const auto& l) { return l[0] == next; });
-        if (link == links.end() || around.size() > links.size()) return {};
+            std::find_if(links.begin(), end, [&](const auto& l) { return l[0] == next; });
+        if (link == end || ring.vertices.size() > count) return false;
         next = (*link)[1];
     }
-    return around.size() == links.size() ? around : std::vector<VertexId>{};
+    return ring.vertices.size() == count;
 }
 
 std::optional<TetStore::CellId> TetStore::behind(CellId cell, int corner) const {

@@ -15,6 +15,8 @@ class TetStore {
 public:
     using CellId = std::uint32_t;
 
+    static constexpr std::size_t kLargestRing = 12;  ///< of find_ring
+
     explicit TetStore(const VolumeMesh& mesh);
 
     [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
@@ -27,12 +29,16 @@ public:
 
     [[nodiscard]] bool on_boundary(VertexId v) const { return on_boundary_[v] != 0; }
 
-    /// The vertices around the edge a-b, so that (a, b, r[i], r[i + 1]) is a positive cell; empty
-    /// if the edge lies on the boundary or there are more than `largest` of them.
-    [[nodiscard]] std::vector<VertexId> ring(VertexId a, VertexId b, std::size_t largest) const;
+    /// The cells around an edge a-b and the vertices between them, so that (a, b, r[i], r[i + 1])
+    /// is a positive cell.
+    struct Ring {
+        std::vector<CellId> cells;
+        std::vector<VertexId> vertices;
+    };
 
-    /// The cells at the edge a-b.
-    [[nodiscard]] std::vector<CellId> cells_at(VertexId a, VertexId b) const;
+    /// \return false if the edge lies on the boundary or has more than `largest` or kLargestRing
+    /// cells
+    [[nodiscard]] bool find_ring(VertexId a, VertexId b, std::size_t largest, Ring& ring) const;
 
     /// The cell behind the face opposite to corner `corner`, unless that is at the boundary.
     [[nodiscard]] std::optional<CellId> behind(CellId cell, int corner) const;

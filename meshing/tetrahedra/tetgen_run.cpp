@@ -1,8 +1,7 @@
 #include "meshing/tetrahedra/tetgen_run.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
+#include <optional>
 
 #include <tetgen.h>
 
@@ -76,26 +75,29 @@ std::vector<Tetrahedron> tetrahedra_of(const tetgenio& output, const Positions& 
     return tetrahedra;
 }
 
-// Outward faces of the tetrahedra that no second one shares, by their sorted corners.
-std::map<Triangle, Triangle> outer_faces(const std::vector<Tetrahedron>& tetrahedra) {
-    std::vector<std::pair<Triangle, Triangle>> faces;
-    faces.reserve(4 * tetrahedra.size());
+// The sides, outward, of all tetrahedra that consist of boundary vertices only, by their corners.
+std::vector<std::pair<Triangle, Triangle>> sides_on(const std::vector<std::uint8_t>& on_boundary,
+                                                    const std::vector<Tetrahedron>& tetrahedra) {
+    std::vector<std::pair<Triangle, Triangle>> sides;
     for (const Tetrahedron& tet : tetrahedra)
-        for (const Triangle& face : faces_of(tet)) {
-            Triangle key = face;
+        for (const Triangle& side : faces_of(tet)) {
+            if (!(on_boundary[side[0]] && on_boundary[side[1]] && on_boundary[side[2]])) continue;
+            Triangle key = side;
             std::sort(key.begin(), key.end());
-            faces.emplace_back(key, face);
+            sides.emplace_back(key, side);
         }
-    std::sort(faces.begin(), faces.end());
-    std::map<Triangle, Triangle> outer;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const bool twice = i + 1 < faces.size() && faces[i + 1].first == faces[i].first;
-        if (twice)
-            ++i;
-        else
-            outer.insert(outer.end(), faces[i]);
-    }
-    return outer;
+    std::sort(sides.begin(), sides.end());
+    return sides;
+}
+
+// The one cell's side with these corners, outward; empty if two cells share it, or none has it.
+std::optional<Triangle> outer_side(const std::vector<std::pair<Triangle, Triangle>>& sides,
+                                   Triangle key) {
+    std::sort(key.begin(), key.end());
+    const auto first = std::lower_bound(sides.begin(), sides.end(), std::pair{key, Triangle{}});
+    if (first == sides.end() || first->first != key) return std::nullopt;
+    if (first + 1 != sides.end() && (first + 1)->first == key) return std::nullopt;
+    return first->second;
 }
 
 VolumeMesh mesh_of(const tetgenio& output, const Surface& surface) {
@@ -106,14 +108,18 @@ VolumeMesh mesh_of(const tetgenio& output, const Surface& surface) {
         mesh.points[v] =
             Vec3(output.pointlist[3 * v], output.pointlist[3 * v + 1], output.pointlist[3 * v + 2]);
     mesh.tetrahedra = tetrahedra_of(output, mesh.points);
-    const auto outer = outer_faces(mesh.tetrahedra);
-    for (int f = 0; f < output.numberoftrifaces; ++f) {
-        Triangle key;
-        for (int k = 0; k < 3; ++k) key[k] = static_cast<VertexId>(output.trifacelist[3 * f + k]);
-        std::sort(key.begin(), key.end());
-        const auto found = outer.find(key);
-        if (found == outer.end()) continue;
-        mesh.boundary.push_back(found->second);
+    std::vector<Triangle> facets(static_cast<std::size_t>(output.numberoftrifaces));
+    std::vector<std::uint8_t> on_boundary(mesh.points.size(), 0);
+    for (std::size_t f = 0; f < facets.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            facets[f][k] = static_cast<VertexId>(output.trifacelist[3 * f + k]);
+            on_boundary[facets[f][k]] = 1;
+        }
+    const auto sides = sides_on(on_boundary, mesh.tetrahedra);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const auto side = outer_side(sides, facets[f]);
+        if (!side) continue;
+        mesh.boundary.push_back(*side);
         mesh.boundary_patches.push_back(
             static_cast<std::uint16_t>(std::max(1, output.trifacemarkerlist[f]) - 1));
     }

@@ -1,6 +1,7 @@
 #include "meshing/tetrahedra/tetrahedralize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -21,7 +22,11 @@ namespace {
 // A regular tetrahedron of edge h holds 0.118 h^3. TetGen splits what is larger than the bound, so
 // that the mean lies at 0.6 of it: with 0.19 h^3 the mean edge is about h.
 constexpr double kVolumeBound = 0.19;
-constexpr double kCellsTolerance = 0.1;
+// Cells that TetGen makes in a cube of the wanted edge length, with the bound above.
+constexpr double kCellsPerCube = 9.9;
+constexpr double kCellsTolerance = 0.08;
+// Exchanges leave this part of TetGen's cells.
+constexpr double kCellsAfterExchanges = 0.945;
 constexpr double kVolumeTolerance = 1e-6;
 
 struct Rung {
@@ -112,6 +117,22 @@ std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surf
     return region_count(mesh) == 1 ? "" : "the cells form several regions";
 }
 
+// Points that fill a tetrahedron evenly, as weights of three of its corners.
+// Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018 (R3); the unit
+// cube is folded to the tetrahedron by sorting.
+Vec3 place_in_tetrahedron(int k) {
+    constexpr double g = 1.2207440846057596;
+    std::array<double, 3> t;
+    for (int i = 0; i < 3; ++i) t[i] = std::fmod(0.5 + (k + 1) / std::pow(g, i + 1), 1.0);
+    std::sort(t.begin(), t.end());
+    return {t[0], t[1] - t[0], t[2] - t[1]};
+}
+
+struct VolumeSample {
+    double volume;         // [mm^3]
+    SizeField::Node node;  // the size wanted there
+};
+
 class Mesher {
 public:
     Mesher(const Surface& surface, const TetrahedralizeParameters& parameters,
@@ -147,18 +168,24 @@ public:
         fail();
     }
 
-    // Number of cells that a factor will lead to, judged from a mesh of another one.
-    [[nodiscard]] double expected_cells(const VolumeMesh& known, double known_factor,
-                                        double factor) const {
-        double now = 0.0, then = 0.0;
-        for (const auto& [a, b, c, d] : known.tetrahedra) {
-            const auto& p = known.points;
-            const double cell = (p[b] - p[a]).cross(p[c] - p[a]).dot(p[d] - p[a]);
-            const Vec3 centre = (p[a] + p[b] + p[c] + p[d]) / 4.0;
-            now += cell / std::pow(sizes_.at(centre, known_factor), 3);
-            then += cell / std::pow(sizes_.at(centre, factor), 3);
+    // How the lumen's volume is spread over the wanted sizes: samples of a coarse filling.
+    [[nodiscard]] std::vector<VolumeSample> samples() const {
+        std::vector<VolumeSample> all;
+        const VolumeMesh coarse = run_tetgen(surface_, "pY").mesh;
+        for (const auto& [a, b, c, d] : coarse.tetrahedra) {
+            const auto& p = coarse.points;
+            const double cell = (p[b] - p[a]).cross(p[c] - p[a]).dot(p[d] - p[a]) / 6.0;
+            const double size = sizes_.at((p[a] + p[b] + p[c] + p[d]) / 4.0, 1.0);
+            const int count =
+                static_cast<int>(std::clamp(2.0 * cell / std::pow(size, 3), 4.0, 1e3));
+            for (int k = 0; k < count; ++k) {
+                const Vec3 w = place_in_tetrahedron(k);
+                const Vec3 place =
+                    p[a] + w.x() * (p[b] - p[a]) + w.y() * (p[c] - p[a]) + w.z() * (p[d] - p[a]);
+                all.push_back({cell / count, sizes_.near(place)});
+            }
         }
-        return static_cast<double>(known.tetrahedra.size()) * then / now;
+        return all;
     }
 
 private:
@@ -188,33 +215,46 @@ private:
     const Progress& progress_;
 };
 
-double factor_for(const Mesher& mesher, const VolumeMesh& known, double known_factor,
-                  double cells) {
+double expected_cells(const std::vector<VolumeSample>& samples, double factor) {
+    double cells = 0.0;
+    for (const VolumeSample& sample : samples)
+        cells += sample.volume / std::pow(SizeField::size_of(sample.node, factor), 3);
+    return kCellsPerCube * cells;
+}
+
+double factor_for(const std::vector<VolumeSample>& samples, double cells) {
     double low = 0.05, high = 20.0;  // the number of cells falls as the factor grows
-    for (int step = 0; step < 30; ++step) {
+    for (int step = 0; step < 20; ++step) {
         const double middle = std::sqrt(low * high);
-        (mesher.expected_cells(known, known_factor, middle) > cells ? low : high) = middle;
+        (expected_cells(samples, middle) > cells ? low : high) = middle;
     }
     return std::sqrt(low * high);
 }
 
 VolumeMesh mesh_of_size(Mesher& mesher, const TetrahedralizeParameters& parameters,
                         TetrahedralizeReport& report) {
-    double factor = parameters.size;
-    VolumeMesh mesh = mesher.mesh(factor);
-    const auto off = [&] {
-        return std::abs(static_cast<double>(mesh.tetrahedra.size()) / *parameters.cells - 1.0);
-    };
-    for (int trial = 0; parameters.cells && trial < 4 && off() > kCellsTolerance; ++trial) {
-        factor = factor_for(mesher, mesh, factor, *parameters.cells);
-        mesh = mesher.mesh(factor);
+    report.size = parameters.size;
+    if (!parameters.cells) return mesher.mesh(report.size);
+    const double wanted = *parameters.cells / (parameters.improve > 0 ? kCellsAfterExchanges : 1.0);
+    const auto samples = mesher.samples();
+    VolumeMesh mesh;
+    double aim = wanted;
+    for (int trial = 0; trial < 4; ++trial) {
+        report.size = factor_for(samples, aim);
+        mesh = mesher.mesh(report.size);
+        const double reached = static_cast<double>(mesh.tetrahedra.size()) / wanted;
+        if (std::abs(reached - 1.0) < kCellsTolerance) break;
+        aim /= reached;
     }
-    if (parameters.cells && off() > kCellsTolerance)
-        report.warnings.push_back("asked for " + std::to_string(std::lround(*parameters.cells)) +
-                                  " cells, reached " + std::to_string(mesh.tetrahedra.size()) +
-                                  ": the surface's edge length decides; change it with `remesh`");
-    report.size = factor;
     return mesh;
+}
+
+void warn_of_other_number(double wanted, TetrahedralizeReport& report) {
+    const auto reached = static_cast<double>(report.quality.cells);
+    if (std::abs(reached / wanted - 1.0) > 0.1)
+        report.warnings.push_back("asked for " + std::to_string(std::lround(wanted)) +
+                                  " cells, reached " + std::to_string(report.quality.cells) +
+                                  ": the surface's edge length decides; change it with `remesh`");
 }
 
 }  // namespace
@@ -245,6 +285,7 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
             "TetGen needed to divide triangles of the surface; the volume mesh's boundary is finer "
             "than the surface");
     result.report.quality = volume_quality(result.mesh);
+    if (parameters.cells) warn_of_other_number(*parameters.cells, result.report);
     return result;
 }
 
