@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/edges.h"
 #include "geometry/errors.h"
 
 namespace vesselbench {
@@ -37,70 +38,37 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Signed volume [mm^3] and area [mm^2] of a shell.
-struct Shell {
-    double volume = 0.0;
-    double area = 0.0;
-};
-
 struct Shells {
     std::vector<std::uint32_t> of_triangle;  ///< #T, numbered by first triangle
-    std::vector<Shell> shells;
+    std::vector<double> volumes;             ///< signed [mm^3]; negative: a hollow
 };
 
 Shells shells_of(const Surface& surface) {
-    Sets sets(surface.vertex_count());
-    for (const auto& [a, b, c] : surface.triangles()) {
-        sets.join(a, b);
-        sets.join(b, c);
-    }
-    const Positions& points = surface.points();
+    Components components = connected_components(*surface.topology);
     Shells found;
-    std::vector<std::uint32_t> number(surface.vertex_count(),
-                                      std::numeric_limits<std::uint32_t>::max());
-    const Vec3 origin = points.empty() ? Vec3::Zero() : points.front();
-    for (const Triangle& t : surface.triangles()) {
-        std::uint32_t& shell = number[sets.find(t[0])];
-        if (shell == std::numeric_limits<std::uint32_t>::max()) {
-            shell = static_cast<std::uint32_t>(found.shells.size());
-            found.shells.emplace_back();
-        }
-        found.of_triangle.push_back(shell);
-        const Vec3 n = area_normal(points, t);
-        found.shells[shell].volume += (points[t[0]] - origin).dot(n) / 6.0;
-        found.shells[shell].area += 0.5 * n.norm();
+    found.volumes.assign(components.count(), 0.0);
+    found.of_triangle = std::move(components.of_triangle);
+    const Positions& points = surface.points();
+    const Vec3 origin = points.empty() ? Vec3(Vec3::Zero()) : points.front();
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const Triangle& triangle = surface.triangles()[t];
+        found.volumes[found.of_triangle[t]] +=
+            (points[triangle[0]] - origin).dot(area_normal(points, triangle)) / 6.0;
     }
     return found;
 }
 
 /// The part of the surface with the chosen shells; the patch table stays.
 Surface part_of(const Surface& surface, const Shells& shells, const std::vector<bool>& chosen) {
-    constexpr VertexId kUnused = std::numeric_limits<VertexId>::max();
-    std::vector<VertexId> new_id(surface.vertex_count(), kUnused);
-    PatchLabels labels;
-    Positions positions;
-    std::vector<Triangle> triangles;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
-        if (!chosen[shells.of_triangle[t]]) continue;
-        Triangle triangle = surface.triangles()[t];
-        for (VertexId& v : triangle) {
-            if (new_id[v] == kUnused) {
-                new_id[v] = static_cast<VertexId>(positions.size());
-                positions.push_back(surface.points()[v]);
-            }
-            v = new_id[v];
-        }
-        triangles.push_back(triangle);
-        labels.push_back((*surface.patch_labels)[t]);
-    }
-    return make_surface(std::move(positions), std::move(triangles), std::move(labels),
-                        surface.patches);
+    std::vector<bool> keep(surface.triangle_count());
+    for (TriangleId t = 0; t < keep.size(); ++t) keep[t] = chosen[shells.of_triangle[t]];
+    return select_triangles(surface, keep);
 }
 
 ShellChoice counted(const Shells& shells, const std::vector<bool>& chosen) {
     ShellChoice choice;
-    for (std::size_t s = 0; s < shells.shells.size(); ++s) {
-        const double volume = shells.shells[s].volume;
+    for (std::size_t s = 0; s < shells.volumes.size(); ++s) {
+        const double volume = shells.volumes[s];
         ++(volume > 0.0 ? choice.bodies : choice.hollows);
         if (!chosen[s]) choice.largest_dropped = std::max(choice.largest_dropped, volume);
     }
@@ -108,7 +76,7 @@ ShellChoice counted(const Shells& shells, const std::vector<bool>& chosen) {
 }
 
 ShellChoice only(const Surface& surface, const Shells& shells, std::size_t shell) {
-    std::vector<bool> chosen(shells.shells.size(), false);
+    std::vector<bool> chosen(shells.volumes.size(), false);
     chosen[shell] = true;
     ShellChoice choice = counted(shells, chosen);
     choice.surface = with_separate_cuts(part_of(surface, shells, chosen));
@@ -130,8 +98,8 @@ struct Nearness {
 
 Nearness nearness(const Surface& surface, const Shells& shells, const Vec3& point) {
     Nearness near;
-    near.winding.assign(shells.shells.size(), 0.0);
-    near.distance.assign(shells.shells.size(), std::numeric_limits<double>::infinity());
+    near.winding.assign(shells.volumes.size(), 0.0);
+    near.distance.assign(shells.volumes.size(), std::numeric_limits<double>::infinity());
     const Positions& p = surface.points();
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const auto& [a, b, c] = surface.triangles()[t];
@@ -227,9 +195,9 @@ Surface with_separate_cuts(const Surface& surface) {
 ShellChoice largest_body(const Surface& surface) {
     const Shells shells = shells_of(surface);
     std::size_t best = 0;
-    for (std::size_t s = 0; s < shells.shells.size(); ++s)
-        if (shells.shells[s].volume > shells.shells[best].volume) best = s;
-    if (shells.shells.empty() || !(shells.shells[best].volume > 0.0))
+    for (std::size_t s = 0; s < shells.volumes.size(); ++s)
+        if (shells.volumes[s] > shells.volumes[best]) best = s;
+    if (shells.volumes.empty() || !(shells.volumes[best] > 0.0))
         throw AlgorithmFailure("no closed body was found; take another threshold");
     return only(surface, shells, best);
 }
@@ -237,27 +205,27 @@ ShellChoice largest_body(const Surface& surface) {
 ShellChoice body_at(const Surface& surface, const Vec3& point, double tolerance) {
     const Shells shells = shells_of(surface);
     const Nearness near = nearness(surface, shells, point);
-    std::size_t best = shells.shells.size(), nearest = best;
-    for (std::size_t s = 0; s < shells.shells.size(); ++s) {
-        if (shells.shells[s].volume <= 0.0) continue;
+    std::size_t best = shells.volumes.size(), nearest = best;
+    for (std::size_t s = 0; s < shells.volumes.size(); ++s) {
+        if (shells.volumes[s] <= 0.0) continue;
         if (near.winding[s] > 0.5 &&
-            (best == shells.shells.size() || shells.shells[s].volume < shells.shells[best].volume))
+            (best == shells.volumes.size() || shells.volumes[s] < shells.volumes[best]))
             best = s;
-        if (nearest == shells.shells.size() || near.distance[s] < near.distance[nearest])
+        if (nearest == shells.volumes.size() || near.distance[s] < near.distance[nearest])
             nearest = s;
     }
-    if (nearest == shells.shells.size())
+    if (nearest == shells.volumes.size())
         throw AlgorithmFailure("no closed body was found; take another threshold");
-    if (best == shells.shells.size() && near.distance[nearest] > tolerance)
+    if (best == shells.volumes.size() && near.distance[nearest] > tolerance)
         throw AlgorithmFailure("the seed lies in no body: the nearest one is " +
                                std::to_string(near.distance[nearest]) +
                                " mm away; give a seed inside the vessel, in mm, LPS");
-    return only(surface, shells, best == shells.shells.size() ? nearest : best);
+    return only(surface, shells, best == shells.volumes.size() ? nearest : best);
 }
 
 ShellChoice all_bodies(const Surface& surface) {
     const Shells shells = shells_of(surface);
-    ShellChoice choice = counted(shells, std::vector<bool>(shells.shells.size(), true));
+    ShellChoice choice = counted(shells, std::vector<bool>(shells.volumes.size(), true));
     choice.surface = with_separate_cuts(surface);
     return choice;
 }

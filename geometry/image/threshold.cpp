@@ -157,19 +157,20 @@ double otsu(const std::vector<float>& values) {
 }
 
 double bright_threshold(const Image& image) {
-    constexpr double kLargestShare = 0.05;
-    std::vector<float> values = *image.voxels;
-    double threshold = otsu(values);
+    constexpr double kLargestShare = 0.05, kMostlyTissue = 0.7;
+    std::vector<float> above = *image.voxels;
+    double threshold = otsu(above);
     for (;;) {
-        std::vector<float> above;
-        for (const float v : values)
-            if (v >= threshold) above.push_back(v);
-        const double share =
-            static_cast<double>(above.size()) / static_cast<double>(image.voxel_count());
+        std::erase_if(above, [&](float v) { return v < threshold; });
         const auto [least, most] = std::minmax_element(above.begin(), above.end());
-        if (share <= kLargestShare || !(*most > *least)) return threshold;
-        values = std::move(above);
-        threshold = otsu(values);
+        const auto count = static_cast<double>(above.size());
+        if (count <= kLargestShare * static_cast<double>(image.voxel_count()) || *least >= *most)
+            return threshold;
+        const double next = otsu(above);
+        const auto below =
+            std::count_if(above.begin(), above.end(), [&](float v) { return v < next; });
+        if (static_cast<double>(below) < kMostlyTissue * count) return threshold;
+        threshold = next;
     }
 }
 

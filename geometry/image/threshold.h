@@ -38,7 +38,8 @@ struct ImageJudgement {
 [[nodiscard]] double otsu(const std::vector<float>& values);
 
 /// Threshold for vessels that are the brightest of the image: Otsu's, repeated on the values above
-/// it until at most a twentieth of the voxels lies above (vessels fill no more of a body image).
+/// it while these are more than a twentieth of all voxels (vessels fill no more of a body image)
+/// and the split leaves most of them, tissue, below: a vessel alone is not split again.
 /// \throw InvalidInput if all voxels are equal
 [[nodiscard]] double bright_threshold(const Image& image);
 

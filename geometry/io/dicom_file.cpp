@@ -4,9 +4,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 #include <gdcmAttribute.h>
@@ -17,6 +19,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/io/image_bytes.h"
+#include "geometry/io/number_text.h"
 
 namespace vesselbench {
 
@@ -162,11 +165,31 @@ std::vector<float> pixels_of(const gdcm::Image& image, std::size_t count, const 
     }
 }
 
-void silence_gdcm() {
-    gdcm::Trace::DebugOff();
-    gdcm::Trace::WarningOff();
-    gdcm::Trace::ErrorOff();
-}
+/// Catches what GDCM prints while it lives: a truncated file is only told by a warning.
+class GdcmMessages {
+public:
+    GdcmMessages() {
+        gdcm::Trace::DebugOff();
+        gdcm::Trace::ErrorOff();
+        gdcm::Trace::SetWarningStream(text_);
+        gdcm::Trace::WarningOn();
+    }
+
+    ~GdcmMessages() {
+        gdcm::Trace::WarningOff();
+        gdcm::Trace::SetWarningStream(std::cerr);
+    }
+
+    GdcmMessages(const GdcmMessages&) = delete;
+    GdcmMessages& operator=(const GdcmMessages&) = delete;
+
+    [[nodiscard]] bool tell_of_truncation() const {
+        return text_.str().find("Incomplete Pixel Data") != std::string::npos;
+    }
+
+private:
+    std::ostringstream text_;
+};
 
 Frames frames_of(const gdcm::ImageReader& reader, const std::string& name) {
     const gdcm::Image& image = reader.GetImage();
@@ -195,13 +218,15 @@ Frames frames_of(const gdcm::ImageReader& reader, const std::string& name) {
 }
 
 Frames read_frames(const std::string& path) {
-    silence_gdcm();
+    const GdcmMessages messages;
     const std::string name = file_name(path);
     gdcm::ImageReader reader;
     reader.SetFileName(path.c_str());
     if (!reader.Read())
         bad_file(name, "it is no readable DICOM image (damaged, truncated, or without pixels)",
                  "copy or export it again");
+    if (messages.tell_of_truncation())
+        bad_file(name, "its pixel data is cut off", "the file is truncated: copy it again");
     return frames_of(reader, name);
 }
 
@@ -242,17 +267,19 @@ Vec3 checked_step(const std::vector<Slice>& slices, const std::string& name) {
     std::sort(sorted.begin(), sorted.end());
     const double median = sorted[sorted.size() / 2];
     constexpr double kSamePlace = 1e-3;  // [mm]
-    for (std::size_t s = 0; s < gaps.size(); ++s) {
-        const auto place = "at " + millimetres(slices[s].along) + " along the slice normal";
+    const auto place = [&](std::size_t s) {
+        return "at " + millimetres(slices[s].along) + " along the slice normal";
+    };
+    for (std::size_t s = 0; s < gaps.size(); ++s)
         if (gaps[s] < kSamePlace)
-            bad_file(name, "two slices lie in the same place, " + place,
+            bad_file(name, "two slices lie in the same place, " + place(s),
                      "put one series (one time step) alone into a folder");
+    for (std::size_t s = 0; s < gaps.size(); ++s)
         if (gaps[s] > (1.0 + kUneven) * median || gaps[s] < (1.0 - kUneven) * median)
             bad_file(name,
-                     "its slices are not evenly spaced: " + millimetres(gaps[s]) + " " + place +
+                     "its slices are not evenly spaced: " + millimetres(gaps[s]) + " " + place(s) +
                          ", but " + millimetres(median) + " elsewhere (a slice is missing?)",
                      "complete the series, or export it resampled to even slices");
-    }
     const Vec3 step =
         (slices.back().position - slices.front().position) / static_cast<double>(slices.size() - 1);
     for (std::size_t s = 0; s < slices.size(); ++s) {
@@ -288,7 +315,7 @@ ImageFile stacked(std::vector<Slice> slices, const std::string& name) {
     }
     ImageFile file;
     file.format = "DICOM";
-    file.unit_stated = true;
+    file.unit = 1.0;
     file.image = image_from(header, std::move(voxels), name);
     return file;
 }

@@ -155,29 +155,6 @@ std::string file_bytes(const std::string& path) {
     return bytes;
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
-    const std::string temporary = path + ".part";
-    std::error_code ignored;
-    {
-        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-        if (!out)
-            throw IoError(file_name(path) +
-                          ": cannot be written; check that the folder exists and may be written");
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (!out) {
-            fs::remove(temporary, ignored);
-            throw IoError(file_name(path) + ": writing failed; check the free disk space");
-        }
-    }
-    std::error_code error;
-    fs::rename(temporary, path, error);
-    if (error) {
-        fs::remove(temporary, ignored);
-        throw IoError(file_name(path) + ": cannot be written (" + error.message() + ")");
-    }
-}
-
 std::size_t checked_voxel_count(const std::array<long long, 3>& size, const std::string& name) {
     const auto text =
         std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
@@ -197,43 +174,80 @@ bool is_gzip(std::string_view bytes) {
     return bytes.size() > 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b';
 }
 
-std::string inflated(std::string_view compressed, std::size_t wanted, const std::string& name) {
-    z_stream stream{};
-    constexpr int kGzipOrZlib = 15 + 32;
-    if (inflateInit2(&stream, kGzipOrZlib) != Z_OK) throw IoError(name + ": cannot start zlib");
+namespace {
 
-    struct End {
-        z_stream* stream;
+/// A zlib decompressor fed from memory.
+class Inflater {
+public:
+    Inflater(std::string_view compressed, const std::string& name)
+        : compressed_(compressed), name_(name) {
+        constexpr int kGzipOrZlib = 15 + 32;
+        if (inflateInit2(&stream_, kGzipOrZlib) != Z_OK)
+            throw IoError(name + ": cannot start zlib");
+    }
 
-        ~End() { inflateEnd(stream); }
-    } end{&stream};
+    ~Inflater() { inflateEnd(&stream_); }
 
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+
+    /// Fills the span or less; 0 at the stream's proper end. \throw InvalidInput if damaged
+    std::size_t read(char* out, std::size_t size) {
+        stream_.next_out = reinterpret_cast<Bytef*>(out);
+        stream_.avail_out = static_cast<uInt>(size);
+        while (!ended_ && stream_.avail_out == size) {
+            const auto feed = std::min<std::size_t>(compressed_.size() - fed_, 1u << 30);
+            stream_.next_in =
+                reinterpret_cast<Bytef*>(const_cast<char*>(compressed_.data() + fed_));
+            stream_.avail_in = static_cast<uInt>(feed);
+            const int state = inflate(&stream_, Z_NO_FLUSH);
+            fed_ += feed - stream_.avail_in;
+            if (state == Z_STREAM_END)
+                next_member();
+            else if (state == Z_BUF_ERROR ||
+                     (state == Z_OK && fed_ == compressed_.size() && stream_.avail_out == size))
+                bad_file(name_, "its compressed data is cut off",
+                         "the file is truncated: copy or download it again");
+            else if (state != Z_OK)
+                bad_file(name_, "its compressed data is damaged",
+                         "copy or download the file again");
+        }
+        return size - stream_.avail_out;
+    }
+
+private:
+    /// gzip allows several members in a row; what follows otherwise is passed over.
+    void next_member() {
+        ended_ = !is_gzip(compressed_.substr(fed_));
+        if (!ended_) inflateReset(&stream_);
+    }
+
+    std::string_view compressed_;
+    const std::string& name_;
+    z_stream stream_{};
+    std::size_t fed_ = 0;
+    bool ended_ = false;
+};
+
+}  // namespace
+
+std::string inflated(std::string_view compressed, std::size_t wanted, const std::string& name,
+                     bool only_head) {
+    Inflater inflater(compressed, name);
     std::string out;
-    std::size_t fed = 0;
     while (out.size() < wanted) {
         const std::size_t before = out.size();
         out.resize(std::min(wanted, before + kPiece));
-        stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
-        stream.avail_out = static_cast<uInt>(out.size() - before);
-        const std::size_t feed = std::min<std::size_t>(compressed.size() - fed, 1u << 30);
-        stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(compressed.data() + fed));
-        stream.avail_in = static_cast<uInt>(feed);
-        const int state = inflate(&stream, Z_NO_FLUSH);
-        fed += feed - stream.avail_in;
-        out.resize(out.size() - stream.avail_out);
-        if (state == Z_STREAM_END && out.size() < wanted && fed < compressed.size()) {
-            inflateReset(&stream);  // gzip allows several members in a row
-            continue;
-        }
-        if (state == Z_STREAM_END && out.size() == wanted) break;
-        if (state == Z_STREAM_END || state == Z_BUF_ERROR || out.size() == before)
+        const std::size_t got = inflater.read(out.data() + before, out.size() - before);
+        out.resize(before + got);
+        if (got == 0)
             bad_file(name,
                      "its data ends after " + std::to_string(out.size()) + " of " +
                          std::to_string(wanted) + " bytes",
                      "the file is truncated: copy or download it again");
-        if (state != Z_OK)
-            bad_file(name, "its compressed data is damaged", "copy or download the file again");
     }
+    std::string rest(only_head ? 0 : 4096, '\0');
+    while (!rest.empty() && inflater.read(rest.data(), rest.size()) > 0) continue;
     return out;
 }
 
@@ -369,11 +383,6 @@ std::string lower_case(std::string_view text) {
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return lower;
-}
-
-std::string number_text(double number) {
-    char buffer[32];
-    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr};
 }
 
 }  // namespace vesselbench

@@ -40,10 +40,6 @@ struct ImageHeader {
 /// All bytes of a file. \throw IoError if it cannot be read
 [[nodiscard]] std::string file_bytes(const std::string& path);
 
-/// Writes under a temporary name beside `path`, then renames: never a half-written file.
-/// \throw IoError that names the cause
-void write_file(const std::string& path, std::string_view bytes);
-
 /// Voxels of a volume. \throw InvalidInput if a size is below 1 or the volume has more than 2^30
 /// voxels
 [[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,
@@ -52,10 +48,11 @@ void write_file(const std::string& path, std::string_view bytes);
 /// True if the bytes begin like a gzip stream.
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
-/// The first `wanted` bytes of a gzip or zlib stream. \throw InvalidInput if it is damaged or ends
-/// before
+/// The first `wanted` bytes of a gzip or zlib stream; unless it is `only_head`, the rest is looked
+/// at too, so that a missing end or a wrong checksum shows. \throw InvalidInput if it is damaged or
+/// truncated
 [[nodiscard]] std::string inflated(std::string_view compressed, std::size_t wanted,
-                                   const std::string& name);
+                                   const std::string& name, bool only_head = false);
 
 /// A gzip (or else zlib) stream.
 [[nodiscard]] std::string deflated(std::string_view bytes, bool gzip);
@@ -91,8 +88,5 @@ void write_file(const std::string& path, std::string_view bytes);
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
 
 [[nodiscard]] std::string lower_case(std::string_view text);
-
-/// Shortest text that reads back as the same number.
-[[nodiscard]] std::string number_text(double number);
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "geometry/errors.h"
+#include "geometry/io/atomic_file.h"
 #include "geometry/io/dicom_file.h"
 #include "geometry/io/image_bytes.h"
 #include "geometry/io/meta_image_file.h"
@@ -62,12 +63,21 @@ bool looks_like_image(const std::string& path) {
 
 void write_image(const std::string& path, const Image& image) {
     if (image.empty()) throw InvalidInput("there is no image to write");
-    if (has_suffix(path, {".nii.gz"})) return write_file(path, deflated(nifti_bytes(image), true));
-    if (has_suffix(path, {".nii"})) return write_file(path, nifti_bytes(image));
-    if (has_suffix(path, {".mha"})) return write_file(path, meta_image_bytes(image));
-    if (has_suffix(path, {".nrrd"})) return write_file(path, nrrd_bytes(image));
-    throw UsageError("'" + file_name(path) +
-                     "': images are written as .nii, .nii.gz, .mha or .nrrd");
+    std::string bytes;
+    if (has_suffix(path, {".nii.gz"}))
+        bytes = deflated(nifti_bytes(image), true);
+    else if (has_suffix(path, {".nii"}))
+        bytes = nifti_bytes(image);
+    else if (has_suffix(path, {".mha"}))
+        bytes = meta_image_bytes(image);
+    else if (has_suffix(path, {".nrrd"}))
+        bytes = nrrd_bytes(image);
+    else
+        throw UsageError("'" + file_name(path) +
+                         "': images are written as .nii, .nii.gz, .mha or .nrrd");
+    write_file(path, [&](std::ostream& out) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    });
 }
 
 }  // namespace vesselbench

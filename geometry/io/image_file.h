@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace vesselbench {
 struct ImageFile {
     Image image;                     ///< [mm], LPS, with the file's true orientation
     std::string format;              ///< "NIfTI", "NRRD", "MetaImage", "VTK" or "DICOM"
-    bool unit_stated = false;        ///< the file names its unit of length (and was converted)
+    std::optional<double> unit;      ///< [mm] that the file's stated unit has; none if none stated
     std::vector<std::string> notes;  ///< what was missing in the file and what was taken instead
 };
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "geometry/io/image_bytes.h"
+#include "geometry/io/number_text.h"
 
 namespace vesselbench {
 
@@ -81,11 +82,10 @@ VoxelType voxel_type(const std::string& text, const std::string& name) {
     return found->second;
 }
 
-double millimetres_a_unit(const Fields& fields, ImageFile& file, const std::string& name) {
+std::optional<double> stated_unit(const Fields& fields, const std::string& name) {
     const std::string* text = find(fields, {"distanceunits"});
-    if (!text || *text == "?") return 1.0;
+    if (!text || *text == "?") return std::nullopt;
     const std::string unit = lower_case(*text);
-    file.unit_stated = true;
     if (unit == "mm") return 1.0;
     if (unit == "cm") return 10.0;
     if (unit == "m") return 1000.0;
@@ -116,7 +116,8 @@ void place(const Fields& fields, const std::string& name, ImageFile& file, Image
         const auto offset = numbers(*text, 3, "Offset", name);
         matrix.topRightCorner<3, 1>() = Vec3(offset[0], offset[1], offset[2]);
     }
-    matrix.topRows<3>() *= millimetres_a_unit(fields, file, name);
+    file.unit = stated_unit(fields, name);
+    matrix.topRows<3>() *= file.unit.value_or(1.0);
     header.index_to_patient = matrix;
 }
 

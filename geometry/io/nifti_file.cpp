@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "geometry/io/image_bytes.h"
+#include "geometry/io/number_text.h"
 
 namespace vesselbench {
 
@@ -98,8 +99,7 @@ Eigen::Matrix4d ras_matrix(const Fields& fields, std::vector<std::string>& notes
     return matrix;
 }
 
-double millimetres_a_unit(const Fields& fields, ImageFile& file) {
-    file.unit_stated = true;
+std::optional<double> stated_unit(const Fields& fields) {
     switch (fields.at<std::uint8_t>(123) & 7) {
         case 1:
             return 1000.0;
@@ -108,8 +108,7 @@ double millimetres_a_unit(const Fields& fields, ImageFile& file) {
         case 3:
             return 1e-3;
         default:
-            file.unit_stated = false;
-            return 1.0;
+            return std::nullopt;
     }
 }
 
@@ -155,7 +154,7 @@ ImageFile read_nifti(const std::string& path) {
     const std::string name = file_name(path);
     const std::string stored = file_bytes(path);
     const bool packed = is_gzip(stored);
-    const std::string head = packed ? inflated(stored, kHeaderSize, name) : std::string();
+    const std::string head = packed ? inflated(stored, kHeaderSize, name, true) : std::string();
     const Fields fields = checked_fields(packed ? head : stored, name);
 
     ImageFile file;
@@ -171,11 +170,9 @@ ImageFile read_nifti(const std::string& path) {
         header.slope = slope;
         header.intercept = intercept;
     }
-    const Eigen::Vector4d unit =
-        Eigen::Vector4d(-1.0, -1.0, 1.0, 1.0)
-            .cwiseProduct(  // RAS to LPS
-                (Eigen::Vector4d::Ones() * millimetres_a_unit(fields, file)));
-    header.index_to_patient = unit.asDiagonal() * ras_matrix(fields, file.notes);
+    file.unit = stated_unit(fields);
+    const Eigen::Vector4d to_lps = file.unit.value_or(1.0) * Eigen::Vector4d(-1.0, -1.0, 1.0, 1.0);
+    header.index_to_patient = to_lps.asDiagonal() * ras_matrix(fields, file.notes);
     header.index_to_patient.row(3) << 0.0, 0.0, 0.0, 1.0;
 
     const double offset = fields.at<float>(108);

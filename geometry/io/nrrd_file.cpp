@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/io/image_bytes.h"
+#include "geometry/io/number_text.h"
 
 namespace vesselbench {
 
@@ -190,22 +191,19 @@ double axis_spacing(const Fields& fields, std::size_t axis, std::vector<std::str
     return 1.0;
 }
 
-double millimetres_a_unit(const Fields& fields, ImageFile& file, const std::string& name) {
+std::optional<double> stated_unit(const Fields& fields, const std::string& name) {
     const std::string* text = find(fields, "spaceunits");
     if (!text) text = find(fields, "units");
-    if (!text) return 1.0;
-    std::string unit = words_of(*text).empty() ? "" : words_of(*text).front();
+    const auto words = words_of(text ? *text : "");
+    std::string unit = words.empty() ? "" : lower_case(words.front());
     std::erase(unit, '"');
-    unit = lower_case(unit);
-    file.unit_stated = true;
     if (unit == "mm" || unit == "millimeter" || unit == "millimetre") return 1.0;
     if (unit == "cm") return 10.0;
     if (unit == "m") return 1000.0;
     if (unit == "um" || unit == "micron" || unit == "\xc2\xb5m") return 1e-3;
-    file.unit_stated = false;
     if (!unit.empty() && unit != "none" && unit != "???" && unit != "pixel")
         bad_file(name, "its unit of length '" + unit + "' is not known", "export it in mm");
-    return 1.0;
+    return std::nullopt;
 }
 
 void place(const Fields& fields, const std::vector<AxisVector>& directions,
@@ -225,8 +223,8 @@ void place(const Fields& fields, const std::vector<AxisVector>& directions,
             bad_file(name, "its space origin is no vector", "write the file anew");
         matrix.topRightCorner<3, 1>() = *vectors[0];
     }
-    const Vec3 scale =
-        signs_to_lps(fields, name, file.notes) * millimetres_a_unit(fields, file, name);
+    file.unit = stated_unit(fields, name);
+    const Vec3 scale = file.unit.value_or(1.0) * signs_to_lps(fields, name, file.notes);
     matrix.topRows<3>() = (scale.asDiagonal() * matrix.topRows<3>()).eval();
     header.index_to_patient = matrix;
 }

@@ -12,6 +12,8 @@ std::span<const Operation> operation_table() {
         extrude_opening_operation(), smooth_operation(),          fill_hole_operation(),
         extrude_opening_operation(), smooth_operation(),          remesh_operation(),
         extrude_opening_operation(), smooth_operation(),
+        load_image_operation(), extract_surface_operation(), crop_operation(),
+        fill_hole_operation(),  extrude_opening_operation(), smooth_operation(),
     };
     return table;
 }

@@ -1,0 +1,158 @@
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/image/threshold.h"
+#include "geometry/io/image_file.h"
+#include "geometry/measure.h"
+#include "tests/support/image_shapes.h"
+#include "tests/support/shapes.h"
+#include "workbench/operation.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Outcome run(const std::string& name, const Scene& scene, const Arguments& arguments) {
+    Progress progress;
+    const Operation& operation = find_operation(name);
+    return operation.run(scene, checked_arguments(operation, arguments), progress);
+}
+
+std::string written(const Image& image, const std::string& name) {
+    const std::string path = temporary_folder() + "/" + name;
+    write_image(path, image);
+    return path;
+}
+
+Image signed_ball() {
+    Image grid = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
+    const Vec3 middle = middle_of(grid);
+    return image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        return std::clamp((p - middle).norm() - 8.0, -2.5, 2.5);
+    });
+}
+
+}  // namespace
+
+SCENARIO("load-image states what it found and decided", "[workbench][images]") {
+    const Image ball = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0), true);
+    const std::string path = written(ball, "ball.nii.gz");
+    GIVEN("an image alone") {
+        const Outcome outcome = run("load-image", {}, {{"file", path}});
+        THEN("geometry and values are reported, without folders") {
+            const auto& report = *outcome.report;
+            CHECK(report.at("format") == "NIfTI");
+            CHECK(report.at("left_handed") == true);
+            CHECK(report.at("kind") == "intensity");
+            CHECK(report.at("size_voxels") == nlohmann::json({30, 30, 30}));
+            CHECK(report.dump().find(path) == std::string::npos);
+            CHECK(outcome.resolved.text("units") == "mm");
+            CHECK(outcome.scene.image->size == ball.size);
+        }
+    }
+    GIVEN("a level set as mask") {
+        const std::string mask = written(signed_ball(), "levelset.mha");
+        Image grid = signed_ball();
+        const std::string image = written(ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0)), "same.mha");
+        THEN("its inside is taken, and the decision is stored") {
+            const Outcome outcome = run("load-image", {}, {{"file", image}, {"mask", mask}});
+            CHECK(outcome.resolved.real("mask_iso") == 0.0);
+            CHECK(outcome.resolved.text("mask_inside") == "below");
+            CHECK(outcome.report->at("mask_labels") == nlohmann::json({1}));
+            const Outcome again = run("load-image", {}, outcome.resolved);
+            CHECK(*again.scene.mask->voxels == *outcome.scene.mask->voxels);
+        }
+        THEN("the user may say the side") {
+            const Outcome outcome =
+                run("load-image", {},
+                    {{"file", image}, {"mask", mask}, {"mask_iso", 1.0}, {"mask_inside", "above"}});
+            CHECK(outcome.scene.mask->at(0, 0, 0) == 1.0f);
+        }
+        THEN("a mask in another place is refused") {
+            CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"mask", mask}}),
+                              Contains("elsewhere"));
+        }
+    }
+    GIVEN("a mask of another size") {
+        const std::string mask = written(ball_image(8.0, 29, Vec3(0.8, 0.8, 1.0)), "small.nrrd");
+        THEN("both sizes are named") {
+            CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"mask", mask}}),
+                              Contains("29 x 29 x 29") && Contains("30 x 30 x 30"));
+        }
+    }
+    GIVEN("other units") {
+        const Outcome outcome = run("load-image", {}, {{"file", path}, {"units", "cm"}});
+        THEN("they override the file's") {
+            CHECK(outcome.scene.image->spacing().x() == Approx(8.0).epsilon(1e-6));
+        }
+    }
+    GIVEN("an empty image") {
+        const Image zero =
+            image_of({3, 3, 3}, Eigen::Matrix4d::Identity(), [](const Vec3&) { return 0.0; });
+        THEN("it is refused") {
+            CHECK_THROWS_AS(run("load-image", {}, {{"file", written(zero, "zero.mha")}}),
+                            InvalidInput);
+        }
+    }
+}
+
+SCENARIO("extract-surface decides, says so, and replays without deciding", "[workbench][images]") {
+    const std::string image = written(ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0)), "ball.mha");
+    const Scene loaded = run("load-image", {}, {{"file", image}}).scene;
+    const Outcome outcome = run("extract-surface", loaded, {});
+    THEN("method, threshold and side are resolved") {
+        CHECK(outcome.resolved.text("method") == "threshold");
+        CHECK(outcome.resolved.text("inside") == "above");
+        CHECK(outcome.resolved.real("threshold") > 20.0);
+        CHECK(outcome.report->at("bodies_found") == 1);
+        CHECK(outcome.scene.sampling->confidence == 1.0);
+        CHECK((outcome.scene.sampling->spacing - Vec3(0.8, 0.8, 1.0)).norm() < 1e-6);
+    }
+    THEN("the replay gives the same bits") {
+        const Outcome again = run("extract-surface", loaded, outcome.resolved);
+        CHECK(again.scene.surface->points() == outcome.scene.surface->points());
+        CHECK(again.resolved == outcome.resolved);
+    }
+    THEN("cleaning is reported") {
+        const Outcome clean =
+            run("extract-surface", loaded,
+                {{"diffusion", std::int64_t{3}}, {"opening", std::int64_t{1}}, {"resample", 0.5}});
+        CHECK(clean.report->at("topology_after_cleaning").at("components") == 1);
+        CHECK(clean.resolved.has("contrast"));
+        CHECK((clean.scene.sampling->spacing - Vec3::Constant(0.5)).norm() < 1e-6);
+    }
+    THEN("without an image it names the operation that makes one") {
+        CHECK_THROWS_WITH(run("extract-surface", {}, {}), Contains("load-image"));
+    }
+    THEN("two names of the threshold at once are refused") {
+        CHECK_THROWS_AS(run("extract-surface", loaded, {{"iso", 1.0}, {"threshold", 2.0}}),
+                        UsageError);
+    }
+}
+
+SCENARIO("crop cuts image, mask and surface alike", "[workbench][images]") {
+    const Image ball = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
+    Scene scene;
+    scene.image = ball;
+    scene.mask = mask_of_iso(ball, 50.0, false);
+    scene.surface = *run("extract-surface", scene, {}).scene.surface;
+    const Vec3 centre = middle_of(ball) + Vec3(6, 0, 0);
+    GIVEN("a ball over the edge") {
+        const Outcome outcome = run("crop", scene, {{"centre", centre}, {"radius", 5.0}});
+        THEN("mask and image stay on one grid, the surface is open") {
+            CHECK(same_grid(*outcome.scene.image, *outcome.scene.mask));
+            CHECK(outcome.scene.image->voxel_count() < ball.voxel_count());
+            CHECK(outcome.report->at("open_boundaries") == 1);
+        }
+    }
+    THEN("box or ball, not both and not neither") {
+        CHECK_THROWS_AS(run("crop", scene, {}), UsageError);
+        CHECK_THROWS_AS(run("crop", scene, {{"box", std::vector<double>{1, 2, 3}}}), UsageError);
+        CHECK_THROWS_AS(run("crop", {}, {{"centre", centre}, {"radius", 5.0}}), InvalidInput);
+    }
+}

@@ -1,0 +1,255 @@
+#include "geometry/image/extract_surface.h"
+
+#include <cmath>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Bodies left out that are larger than this part of the kept one are worth a warning.
+constexpr double kNoticeable = 0.05;
+
+const Image& image_of(const Scene& scene) {
+    if (!scene.image) throw InvalidInput("there is no image yet: use load-image");
+    return *scene.image;
+}
+
+std::optional<ExtractionMethod> method_from(const Arguments& arguments) {
+    const std::string& name = arguments.text("method");
+    if (name == "threshold") return ExtractionMethod::Threshold;
+    if (name == "labels") return ExtractionMethod::Labels;
+    if (name == "masked") return ExtractionMethod::Masked;
+    return std::nullopt;
+}
+
+std::vector<int> labels_from(const Arguments& arguments) {
+    std::vector<int> labels;
+    if (!arguments.has("labels")) return labels;
+    for (const double label : arguments.list("labels")) {
+        if (label != std::floor(label) || label < 1.0 || label > 1e6)
+            throw UsageError("extract-surface: labels are whole numbers from 1 on");
+        labels.push_back(static_cast<int>(label));
+    }
+    return labels;
+}
+
+Cleaning cleaning_from(const Arguments& arguments) {
+    return {.diffusion = static_cast<int>(arguments.integer("diffusion")),
+            .diffusion_contrast = arguments.optional_real("contrast"),
+            .gaussian = arguments.real("gaussian"),
+            .opening = static_cast<int>(arguments.integer("opening")),
+            .closing = static_cast<int>(arguments.integer("closing"))};
+}
+
+ExtractionParameters parameters_from(const Arguments& arguments, bool with_mask) {
+    ExtractionParameters parameters;
+    parameters.method = method_from(arguments);
+    if (arguments.has("iso") && arguments.has("threshold"))
+        throw UsageError("extract-surface: iso and threshold are the same value: give one of them");
+    parameters.threshold = arguments.optional_real(arguments.has("iso") ? "iso" : "threshold");
+    if (const auto inside = arguments.optional_text("inside"))
+        parameters.inside_below = *inside == "below";
+    parameters.labels = labels_from(arguments);
+    const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
+    if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
+    parameters.dilation = static_cast<int>(arguments.integer("dilation"));
+    parameters.cleaning = cleaning_from(arguments);
+    parameters.resample = arguments.optional_real("resample");
+    parameters.seed = arguments.optional_point("seed");
+    parameters.bodies = arguments.text("component") == "all" ? Bodies::All : Bodies::Largest;
+    return parameters;
+}
+
+/// Everything that was decided, so that a replay decides nothing.
+Arguments resolved_from(const Arguments& given, const Extraction& extraction) {
+    Arguments resolved = given;
+    resolved.set("method", to_string(extraction.method));
+    if (extraction.method == ExtractionMethod::Labels)
+        resolved.set("labels",
+                     std::vector<double>(extraction.labels.begin(), extraction.labels.end()));
+    else if (!given.has("iso"))
+        resolved.set("threshold", extraction.threshold);
+    if (extraction.method != ExtractionMethod::Labels)
+        resolved.set("inside", std::string(extraction.inside_below ? "below" : "above"));
+    if (extraction.contrast) resolved.set("contrast", *extraction.contrast);
+    return resolved;
+}
+
+nlohmann::ordered_json json_of(const VoxelTopology& topology) {
+    return {{"components", topology.components},
+            {"tunnels", topology.tunnels()},
+            {"cavities", topology.cavities},
+            {"euler", topology.euler}};
+}
+
+nlohmann::ordered_json cuts_of(const Surface& surface) {
+    std::vector<double> areas(surface.patches.size(), 0.0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        areas[(*surface.patch_labels)[t]] +=
+            triangle_area(surface.points(), surface.triangles()[t]);
+    auto cuts = nlohmann::ordered_json::array();
+    for (std::size_t p = 1; p < surface.patches.size(); ++p)
+        cuts.push_back({{"name", surface.patches[p].name}, {"area_mm2", areas[p]}});
+    return cuts;
+}
+
+Report report_of(const Extraction& extraction) {
+    const Surface& surface = extraction.surface;
+    nlohmann::ordered_json report = {{"method", to_string(extraction.method)},
+                                     {"threshold", extraction.threshold},
+                                     {"decisions", extraction.reasons},
+                                     {"vertices", surface.vertex_count()},
+                                     {"triangles", surface.triangle_count()},
+                                     {"volume_mm3", volume(surface)},
+                                     {"area_mm2", area(surface)},
+                                     {"bodies_found", extraction.bodies},
+                                     {"hollows_found", extraction.hollows},
+                                     {"largest_dropped_mm3", extraction.largest_dropped},
+                                     {"cuts_at_border", cuts_of(surface)}};
+    if (extraction.before) {
+        report["topology_before_cleaning"] = json_of(*extraction.before);
+        report["topology_after_cleaning"] = json_of(*extraction.after);
+    }
+    return std::make_shared<nlohmann::ordered_json>(std::move(report));
+}
+
+std::vector<std::string> warnings_of(const Extraction& extraction) {
+    std::vector<std::string> warnings;
+    const double kept = volume(extraction.surface);
+    if (extraction.largest_dropped > kNoticeable * kept) {
+        std::ostringstream text;
+        text << "there are " << extraction.bodies << " bodies; the largest one left out has "
+             << extraction.largest_dropped << " mm^3 (kept: " << kept
+             << "): seed= chooses another one, component=all keeps them all";
+        warnings.push_back(text.str());
+    }
+    if (extraction.before && !(*extraction.before == *extraction.after)) {
+        const auto text_of = [](const VoxelTopology& t) {
+            return std::to_string(t.components) + " pieces, " + std::to_string(t.tunnels()) +
+                   " tunnels, " + std::to_string(t.cavities) + " cavities";
+        };
+        warnings.push_back("cleaning changed the topology: " + text_of(*extraction.before) +
+                           " became " + text_of(*extraction.after));
+    }
+    if (extraction.surface.patches.size() > 1)
+        warnings.push_back("the vessel leaves the image in " +
+                           std::to_string(extraction.surface.patches.size() - 1) +
+                           " places; it is closed flat there (patches cut_1 ...)");
+    return warnings;
+}
+
+Outcome run_extraction(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Extraction extraction = extract_surface(
+        image_of(scene), scene.mask, parameters_from(arguments, scene.mask.has_value()), progress);
+    Outcome outcome;
+    outcome.resolved = resolved_from(arguments, extraction);
+    outcome.report = report_of(extraction);
+    outcome.warnings = warnings_of(extraction);
+    outcome.scene = with_surface(scene, extraction.surface);
+    outcome.scene.sampling = extraction.sampling;
+    return outcome;
+}
+
+std::vector<Parameter> source_parameters() {
+    using enum ParameterType;
+    return {
+        {.name = "method",
+         .type = Choice,
+         .default_value = "auto",
+         .help = "threshold: intensities or a level set; labels: chosen labels of the mask or "
+                 "label map; masked: intensities inside the dilated mask; auto: masked if "
+                 "there is a mask, labels for a label map, else threshold",
+         .choices = {"auto", "threshold", "labels", "masked"}},
+        {.name = "threshold",
+         .unit = "-",
+         .help = "image value that bounds the vessel; when left out: Otsu's on the brightest "
+                 "voxels, 0 for a level set, with a mask midway between inside and around it"},
+        {.name = "iso", .unit = "-", .help = "another name of threshold, for level sets"},
+        {.name = "inside",
+         .type = Choice,
+         .help = "side of the threshold on which the vessel lies; when left out: above, or "
+                 "for a level set the side away from the image's border",
+         .choices = {"above", "below"}},
+        {.name = "labels",
+         .type = List,
+         .help = "labels that are the vessel, as 1,2,3; when left out: every label above 0",
+         .minimum = 1},
+        {.name = "dilation",
+         .type = Integer,
+         .unit = "voxels",
+         .default_value = std::int64_t{1},
+         .help = "by how much the mask grows before it limits the intensities",
+         .minimum = 0,
+         .maximum = 50},
+        {.name = "component",
+         .type = Choice,
+         .default_value = "largest",
+         .help = "which bodies are kept; seed overrides it",
+         .choices = {"largest", "all"}},
+        {.name = "seed", .type = Point, .unit = "mm", .help = "point in the wanted vessel (LPS)"}};
+}
+
+std::vector<Parameter> cleaning_parameters() {
+    using enum ParameterType;
+    return {{.name = "diffusion",
+             .type = Integer,
+             .default_value = std::int64_t{0},
+             .help = "iterations of edge-preserving diffusion on intensities; 0: none",
+             .minimum = 0,
+             .maximum = 1000},
+            {.name = "contrast",
+             .unit = "-",
+             .help = "differences above it count as edges for the diffusion; when left out: from "
+                     "the image's noise",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "gaussian",
+             .unit = "mm",
+             .default_value = 0.0,
+             .help = "standard deviation of Gaussian smoothing; 0: none",
+             .minimum = 0.0,
+             .maximum = 100.0},
+            {.name = "opening",
+             .type = Integer,
+             .unit = "voxels",
+             .default_value = std::int64_t{0},
+             .help = "removes what is thinner than twice this and one voxel; 0: none",
+             .minimum = 0,
+             .maximum = 50},
+            {.name = "closing",
+             .type = Integer,
+             .unit = "voxels",
+             .default_value = std::int64_t{0},
+             .help = "fills gaps narrower than twice this and one voxel; 0: none",
+             .minimum = 0,
+             .maximum = 50},
+            {.name = "resample",
+             .unit = "mm",
+             .help = "edge of cubic voxels to resample to (cubic B-spline; masks by shape); when "
+                     "left out: the image's own voxels",
+             .minimum = 0.0,
+             .above_minimum = true}};
+}
+
+}  // namespace
+
+Operation extract_surface_operation() {
+    std::vector<Parameter> parameters = source_parameters();
+    for (Parameter& parameter : cleaning_parameters()) parameters.push_back(std::move(parameter));
+    return {.name = "extract-surface",
+            .usual_step = Step::Source,
+            .allowed = {Step::Source},
+            .summary = "make a surface from the image by threshold, labels or both",
+            .parameters = std::move(parameters),
+            .run = &run_extraction,
+            .thesis = "3.2.1-3.2.3"};
+}
+
+}  // namespace vesselbench

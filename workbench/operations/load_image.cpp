@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <sstream>
+
+#include <Eigen/LU>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/image/threshold.h"
+#include "geometry/io/image_file.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Voxels shorter than this [mm] in a file that states no unit: the file is in metres.
+constexpr double kTooSmallVoxel = 0.02;
+
+double millimetres_in(const std::string& unit) {
+    return unit == "m" ? 1000.0 : unit == "cm" ? 10.0 : unit == "um" ? 1e-3 : 1.0;
+}
+
+std::string unit_of(double millimetres) {
+    return millimetres == 1000.0 ? "m"
+           : millimetres == 10.0 ? "cm"
+           : millimetres < 1.0   ? "um"
+                                 : "mm";
+}
+
+Image scaled(Image image, double factor) {
+    image.index_to_patient.topRows<3>() *= factor;
+    return image;
+}
+
+/// Applies the unit: the user's, else the file's, else one guessed from the voxels.
+Image in_millimetres(const ImageFile& file, Outcome& outcome) {
+    const double stated = file.unit.value_or(1.0);
+    if (const auto given = outcome.resolved.optional_text("units"))
+        return scaled(file.image, millimetres_in(*given) / stated);
+    std::string unit = unit_of(stated);
+    double factor = 1.0;
+    if (!file.unit && file.image.spacing().maxCoeff() < kTooSmallVoxel) {
+        unit = "m";
+        factor = millimetres_in(unit);
+        std::ostringstream text;
+        text << "the file states no unit and its voxels measure "
+             << file.image.spacing().transpose() << ": metres are taken; units= overrides it";
+        outcome.warnings.push_back(text.str());
+    }
+    outcome.resolved.set("units", unit);
+    return scaled(file.image, factor);
+}
+
+/// A mask that states no unit has the image's.
+Image mask_in_millimetres(const ImageFile& mask, bool unit_given, double image_unit) {
+    if (mask.unit && !unit_given) return mask.image;
+    return scaled(mask.image, image_unit / mask.unit.value_or(1.0));
+}
+
+std::string size_text(const Image& image) {
+    return std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
+           std::to_string(image.size[2]);
+}
+
+void check_same_place(const Image& image, const Image& mask) {
+    if (mask.size != image.size)
+        throw InvalidInput("the mask has " + size_text(mask) + " voxels, but the image has " +
+                           size_text(image) + ": give the mask that was made on this image");
+    double apart = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 index(corner & 1 ? image.size[0] - 1 : 0, corner & 2 ? image.size[1] - 1 : 0,
+                         corner & 4 ? image.size[2] - 1 : 0);
+        apart = std::max(apart, (image.to_patient(index) - mask.to_patient(index)).norm());
+    }
+    constexpr double kSamePlace = 0.1;  // voxels: rounded headers
+    if (apart > kSamePlace * image.spacing().minCoeff()) {
+        std::ostringstream text;
+        text << "the mask lies elsewhere than the image: their corners are up to " << apart
+             << " mm apart; export it with the image's orientation and spacing";
+        throw InvalidInput(text.str());
+    }
+}
+
+/// A mask of labels as it is, or a level set made 1 inside and 0 outside.
+Image usable_mask(const Image& mask, Outcome& outcome) {
+    Arguments& resolved = outcome.resolved;
+    const ImageJudgement judgement = judge(mask);
+    const bool wants_iso = resolved.has("mask_iso") || resolved.has("mask_inside");
+    if (judgement.kind == ImageKind::Labels && !wants_iso) return mask;
+    if (judgement.kind == ImageKind::Intensity && !resolved.has("mask_iso"))
+        throw InvalidInput(
+            "the mask holds neither labels nor a level set: say with mask_iso= from "
+            "which value on it is inside");
+    if (!wants_iso) outcome.warnings.push_back("mask: " + judgement.reason);
+    if (!resolved.has("mask_iso")) resolved.set("mask_iso", 0.0);
+    if (!resolved.has("mask_inside"))
+        resolved.set("mask_inside", std::string(judgement.inside_below ? "below" : "above"));
+    return mask_of_iso(mask, resolved.real("mask_iso"), resolved.text("mask_inside") == "below");
+}
+
+/// The patient directions that the axes point to, nearest first letters: "LPS", "RAI" ...
+std::string axis_letters(const Image& image) {
+    static constexpr char kPositive[] = {'L', 'P', 'S'}, kNegative[] = {'R', 'A', 'I'};
+    std::string letters;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        Eigen::Index nearest = 0;
+        const Vec3 direction = image.index_to_patient.block<3, 1>(0, axis);
+        direction.cwiseAbs().maxCoeff(&nearest);
+        letters += direction[nearest] > 0.0 ? kPositive[nearest] : kNegative[nearest];
+    }
+    return letters;
+}
+
+nlohmann::ordered_json list(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+nlohmann::ordered_json report_of(const ImageFile& file, const Image& image) {
+    const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
+    const Eigen::Matrix3d axes = image.index_to_patient.topLeftCorner<3, 3>();
+    return {{"format", file.format},
+            {"size_voxels", image.size},
+            {"spacing_mm", list(image.spacing())},
+            {"first_voxel_mm", list(image.index_to_patient.topRightCorner<3, 1>())},
+            {"axes_point_to", axis_letters(image)},
+            {"left_handed", axes.determinant() < 0.0},
+            {"values", {*least, *most}},
+            {"kind", to_string(judge(image).kind)}};
+}
+
+void load_mask(const Arguments& arguments, const Image& image, Outcome& outcome,
+               nlohmann::ordered_json& report) {
+    const ImageFile file = read_image_file(arguments.text("mask"));
+    Image mask = mask_in_millimetres(file, arguments.has("units"),
+                                     millimetres_in(outcome.resolved.text("units")));
+    check_same_place(image, mask);
+    mask.index_to_patient = image.index_to_patient;
+    const Image usable = usable_mask(mask, outcome);
+    const auto inside = std::count_if(usable.voxels->begin(), usable.voxels->end(),
+                                      [](float v) { return v > 0.0f; });
+    if (inside == 0) throw InvalidInput("the mask is empty: no voxel of it lies inside");
+    report["mask_voxels"] = inside;
+    report["mask_labels"] = labels_of(usable);
+    outcome.scene.mask = usable;
+}
+
+Outcome load_image(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    Outcome outcome;
+    outcome.resolved = arguments;
+    progress.report(0.0, "reading the image");
+    const ImageFile file = read_image_file(arguments.text("file"));
+    const Image image = in_millimetres(file, outcome);
+    const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
+    if (*most <= *least)
+        throw InvalidInput("the image is empty: all its voxels have the same value");
+    outcome.warnings.insert(outcome.warnings.end(), file.notes.begin(), file.notes.end());
+    nlohmann::ordered_json report = report_of(file, image);
+    outcome.scene = scene;
+    outcome.scene.image = image;
+    outcome.scene.mask.reset();
+    if (arguments.has("mask")) {
+        progress.report(0.6, "reading the mask");
+        load_mask(arguments, image, outcome, report);
+    }
+    outcome.report = std::make_shared<nlohmann::ordered_json>(std::move(report));
+    return outcome;
+}
+
+}  // namespace
+
+Operation load_image_operation() {
+    using enum ParameterType;
+    return {.name = "load-image",
+            .usual_step = Step::Source,
+            .allowed = {Step::Source},
+            .summary = "load an image or a label map, and its mask, with their true orientation",
+            .parameters =
+                {{.name = "file",
+                  .type = File,
+                  .help = "NIfTI, NRRD, MetaImage, .vti, legacy .vtk, a multi-frame DICOM file or "
+                          "a folder of DICOM slices",
+                  .required = true},
+                 {.name = "mask",
+                  .type = File,
+                  .help = "segmentation on the same grid: labels (0 is outside) or a level set"},
+                 {.name = "units",
+                  .type = Choice,
+                  .help = "unit of length of the file; when left out: what the file states, else "
+                          "mm, or m if the voxels would be too small for mm",
+                  .choices = {"mm", "cm", "m", "um"}},
+                 {.name = "mask_iso",
+                  .unit = "-",
+                  .help = "value that bounds the mask's inside; when left out: 0 for a level set, "
+                          "any label above 0 for labels"},
+                 {.name = "mask_inside",
+                  .type = Choice,
+                  .help = "side of mask_iso that is inside; when left out: above, or for a level "
+                          "set the side away from the image's border",
+                  .choices = {"above", "below"}}},
+            .run = &load_image,
+            .isolated = true,
+            .thesis = "3.2"};
+}
+
+}  // namespace vesselbench
