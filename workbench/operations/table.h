@@ -11,13 +11,13 @@ namespace vesselbench {
 [[nodiscard]] Operation extract_surface_operation();
 [[nodiscard]] Operation extrude_opening_operation();
 [[nodiscard]] Operation fill_hole_operation();
-[[nodiscard]] Operation print_check_operation();
 [[nodiscard]] Operation keep_component_operation();
-[[nodiscard]] Operation load_surface_operation();
-[[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation load_image_operation();
+[[nodiscard]] Operation load_surface_operation();
+[[nodiscard]] Operation print_check_operation();
+[[nodiscard]] Operation remesh_operation();
+[[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation smooth_operation();
 [[nodiscard]] Operation tetrahedralize_operation();
-[[nodiscard]] Operation remesh_operation();
 
 }  // namespace vesselbench
