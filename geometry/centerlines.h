@@ -26,7 +26,8 @@ struct CenterlineParameters {
 };
 
 /// The vessel tree inside a surface: one tip per boundary loop (at the loop's centroid), per flat
-/// inlet/outlet/cut patch (at its centroid) and per blind end; furcations where lines meet; loops
+/// inlet/outlet/cut patch (at its centroid; of a closed surface without labels also per flat disc
+/// that closes a vessel) and per blind end; furcations where lines meet; loops
 /// where the lumen has handles. Every component that encloses at least 1 % of the largest one's
 /// volume gets its lines. Boundary loops that are much smaller than the lumen at their place (a
 /// stray hole in a wall) are no ends.

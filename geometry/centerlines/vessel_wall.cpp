@@ -5,8 +5,8 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/centerlines/flat_closures.h"
 #include "geometry/errors.h"
-#include "geometry/surface_distance.h"
 
 namespace vesselbench {
 namespace {
@@ -129,6 +129,24 @@ void turn_outside(VesselWall& wall) {
     for (VesselEnd& end : wall.ends) end.outward = -end.outward;
 }
 
+void separate_flat_closures(VesselWall& wall) {
+    const auto discs = find_flat_closures(wall.points, wall.closed, *wall.distance);
+    std::vector<bool> flat(wall.closed.size(), false);
+    for (const auto& disc : discs) {
+        std::vector<Triangle> triangles;
+        for (const TriangleId t : disc) {
+            flat[t] = true;
+            triangles.push_back(wall.closed[t]);
+        }
+        wall.ends.push_back(end_of(wall.points, triangles));
+    }
+    if (discs.empty()) return;
+    wall.wall.clear();
+    for (TriangleId t = 0; t < wall.closed.size(); ++t) {
+        if (!flat[t]) wall.wall.push_back(wall.closed[t]);
+    }
+}
+
 void measure(VesselWall& wall) {
     const Vec3 origin = wall.points[wall.closed.front()[0]];
     for (const Triangle& t : wall.closed) {
@@ -157,12 +175,13 @@ VesselWall vessel_wall_of(const Surface& surface) {
         throw InvalidInput("the surface has no wall; all of its triangles are flat closures");
     }
     judge_connectivity(wall);
+    wall.distance = std::make_shared<const SurfaceDistance>(wall.points, wall.closed);
+    if (wall.ends.empty()) separate_flat_closures(wall);
     return wall;
 }
 
 double thin_radius(const VesselWall& wall, double fraction) {
     constexpr double kRays = 2000.0;
-    const SurfaceDistance distance(wall.points, wall.closed);
     std::vector<double> radii;
     double passed = 0.0;
     double next = 0.5 * wall.area / kRays;
@@ -174,7 +193,7 @@ double thin_radius(const VesselWall& wall, double fraction) {
         const Vec3 n = a.normalized();
         const double skin = 1e-3 * std::sqrt(a.norm());
         const Vec3 p = middle(wall.points, t);
-        const auto hit = distance.first_hit(p - skin * n, -n);
+        const auto hit = wall.distance->first_hit(p - skin * n, -n);
         if (hit && hit->distance > skin) radii.push_back(0.5 * (hit->distance + skin));
     }
     if (radii.empty()) return 2.0 * wall.volume / wall.area;

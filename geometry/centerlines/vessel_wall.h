@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "geometry/centerlines/lumen_grid.h"
 #include "geometry/surface.h"
+#include "geometry/surface_distance.h"
 
 namespace vesselbench {
 
@@ -25,8 +27,10 @@ struct VesselWall {
     int handles = -1;     ///< of the closed surface; -1 when it is no manifold
     double volume = 0.0;  ///< enclosed [mm^3], positive
     double area = 0.0;    ///< of the wall [mm^2]
+    std::shared_ptr<const SurfaceDistance> distance;  ///< of the closed triangles
 };
 
+/// Of a closed surface without labels, flat discs that close vessels are found and taken as ends.
 /// \throw InvalidInput if a coordinate is not finite, or there is no wall
 [[nodiscard]] VesselWall vessel_wall_of(const Surface& surface);
 

@@ -138,7 +138,9 @@ double circle_radius(const std::array<Sector, kSectors>& sectors, const Vec2& ce
 }  // namespace
 
 WallSections::WallSections(const VesselWall& wall, double finest)
-    : distance_(wall.points, wall.wall), closed_(wall.points, wall.closed) {
+    : distance_(wall.wall.size() == wall.closed.size() ? *wall.distance
+                                                       : SurfaceDistance(wall.points, wall.wall)),
+      closed_(*wall.distance) {
     std::vector<Sample> between;
     samples_.resize(wall.points.size());
     for (const Triangle& t : wall.wall) {

@@ -204,6 +204,19 @@ SCENARIO("The graph has the topology of the lumen", "[geometry][centerlines]") {
         CHECK(loop_count(graph) == 1);
         CHECK(branch_length(graph.branches[0]) == Approx(20.0 * std::numbers::pi).epsilon(0.005));
     }
+    THEN("a ring with two stems has one loop and two tips") {
+        const ImplicitShape ring = [](const Vec3& p) {
+            const double torus = std::hypot(std::hypot(p.x(), p.y()) - 10.0, p.z()) - 1.5;
+            const double left = capsule(p, {-10, 0, 0}, {-20, 0, 5}, 1.5);
+            const double right = capsule(p, {10, 0, 0}, {20, 3, 0}, 2.0);
+            return std::min({torus, left, right});
+        };
+        const auto graph = compute_centerlines(
+            iso_surface(ring, {Vec3(-23.1, -13.2, -4.1), Vec3(23.2, 13.3, 8.1)}, 0.35));
+        CHECK(tip_count(graph) == 2);
+        CHECK(loop_count(graph) == 1);
+        CHECK(graph.branches.size() == 4);
+    }
     THEN("two vessels that nearly touch stay apart") {
         const ImplicitShape pair = [](const Vec3& p) {
             const double bow = capsule(p, {0, 0, 0}, {0, 30, 0}, 2.0);
@@ -248,6 +261,20 @@ SCENARIO("Openings are tips at their centres", "[geometry][centerlines]") {
         for (std::size_t i = 1; i < points.size(); ++i)
             CHECK((points[i] - points[i - 1]).norm() < 0.25 * 2.0);
     }
+}
+
+SCENARIO("Flat closures without labels are ends", "[geometry][centerlines]") {
+    const Surface labelled = closed_tube(2.0, 20.0, 32, 64);
+    const Surface plain =
+        mapped(make_surface(labelled.points(), std::vector<Triangle>(labelled.triangles().begin(),
+                                                                     labelled.triangles().end())),
+               [](const Vec3& p) { return Vec3(skew_rotation() * p); });
+    const auto graph = compute_centerlines(plain);
+    REQUIRE(tip_count(graph) == 2);
+    const Vec3 far = skew_rotation() * Vec3(0, 0, 20);
+    const std::size_t at = *nearest_tip(graph, far);
+    CHECK((graph.nodes[at].position - far).norm() < 1e-6);
+    CHECK(graph.nodes[at].radius == Approx(2.0).epsilon(0.01));
 }
 
 SCENARIO("Orientation and side do not matter, results repeat", "[geometry][centerlines]") {
