@@ -8,6 +8,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
@@ -42,6 +43,12 @@ bool inside(const Points2& rim, const Point2& x) {
             in = !in;
     }
     return in;
+}
+
+bool is_simple(const Points2& rim) {
+    std::vector<Kernel::Point_2> corners;
+    for (const Point2& p : rim) corners.emplace_back(p.x(), p.y());
+    return CGAL::is_simple_2(corners.begin(), corners.end());
 }
 
 double rim_distance(const Points2& rim, const Point2& x) {
@@ -107,8 +114,6 @@ std::vector<Triangle> triangulate(const Points2& rim, const Points2& inner) {
         if (face->info() == 1)
             triangles.push_back(
                 {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
-    if (delaunay.number_of_vertices() != rim.size() + inner.size())
-        throw AlgorithmFailure("two corners of an opening's rim coincide: repair the surface");
     return triangles;
 }
 
@@ -141,18 +146,18 @@ FlatCap fill_flat(const Positions& rim, const Plane& plane, double edge) {
         low = low.cwiseMin(flat.back());
         high = high.cwiseMax(flat.back());
     }
+    if (!is_simple(flat))
+        throw AlgorithmFailure(
+            "the rim of an opening or a hole crosses itself, or two of its corners coincide: "
+            "repair "
+            "the surface there, or choose another place");
     const Point2 extent = high - low;
     edge = std::max(edge, std::sqrt(extent.prod() / static_cast<double>(kMostInnerPoints)));
-    try {
-        Points2 inner = lattice(flat, edge);
-        relax(flat, inner, triangulate(flat, inner));
-        FlatCap cap{.inner = {}, .triangles = triangulate(flat, inner)};
-        for (const Point2& p : inner) cap.inner.push_back(plane.point + p.x() * u + p.y() * v);
-        return cap;
-    } catch (const Delaunay::Intersection_of_constraints_exception&) {
-        throw AlgorithmFailure(
-            "an opening's rim crosses itself: repair the surface there, or clip elsewhere");
-    }
+    Points2 inner = lattice(flat, edge);
+    relax(flat, inner, triangulate(flat, inner));
+    FlatCap cap{.inner = {}, .triangles = triangulate(flat, inner)};
+    for (const Point2& p : inner) cap.inner.push_back(plane.point + p.x() * u + p.y() * v);
+    return cap;
 }
 
 }  // namespace vesselbench

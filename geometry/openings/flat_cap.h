@@ -15,7 +15,7 @@ struct FlatCap {
 /// the rim (none of whose edges is divided) and of a triangular lattice inside, relaxed.
 /// \param rim corners in the plane [mm], counter-clockwise round the plane's normal
 /// \param edge wanted edge length inside [mm]
-/// \throw AlgorithmFailure if the polygon crosses itself or has fewer than 3 corners
+/// \throw AlgorithmFailure if the polygon touches or crosses itself, or has fewer than 3 corners
 [[nodiscard]] FlatCap fill_flat(const Positions& rim, const Plane& plane, double edge);
 
 }  // namespace vesselbench

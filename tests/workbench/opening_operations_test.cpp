@@ -59,3 +59,42 @@ SCENARIO("fill-hole closes the named hole or all of them", "[workbench][openings
     check_replay("fill-hole", tube, all);
     CHECK_THROWS_AS(run("fill-hole", *all.scene.surface, {}), AlgorithmFailure);
 }
+
+SCENARIO("clip-opening opens every end, and replays what it decided", "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    const Outcome outcome = run("clip-opening", tube, {});
+    THEN("both ends are capped, perpendicular and named") {
+        const Surface& clipped = *outcome.scene.surface;
+        CHECK(is_closed_manifold(clipped));
+        REQUIRE(clipped.patches.size() == 3);
+        CHECK(clipped.patches[1] == Patch{"inlet", PatchKind::Inlet});
+        CHECK(clipped.patches[2] == Patch{"outlet_1", PatchKind::Outlet});
+        for (const auto& opening : outcome.report->at("openings"))
+            CHECK(opening["tilt_deg"].get<double>() < 0.5);
+        check_replay("clip-opening", tube, outcome);
+    }
+    THEN("one end can be opened alone, with a name and a kind") {
+        const Outcome one = run("clip-opening", tube,
+                                {{"tip", Vec3(0, 0, 30)},
+                                 {"distance", 5.0},
+                                 {"name", std::string("femoral")},
+                                 {"kind", std::string("outlet")}});
+        REQUIRE(one.scene.surface->patches.size() == 2);
+        CHECK(one.scene.surface->patches[1] == Patch{"femoral", PatchKind::Outlet});
+        CHECK(one.scene.surface->topology->boundary_loops().size() == 1);
+        check_replay("clip-opening", tube, one);
+    }
+    THEN("contradictory arguments are refused") {
+        CHECK_THROWS_AS(run("clip-opening", tube, {{"name", std::string("x")}}), UsageError);
+        CHECK_THROWS_AS(run("clip-opening", tube, {{"distance", 1.0}, {"radii", 1.0}}), UsageError);
+        CHECK_THROWS_AS(run("clip-opening", tube,
+                            {{"planes", std::vector<double>{1, 2}}, {"names", std::string("x")}}),
+                        UsageError);
+    }
+}
+
+SCENARIO("remove-branch names the branch by a point", "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    CHECK_THROWS_AS(run("remove-branch", tube, {}), UsageError);
+    CHECK_THROWS_AS(run("remove-branch", tube, {{"tip", Vec3(0, 0, 30)}}), AlgorithmFailure);
+}

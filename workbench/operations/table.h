@@ -7,6 +7,7 @@ namespace vesselbench {
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
 // ...). An operation is registered by its line here and its line in table.cpp.
 
+[[nodiscard]] Operation clip_opening_operation();
 [[nodiscard]] Operation crop_operation();
 [[nodiscard]] Operation extract_surface_operation();
 [[nodiscard]] Operation extrude_opening_operation();
@@ -16,6 +17,7 @@ namespace vesselbench {
 [[nodiscard]] Operation load_surface_operation();
 [[nodiscard]] Operation print_check_operation();
 [[nodiscard]] Operation remesh_operation();
+[[nodiscard]] Operation remove_branch_operation();
 [[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation smooth_operation();
 [[nodiscard]] Operation tetrahedralize_operation();

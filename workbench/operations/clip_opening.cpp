@@ -1,0 +1,191 @@
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/centerlines.h"
+#include "geometry/centerlines/branch_queries.h"
+#include "geometry/errors.h"
+#include "geometry/openings/opening_axis.h"
+#include "geometry/openings/openings.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Numbers of one opening in `planes`: tip, point, normal, 1 where a cap is kept.
+constexpr std::size_t kNumbers = 10;
+
+void check_arguments(const Arguments& arguments) {
+    if ((arguments.has("name") || arguments.has("kind")) && !arguments.has("tip") &&
+        !arguments.has("planes"))
+        throw UsageError("clip-opening: name and kind belong to one opening: give its tip, too");
+    if (arguments.has("distance") && arguments.has("radii"))
+        throw UsageError("clip-opening: give distance or radii, not both");
+    if (arguments.has("planes") != arguments.has("names"))
+        throw UsageError("clip-opening: planes and names belong together");
+}
+
+OpeningPlan decide(const Surface& surface, const Arguments& arguments, Progress& progress) {
+    const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
+                                     .distance = arguments.optional_real("distance"),
+                                     .radii = arguments.optional_real("radii")};
+    CenterlineGraph graph = compute_centerlines(surface, {}, progress.part(0.0, 0.7));
+    if (options.tip) {
+        // A stub or a sac that the automatic search leaves out.
+        const auto tip = nearest_tip(graph, *options.tip);
+        if (!tip ||
+            (graph.nodes[*tip].position - *options.tip).norm() > 2.0 * tip_radius(graph, *tip))
+            graph = compute_centerlines(surface, {.ends = {*options.tip}}, progress.part(0.7, 0.9));
+    }
+    OpeningPlan plan = plan_openings(surface, graph, options);
+    const auto kind = arguments.optional_text("kind");
+    const auto name = arguments.optional_text("name");
+    if (kind || name)
+        for (auto& opening : plan.openings) {
+            if (!opening.patch) opening.patch = Patch{"", PatchKind::Outlet};
+            if (kind) opening.patch->kind = patch_kind_from(*kind);
+            if (name || opening.patch->name.empty())
+                opening.patch->name = name.value_or(to_string(opening.patch->kind));
+        }
+    return plan;
+}
+
+/// The plan that an earlier run resolved.
+OpeningPlan stored(const Arguments& arguments) {
+    const auto& numbers = arguments.list("planes");
+    std::istringstream names(arguments.text("names"));
+    OpeningPlan plan;
+    for (std::size_t i = 0; i + kNumbers <= numbers.size(); i += kNumbers) {
+        const auto at = [&](std::size_t k) { return Eigen::Map<const Vec3>(&numbers[i + k]); };
+        PlannedOpening opening{.place = {.tip = at(0), .plane = {at(3), at(6)}},
+                               .keep = numbers[i + 9] != 0.0,
+                               .patch = std::nullopt};
+        std::string entry;
+        const bool given = static_cast<bool>(std::getline(names, entry, ','));
+        const auto colon = entry.find(':');
+        if (!given || colon == std::string::npos || std::abs(at(6).norm() - 1.0) > 1e-6) break;
+        opening.patch = Patch{entry.substr(colon + 1), patch_kind_from(entry.substr(0, colon))};
+        plan.openings.push_back(std::move(opening));
+    }
+    if (plan.openings.empty() || plan.openings.size() * kNumbers != numbers.size())
+        throw UsageError(
+            "clip-opening: planes needs 10 numbers an opening (tip, point, unit normal, 1 for a "
+            "kept cap), and names as many entries kind:name");
+    return plan;
+}
+
+struct Resolved {
+    std::vector<double> planes;
+    std::string names;
+    ordered_json openings = ordered_json::array();
+};
+
+ordered_json as_json(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Resolved describe(const Surface& surface, const OpeningPlan& plan) {
+    Resolved resolved;
+    for (const auto& opening : plan.openings) {
+        const auto& place = opening.place;
+        const std::size_t p = nearest_opening(surface, place.plane.point).value_or(0);
+        const Patch& patch = surface.patches[p];
+        for (const Vec3& v : {place.tip, place.plane.point, place.plane.normal})
+            resolved.planes.insert(resolved.planes.end(), {v.x(), v.y(), v.z()});
+        resolved.planes.push_back(opening.keep ? 1.0 : 0.0);
+        resolved.names +=
+            (resolved.names.empty() ? "" : ",") + to_string(patch.kind) + ":" + patch.name;
+        const PatchShape shape = patch_shape(surface, p);
+        const auto axis = axis_at_patch(surface, p);
+        resolved.openings.push_back({{"name", patch.name},
+                                     {"kind", to_string(patch.kind)},
+                                     {"centre_mm", as_json(shape.plane.point)},
+                                     {"normal", as_json(shape.plane.normal)},
+                                     {"area_mm2", shape.area},
+                                     {"diameter_mm", shape.diameter()},
+                                     {"flatness_mm", shape.flatness},
+                                     {"tilt_deg", axis ? ordered_json(axis->tilt_deg) : nullptr},
+                                     {"bend_deg", axis ? ordered_json(axis->bend_deg) : nullptr},
+                                     {"distance_from_tip_mm", place.distance},
+                                     {"kept", opening.keep}});
+    }
+    return resolved;
+}
+
+Outcome clip_opening(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    check_arguments(arguments);
+    const Surface& surface = surface_of(scene);
+    const OpeningPlan plan =
+        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
+    progress.report(0.9, "cutting");
+    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"));
+    const Resolved resolved = describe(clipped, plan);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    outcome.resolved.set("planes", resolved.planes);
+    outcome.resolved.set("names", resolved.names);
+    outcome.report =
+        std::make_shared<ordered_json>(ordered_json{{"openings", resolved.openings},
+                                                    {"triangles_before", surface.triangle_count()},
+                                                    {"triangles_after", clipped.triangle_count()}});
+    outcome.warnings = plan.warnings;
+    outcome.scene = with_surface(scene, std::move(clipped));
+    return outcome;
+}
+
+}  // namespace
+
+Operation clip_opening_operation() {
+    using enum ParameterType;
+    return {
+        .name = "clip-opening",
+        .usual_step = Step::Openings,
+        .allowed = {Step::Branches, Step::LocalRepair, Step::Openings},
+        .summary = "cut vessel ends perpendicular to the centerline and cap them flat",
+        .parameters =
+            {{.name = "tip",
+              .type = Point,
+              .unit = "mm",
+              .help = "a point near the tip of the branch to open; without it every vessel end is "
+                      "opened"},
+             {.name = "distance",
+              .unit = "mm",
+              .help = "distance of the cut from the tip along the centerline; without it the "
+                      "nearest straight place is chosen",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "radii",
+              .unit = "-",
+              .help = "the same distance in radii of the vessel at its tip",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "inlet",
+              .type = Point,
+              .unit = "mm",
+              .help = "a point near the opening where the blood comes in; without it the largest "
+                      "opening is the inlet"},
+             {.name = "name",
+              .type = Text,
+              .help = "name of the opening at tip; without it inlet, outlet_1, outlet_2 ... by "
+                      "size"},
+             {.name = "kind",
+              .type = Choice,
+              .help = "what the opening at tip is for the solver; without it chosen by size",
+              .choices = {"inlet", "outlet"}},
+             {.name = "planes",
+              .type = List,
+              .unit = "mm",
+              .help = "what an earlier run decided, 10 numbers an opening: tip, point of the "
+                      "plane, unit normal out of the vessel, 1 where a good cap was kept; then "
+                      "nothing is chosen anew"},
+             {.name = "names",
+              .type = Text,
+              .help = "belongs to planes: kind:name of each opening, separated by commas"}},
+        .run = &clip_opening,
+        .thesis = "4.2.7"};
+}
+
+}  // namespace vesselbench

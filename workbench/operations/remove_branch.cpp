@@ -1,0 +1,102 @@
+#include "geometry/openings/remove_branch.h"
+
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/centerlines.h"
+#include "geometry/centerlines/branch_queries.h"
+#include "geometry/errors.h"
+#include "geometry/openings/opening_place.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A branch's name survives an edit before it as long as its tip moves by less [radii of the tip].
+constexpr double kTipReach = 3.0;
+
+struct NamedBranch {
+    CenterlineGraph graph;
+    std::size_t tip = 0;
+};
+
+double distance_to_tip(const CenterlineGraph& graph, const Vec3& point) {
+    const auto tip = nearest_tip(graph, point);
+    return tip ? (graph.nodes[*tip].position - point).norm()
+               : std::numeric_limits<double>::infinity();
+}
+
+/// The branch with its tip at a point; what the automatic search leaves out (a sac) gets a line of
+/// its own.
+NamedBranch branch_at(const Surface& surface, const Vec3& point, Progress& progress) {
+    CenterlineGraph graph = compute_centerlines(surface, {}, progress.part(0.0, 0.4));
+    const auto found = nearest_tip(graph, point);
+    if (!found || distance_to_tip(graph, point) > tip_radius(graph, *found))
+        graph = compute_centerlines(surface, {.ends = {point}}, progress.part(0.4, 0.8));
+    const auto tip = nearest_tip(graph, point);
+    if (!tip || distance_to_tip(graph, point) > kTipReach * tip_radius(graph, *tip))
+        throw AlgorithmFailure("remove-branch: no branch has its tip near " + place_text(point));
+    return {std::move(graph), *tip};
+}
+
+Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    const NamedBranch branch = branch_at(surface, arguments.point("tip"), progress);
+    progress.report(0.8, "removing the branch");
+    const BranchRemoval removal =
+        remove_branch(surface, branch.graph, branch.tip,
+                      {.margin = arguments.real("margin"),
+                       .continuity = static_cast<int>(arguments.integer("continuity"))});
+    Outcome outcome;
+    outcome.resolved = arguments;
+    const Vec3& at = removal.mouth;
+    outcome.report = std::make_shared<ordered_json>(
+        ordered_json{{"mouth_mm", {at.x(), at.y(), at.z()}},
+                     {"removed_area_mm2", removal.removed_area},
+                     {"new_triangles", removal.new_triangles},
+                     {"follows_parent", removal.follows_parent},
+                     {"triangles_before", surface.triangle_count()},
+                     {"triangles_after", removal.surface.triangle_count()}});
+    outcome.scene = with_surface(scene, removal.surface);
+    return outcome;
+}
+
+}  // namespace
+
+Operation remove_branch_operation() {
+    using enum ParameterType;
+    return {
+        .name = "remove-branch",
+        .usual_step = Step::Branches,
+        .allowed = {Step::Branches, Step::LocalRepair, Step::Openings},
+        .summary = "cut a branch or an aneurysm off at its root and renew the parent's wall",
+        .parameters = {{.name = "tip",
+                        .type = Point,
+                        .unit = "mm",
+                        .help = "a point near the tip of the branch, or in the aneurysm's dome",
+                        .required = true},
+                       {.name = "margin",
+                        .unit = "-",
+                        .default_value = 0.4,
+                        .help = "how far around the branch's foot the parent's wall is renewed, in "
+                                "radii of the branch; more where a wide fillet is left",
+                        .minimum = 0.0,
+                        .maximum = 3.0},
+                       {.name = "continuity",
+                        .type = Integer,
+                        .unit = "-",
+                        .default_value = std::int64_t{1},
+                        .help =
+                            "how the new wall joins the old one: 1 without a crease, 2 with the "
+                            "same curvature",
+                        .minimum = 1,
+                        .maximum = 2}},
+        .run = &remove,
+        .thesis = "4.2.2"};
+}
+
+}  // namespace vesselbench
