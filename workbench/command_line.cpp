@@ -19,6 +19,22 @@ namespace {
 constexpr const char* kDescription =
     "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
 
+constexpr const char* kPrepareFooter =
+    "Surfaces: .stl .ply .obj .off .vtp. Images: .nii .nii.gz .nrrd .mha .mhd .vti .vtk and "
+    "DICOM.\n"
+    "A case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the like\n"
+    "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
+    "OUT gets project.vbench, surface.vtp, surface.stl, report.json, report.html; for cfd\n"
+    "volume.vtu, volume.msh, openfoam/; for rp print.stl, print.3mf.\n\n"
+    "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
+    "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out print";
+
+constexpr const char* kExportFooter =
+    "Formats: .stl .ply .obj .off .vtp .glb .3mf of the surface, .vtu .msh of the volume mesh.\n"
+    "All are in millimetres but .glb and OpenFOAM, which are in metres.\n"
+    "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, residual,\n"
+    "processes; --set may be repeated.";
+
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
     "'vesselbench COMMAND --help' explains a command, 'vesselbench operations' the operations.";
@@ -39,6 +55,10 @@ CLI::App& add_command(CommandLine& line, const std::string& name, const std::str
     return added;
 }
 
+void add_project(CLI::App& command, std::string& project) {
+    command.add_option("PROJECT", project, "Project file (.vbench)")->required();
+}
+
 void add_operations(CommandLine& line) {
     const auto options = std::make_shared<OperationsOptions>();
     CLI::App& command = add_command(line, "operations", "List the operations and their parameters",
@@ -47,6 +67,114 @@ void add_operations(CommandLine& line) {
     command.add_flag("--json", options->json, "Print one JSON document");
     command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
         ->group("");
+}
+
+void add_apply(CommandLine& line) {
+    const auto options = std::make_shared<ApplyOptions>();
+    CLI::App& command =
+        add_command(line, "apply", "Run an operation on a project, as an edit that can be undone",
+                    [options, &line] { return apply_operation(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command.add_option("OPERATION", options->operation, "Its name, as 'operations' lists it")
+        ->required();
+    command.add_option("parameter=value", options->arguments,
+                       "Its arguments; 'vesselbench operations OPERATION' explains them");
+    command
+        .add_option("--variant", options->variant,
+                    "Variant for edits of steps 6-8: cfd, rp or a name")
+        ->capture_default_str();
+    command.add_option("--step", options->step,
+                       "Step the edit belongs to (default: the operation's usual step)");
+    command.add_option("--author", options->author, "Who makes the edit (default: login name)");
+    command.add_option("--note", options->note, "Why, in your words");
+    command.add_flag("--json", options->json, "Print the edit as one JSON document");
+}
+
+void add_log(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command =
+        add_command(line, "log", "List steps, edits, authors, and what each edit changed",
+                    [options] { return show_log(*options), 0; });
+    add_project(command, options->project);
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_undo_and_redo(CommandLine& line) {
+    const auto options = std::make_shared<StepBackOptions>();
+    CLI::App& undo = add_command(line, "undo", "Go back to the state before an edit",
+                                 [options] { return undo_edit(*options), 0; });
+    add_project(undo, options->project);
+    undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)");
+    CLI::App& redo = add_command(line, "redo", "Go forward again to an edit that was undone",
+                                 [options] { return redo_edit(*options), 0; });
+    add_project(redo, options->project);
+    redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)");
+}
+
+void add_replay(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command = add_command(
+        line, "replay", "Run every edit anew and compare with the stored results, bit for bit",
+        [options, &line] { return replay_project(*options, line.progress) ? 0 : 1; });
+    add_project(command, options->project);
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_input(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("INPUT", input.input,
+                    "A surface, an image, a folder of DICOM slices, or of a case")
+        ->required();
+    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid");
+    command.add_option("--units", input.units,
+                       "Unit of the file: mm, cm or m (default: as it says, or a guess)");
+}
+
+void add_prepare(CommandLine& line) {
+    const auto options = std::make_shared<PrepareArguments>();
+    CLI::App& command =
+        add_command(line, "prepare", "Make a CFD model or a print model of an image or a surface",
+                    [options, &line] { return prepare_case(*options, line.progress), 0; });
+    add_input(command, options->input);
+    command.footer(kPrepareFooter);
+    command.add_option("--for", options->purpose, "What the model is for: cfd or rp (printing)")
+        ->required();
+    command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead");
+    command
+        .add_option("--set", options->settings,
+                    "operation.parameter=value: change an argument of the recipe")
+        ->allow_extra_args(false);
+    command.add_option("--out", options->out, "Folder of the results; made if it is not there")
+        ->required();
+}
+
+void add_new(CommandLine& line) {
+    const auto options = std::make_shared<std::pair<std::string, InputArguments>>();
+    CLI::App& command =
+        add_command(line, "new", "Make a project of an image or a surface", [options, &line] {
+            make_project(options->first, options->second, line.progress);
+            return 0;
+        });
+    add_project(command, options->first);
+    add_input(command, options->second);
+}
+
+void add_export(CommandLine& line) {
+    const auto options = std::make_shared<ExportArguments>();
+    CLI::App& command =
+        add_command(line, "export", "Write the model as a file, or as an OpenFOAM case",
+                    [options, &line] { return export_project(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command
+        .add_option("FILE", options->file,
+                    "Its suffix tells the format; a folder: an OpenFOAM case")
+        ->required();
+    command.footer(kExportFooter);
+    command.add_option("--variant", options->variant, "Variant to write")->capture_default_str();
+    command
+        .add_option("--set", options->settings,
+                    "openfoam.parameter=value: change the flow of the case")
+        ->allow_extra_args(false);
 }
 
 void add_measure(CommandLine& line) {
@@ -88,6 +216,13 @@ void set_up(CommandLine& line) {
     line.app.set_help_flag("-h,--help", "Print this help and exit");
     line.app.failure_message(CLI::FailureMessage::simple);
     line.app.require_subcommand(0, 1);
+    add_prepare(line);
+    add_new(line);
+    add_apply(line);
+    add_log(line);
+    add_undo_and_redo(line);
+    add_replay(line);
+    add_export(line);
     add_measure(line);
     add_centerlines(line);
     add_operations(line);

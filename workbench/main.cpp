@@ -1,10 +1,13 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "geometry/errors.h"
 #include "workbench/command_line.h"
 #include "workbench/console.h"
+#include "workbench/worker.h"
 
 namespace {
 
@@ -39,6 +42,14 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 2 && std::string_view(argv[1]) == "--worker") {
+        std::signal(SIGINT, SIG_IGN);  // a terminal tells it to all; the session ends its worker
+        return vesselbench::worker_main();
+    }
+    // A full disk or a closed pipe then shows as a failed write, which is told and cleaned up
+    // after.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     const int code = run(argc, argv);
     if (std::fflush(stdout) != 0 && code == 0)
         return tell("the output could not be written", kBadInput);

@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -22,15 +23,21 @@ Session open_for_reading(const std::string& project) {
     return session;
 }
 
+std::string short_text(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (!value.is_number_float()) return value.dump();
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.5g", value.get<double>());
+    return buffer;
+}
+
 /// What comes of the operation in figures: the parts of its report that are a single value.
 void print_report(const std::string& text) {
     const Json report = Json::parse(text, nullptr, false);
     if (!report.is_object()) return;
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, value] : report.items())
-        if (value.is_primitive())
-            rows.push_back(
-                {"  " + key, value.is_string() ? value.get<std::string>() : value.dump()});
+        if (value.is_primitive()) rows.push_back({"  " + key, short_text(value)});
     std::cout << as_columns(rows);
 }
 

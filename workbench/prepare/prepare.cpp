@@ -134,6 +134,7 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
     PreparedCase prepared{.purpose = options.purpose, .input = input};
     prepared.flow = take_flow_parameters(for_recipe.arguments);
     const Recipe recipe = recipe_for(for_recipe, input);
+    const bool new_folder = !fs::exists(options.out);
     make_folder(options.out);
     const fs::path project = options.out / "project.vbench";
     keep_earlier_project(project, tell);
@@ -154,6 +155,8 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
                  "; no other file was written");
         else
             remove_project(project);
+        std::error_code ignored;
+        if (new_folder) fs::remove(options.out, ignored);  // keeps what is not empty
         throw;
     }
 }

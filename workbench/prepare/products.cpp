@@ -12,6 +12,7 @@
 #include "meshing/products/threemf.h"
 #include "meshing/products/vtu.h"
 #include "workbench/argument_texts.h"
+#include "workbench/flow_parameters.h"
 #include "workbench/near_names.h"
 
 namespace vesselbench {
@@ -21,52 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The flow as a row like those of the operation table: the same checks and texts serve it.
-Operation flow_parameters() {
-    return {.name = "openfoam",
-            .usual_step = Step::Product,
-            .allowed = {Step::Product},
-            .summary = "flow of the OpenFOAM case",
-            .parameters = {{.name = "density",
-                            .unit = "kg/m^3",
-                            .default_value = Value(1000.0),
-                            .help = "density of the blood",
-                            .minimum = 0.0,
-                            .above_minimum = true},
-                           {.name = "viscosity",
-                            .unit = "Pa s",
-                            .default_value = Value(4e-3),
-                            .help = "dynamic viscosity of the blood",
-                            .minimum = 0.0,
-                            .above_minimum = true},
-                           {.name = "flow",
-                            .unit = "cm^3/s",
-                            .default_value = Value(1.2),
-                            .help = "through all inlets together",
-                            .minimum = 0.0,
-                            .above_minimum = true},
-                           {.name = "profile",
-                            .type = ParameterType::Choice,
-                            .default_value = Value(std::string("parabolic")),
-                            .help = "velocity across the inlet",
-                            .choices = {"plug", "parabolic"}},
-                           {.name = "iterations",
-                            .type = ParameterType::Integer,
-                            .default_value = Value(std::int64_t{2000}),
-                            .help = "most iterations of simpleFoam",
-                            .minimum = 1,
-                            .maximum = 1e6},
-                           {.name = "residual",
-                            .default_value = Value(1e-5),
-                            .help = "initial residuals that end the run",
-                            .minimum = 0.0,
-                            .maximum = 1.0,
-                            .above_minimum = true},
-                           {.name = "processes",
-                            .type = ParameterType::Integer,
-                            .default_value = Value(std::int64_t{2}),
-                            .help = "parts made by decomposePar",
-                            .minimum = 1,
-                            .maximum = 10000}}};
+Operation openfoam() {
+    return {.name = "openfoam", .parameters = flow_parameters()};
 }
 
 std::string lower_suffix(const fs::path& file) {
@@ -125,21 +82,13 @@ fs::path without_last_slash(const fs::path& file) {
 }  // namespace
 
 CfdParameters take_flow_parameters(std::vector<std::string>& texts) {
-    const Operation table = flow_parameters();
+    const Operation table = openfoam();
     const std::string prefix = table.name + ".";
     std::vector<std::string> own;
     for (const std::string& text : texts)
         if (text.starts_with(prefix)) own.push_back(text.substr(prefix.size()));
     std::erase_if(texts, [&](const std::string& text) { return text.starts_with(prefix); });
-    const Arguments flow = checked_arguments(table, arguments_from_texts(table, own));
-    return {
-        .density = flow.real("density"),
-        .viscosity = flow.real("viscosity"),
-        .flow = flow.real("flow"),
-        .profile = flow.text("profile") == "plug" ? InflowProfile::Plug : InflowProfile::Parabolic,
-        .iterations = static_cast<int>(flow.integer("iterations")),
-        .residual = flow.real("residual"),
-        .processes = static_cast<int>(flow.integer("processes"))};
+    return flow_from(checked_arguments(table, arguments_from_texts(table, own)));
 }
 
 std::vector<std::string> write_products(PendingFiles& files, const fs::path& folder,

@@ -5,6 +5,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "geometry/openings/opening_axis.h"
 #include "geometry/surface_distance.h"
 #include "meshing/tetrahedra/quality.h"
 #include "workbench/report/log_json.h"
@@ -149,19 +150,42 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
             {"outlets", summary.outlets}};
 }
 
+/// The openings' measures, with how they stand to the vessel just inside of them.
+Json openings_json(const Json& patches, const Surface& surface) {
+    Json openings = Json::array();
+    for (Json opening : patches) {
+        if (opening["kind"] == "wall") continue;
+        const auto row =
+            std::ranges::find(surface.patches, opening["name"].get<std::string>(), &Patch::name);
+        const auto axis =
+            axis_at_patch(surface, static_cast<std::size_t>(row - surface.patches.begin()));
+        opening["tilt_deg"] = axis ? Json(axis->tilt_deg) : Json();
+        opening["bend_deg"] = axis ? Json(axis->bend_deg) : Json();
+        openings.push_back(std::move(opening));
+    }
+    return openings;
+}
+
+/// Turn of the vessel just inside the inlet [deg]; 0 where it cannot be measured.
+double inlet_bend(const Json& openings) {
+    for (const Json& opening : openings)
+        if (opening["kind"] == "inlet" && opening["bend_deg"].is_number())
+            return opening["bend_deg"];
+    return 0.0;
+}
+
 void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["quality"]["before"] = source.surface ? measure_json(measure(*source.surface)) : Json();
     report["quality"]["after"] = measure_json(measure(surface));
     report["quality"]["wall"] = wall_json(surface);
-    report["openings"] = Json::array();
-    for (const Json& patch : report["quality"]["after"]["patches"])
-        if (patch["kind"] != "wall") report["openings"].push_back(patch);
     report["patches"] = report["quality"]["after"]["patches"];
+    report["openings"] = openings_json(report["patches"], surface);
 }
 
 void add_cfd(Json& report, const PreparedCase& prepared) {
     report["volume_mesh"] = volume_mesh_json(*prepared.scene.volume_mesh);
-    const FlowSummary summary = flow_summary(*prepared.scene.surface, prepared.flow);
+    const FlowSummary summary =
+        flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);
     for (const std::string& warning : summary.warnings) report["warnings"].push_back(warning);
 }

@@ -192,12 +192,13 @@ std::string openings(const Json& report) {
     std::string html =
         "<h2>Openings</h2>\n<table><tr><th>name</th><th class=n>kind</th>"
         "<th class=n>diameter [mm]</th><th class=n>area [mm&sup2;]</th><th class=n>centroid "
-        "[mm]</th><th class=n>outward normal</th><th class=n>flatness [mm]</th></tr>\n";
+        "[mm]</th><th class=n>outward normal</th><th class=n>flatness [mm]</th><th class=n>tilt "
+        "[deg]</th></tr>\n";
     for (const Json& patch : part_of(report, "openings"))
         html += row({shown(part_of(patch, "name")), shown(part_of(patch, "kind")),
                      shown(part_of(patch, "diameter")), shown(part_of(patch, "area")),
                      shown(part_of(patch, "centroid")), shown(part_of(patch, "normal")),
-                     shown(part_of(patch, "flatness"))});
+                     shown(part_of(patch, "flatness")), shown(part_of(patch, "tilt_deg"))});
     return html + "</table>\n";
 }
 

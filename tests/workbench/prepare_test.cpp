@@ -1,0 +1,181 @@
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits = "") {
+    return run_program(VESSELBENCH_BINARY, arguments, limits);
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The tube phantom as a case folder, made once.
+const std::string& tube() {
+    static const std::string folder = [] {
+        const std::string made = temporary_folder() + "/tube";
+        REQUIRE(run({"phantom", "tube", "--out", made}).exit_code == 0);
+        return made;
+    }();
+    return folder;
+}
+
+void check_bad_input(const ProgramRun& result) {
+    INFO(result.err);
+    CHECK(result.exit_code == 3);
+    CHECK_THAT(result.err, Contains("vesselbench: "));
+    CHECK(result.out.empty());
+}
+
+}  // namespace
+
+SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
+    const std::string out = temporary_folder() + "/cfd";
+    const ProgramRun result = run({"prepare", tube(), "--for", "cfd", "--out", out});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(names_in(out) == Names{"openfoam", "project.vbench", "report.html", "report.json",
+                                 "surface.stl", "surface.vtp", "volume.msh", "volume.vtu"});
+    const Json report = Json::parse(text_of(out + "/report.json"));
+    CHECK(report["quality"]["after"]["closed"] == true);
+    CHECK(report["quality"]["after"]["self_intersections"] == 0);
+    CHECK(report["openings"].size() == 2);
+    CHECK(report["openings"][0]["kind"] == "inlet");
+    CHECK(report["volume_mesh"]["cells"].get<int>() > 1000);
+    CHECK(report["distance_to_exact"]["mean_mm"].get<double>() < 0.1);
+    CHECK(report["flow"]["inlets"][0]["reynolds"].get<double>() ==
+          Approx(4 * 1000 * 1.2e-6 / (3.14159265 * 4e-3 * 4e-3)).epsilon(0.05));
+    THEN("what was written measures as the report says") {
+        const Json measured = Json::parse(run({"measure", out + "/surface.vtp", "--json"}).out);
+        CHECK(measured["triangles"] == report["quality"]["after"]["triangles"]);
+        CHECK(measured["volume"].get<double>() ==
+              Approx(report["quality"]["after"]["volume"].get<double>()));
+        CHECK(measured["patches"].size() == 3);
+    }
+    THEN("every step is an edit that can be replayed, undone and redone") {
+        const std::string project = out + "/project.vbench";
+        const Json log = Json::parse(run({"log", project, "--json"}).out);
+        CHECK(log["edits"].size() == report["steps"].size());
+        CHECK(run({"undo", project}).exit_code == 0);
+        CHECK(Json::parse(run({"log", project, "--json"}).out)["edits"].size() + 1 ==
+              log["edits"].size());
+        CHECK(run({"redo", project}).exit_code == 0);
+        CHECK(Json::parse(run({"log", project, "--json"}).out)["edits"] == log["edits"]);
+    }
+    THEN("a second run keeps the first one's project") {
+        REQUIRE(run({"prepare", tube(), "--for", "cfd", "--out", out}).exit_code == 0);
+        CHECK(fs::exists(out + "/project.1.vbench"));
+        CHECK(run({"log", out + "/project.1.vbench"}).exit_code == 0);
+    }
+}
+
+SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
+    const std::string out = temporary_folder() + "/rp";
+    const ProgramRun result = run({"prepare", tube(), "--for", "rp", "--out", out});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK(names_in(out) == Names{"print.3mf", "print.stl", "project.vbench", "report.html",
+                                 "report.json", "surface.stl", "surface.vtp"});
+    CHECK(Json::parse(text_of(out + "/report.json"))["print"].is_object());
+}
+
+SCENARIO("A project is made and worked on by hand", "[workbench][prepare]") {
+    const std::string folder = temporary_folder();
+    const std::string project = folder + "/hand.vbench";
+    REQUIRE(run({"new", project, tube() + "/exact.vtp"}).exit_code == 0);
+    CHECK(run({"new", project, tube() + "/exact.vtp"}).exit_code == 3);
+    const ProgramRun smooth =
+        run({"apply", project, "smooth", "iterations=3", "--note", "a first look"});
+    INFO(smooth.err);
+    REQUIRE(smooth.exit_code == 0);
+    const ProgramRun log = run({"log", project});
+    CHECK_THAT(log.out,
+               Contains("load-surface") && Contains("iterations=3") && Contains("a first look"));
+    const ProgramRun replay = run({"replay", project, "--json"});
+    CHECK(replay.exit_code == 0);
+    CHECK(Json::parse(replay.out)["same"] == true);
+    for (const std::string suffix : {"stl", "ply", "obj", "off", "vtp", "3mf", "glb"}) {
+        INFO(suffix);
+        CHECK(run({"export", project, folder + "/model." + suffix}).exit_code == 0);
+        CHECK(fs::file_size(folder + "/model." + suffix) > 1000);
+    }
+    CHECK(run({"export", project, folder + "/model.step"}).exit_code == 2);
+    check_bad_input(run({"export", project, folder + "/model.vtu"}));
+    CHECK_FALSE(fs::exists(folder + "/model.vtu"));
+    check_bad_input(run({"export", project, folder + "/no-such-folder/model.stl"}));
+    CHECK(run({"undo", project}).exit_code == 0);
+    CHECK(run({"undo", project}).exit_code == 0);
+    CHECK(run({"undo", project}).exit_code == 2);
+    CHECK(run({"redo", project, "2"}).exit_code == 0);
+}
+
+SCENARIO("What prepare is not told right is refused before anything is written",
+         "[workbench][prepare]") {
+    const std::string folder = temporary_folder();
+    const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+        arguments.insert(arguments.begin(), "prepare");
+        arguments.insert(arguments.end(), {"--out", folder + "/out"});
+        const ProgramRun result = run(arguments);
+        INFO(result.err);
+        CHECK(result.exit_code == 2);
+        CHECK_THAT(result.err, Contains(why));
+        CHECK(names_in(folder).empty());
+    };
+    refused({tube(), "--for", "planning"}, "comes with context-aware smoothing");
+    refused({tube(), "--for", "printing"}, "cfd or rp");
+    refused({tube()}, "--for");
+    refused({tube(), "--for", "cfd", "--set", "smooth.lamda=1"}, "did you mean 'lambda'");
+    refused({tube(), "--for", "cfd", "--set", "openfoam.flow=-1"}, "'flow'");
+    refused({tube(), "--for", "rp", "--set", "tetrahedralize.x=1"}, "tetrahedralize");
+    refused({tube() + "/exact.vtp", "--for", "cfd", "--mask", tube() + "/mask.nii.gz"}, "--mask");
+    refused({tube() + "/exact.vtp", "--for", "cfd", "--units", "inch"}, "units");
+}
+
+SCENARIO("Bad input is exit code 3, and nothing half-written stays", "[workbench][bad-input]") {
+    const std::string folder = temporary_folder();
+    const std::string out = folder + "/out";
+    fs::create_directory(folder + "/case");
+    write_text(folder + "/case/case.json", "{\"name\": ");
+    write_text(folder + "/nan.stl",
+               "solid\nfacet normal 0 0 0\nouter loop\nvertex nan 0 0\nvertex 1 0 0\n"
+               "vertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+    write_text(folder + "/short.stl", text_of(tube() + "/exact.vtp").substr(0, 300));
+    write_text(folder + "/cut.vtp", text_of(tube() + "/exact.vtp").substr(0, 5000));
+    write_text(folder + "/cut.nii.gz", text_of(tube() + "/image.nii.gz").substr(0, 5000));
+    write_text(folder + "/model.step", "x");
+    for (const std::string name :
+         {"missing.stl", "case", "nan.stl", "short.stl", "cut.vtp", "cut.nii.gz", "model.step"}) {
+        INFO(name);
+        const ProgramRun result =
+            run({"prepare", folder + "/" + name, "--for", "cfd", "--out", out});
+        check_bad_input(result);
+        CHECK_FALSE(fs::exists(out));
+        check_bad_input(run({"new", folder + "/p.vbench", folder + "/" + name}));
+        CHECK_FALSE(fs::exists(folder + "/p.vbench"));
+    }
+    check_bad_input(run({"prepare", tube(), "--for", "cfd", "--out", folder + "/nan.stl"}));
+}
+
+SCENARIO("A full disk leaves nothing half-written", "[workbench][bad-input]") {
+    const std::string out = temporary_folder() + "/out";
+    const ProgramRun result =
+        run({"prepare", tube() + "/exact.vtp", "--for", "rp", "--out", out}, "ulimit -f 700;");
+    INFO(result.err);
+    CHECK(result.exit_code == 3);
+    for (const std::string& name : names_in(out)) CHECK_THAT(name, Contains("project.vbench"));
+}
