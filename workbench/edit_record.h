@@ -9,12 +9,11 @@
 
 namespace vesselbench {
 
-/// What an edit did to the surface, in figures. Empty where there was no surface or no lumen to
-/// measure.
+/// What an edit did to the surface, in figures. Empty where there was no surface to measure.
 struct SurfaceChange {
-    std::optional<double> volume_before;      ///< [mm^3], of the closed surface
+    std::optional<double> volume_before;      ///< [mm^3], openings closed in thought
     std::optional<double> volume_after;       ///< [mm^3]
-    std::optional<double> largest_deviation;  ///< [mm], distance of new vertices to the old surface
+    std::optional<double> largest_deviation;  ///< [mm], between the old surface and the new
     std::optional<double> mean_deviation;     ///< [mm]
     std::size_t triangles_before = 0;
     std::size_t triangles_after = 0;

@@ -1,53 +1,93 @@
 #include "workbench/surface_change.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "geometry/measure.h"
+#include "geometry/surface_distance.h"
 
 namespace vesselbench {
 
 namespace {
 
-std::optional<double> volume_of(const std::optional<Surface>& surface) {
-    if (!surface || surface->empty()) return std::nullopt;
-    const auto& boundary = surface->topology->boundary_vertices();
-    if (std::any_of(boundary.begin(), boundary.end(), [](auto flag) { return flag != 0; }))
-        return std::nullopt;
-    const Positions& points = surface->points();
-    const Vec3& origin = points.front();
-    double six_fold = 0.0;
-    for (const auto& [a, b, c] : surface->triangles())
-        six_fold += (points[a] - origin).cross(points[b] - origin).dot(points[c] - origin);
-    return six_fold / 6.0;
+// Of larger differences every n-th vertex is measured: the log must not cost more than the edit.
+constexpr std::size_t kLargestSample = 50000;
+
+struct Deviations {
+    double sum = 0.0;
+    double largest = 0.0;
+    double count = 0.0;
+
+    void add(double deviation, double weight = 1.0) {
+        sum += weight * deviation;
+        largest = std::max(largest, deviation);
+        count += weight;
+    }
+};
+
+bool comes_before(const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-void add_vertex_deviations(const Positions& before, const Positions& after, SurfaceChange& change) {
-    double sum = 0.0, largest = 0.0;
-    for (std::size_t v = 0; v < after.size(); ++v) {
-        if (before[v] == after[v]) continue;
-        const double deviation = (after[v] - before[v]).norm();
-        sum += deviation;
-        largest = std::max(largest, deviation);
-        ++change.moved_vertices;
+Deviations deviations_in_place(const Positions& before, const Positions& after) {
+    Deviations found;
+    for (std::size_t v = 0; v < after.size(); ++v)
+        if (before[v] != after[v]) found.add((after[v] - before[v]).norm());
+    return found;
+}
+
+/// Distances of the vertices to another surface. Those that stand on one of its vertices need no
+/// search.
+Deviations deviations_from(const Positions& points, const Surface& other) {
+    Positions sorted = other.points();
+    std::sort(sorted.begin(), sorted.end(), comes_before);
+    Positions away;
+    for (const Vec3& p : points)
+        if (!std::binary_search(sorted.begin(), sorted.end(), p, comes_before)) away.push_back(p);
+    Deviations found;
+    found.count = static_cast<double>(points.size() - away.size());
+    if (away.empty()) return found;
+    const std::size_t stride = (away.size() - 1) / kLargestSample + 1;
+    const std::size_t all = away.size();
+    Positions sample;
+    for (std::size_t i = 0; i < all; i += stride) sample.push_back(away[i]);
+    const double weight = static_cast<double>(all) / static_cast<double>(sample.size());
+    for (const SurfacePoint& nearest : SurfaceDistance(other).closest_points(sample))
+        found.add(nearest.distance, weight);
+    return found;
+}
+
+void add_deviations(const Surface& before, const Surface& after, SurfaceChange& change) {
+    Deviations found;
+    if (before.topology == after.topology) {
+        found = deviations_in_place(before.points(), after.points());
+        change.moved_vertices = static_cast<std::size_t>(found.count);
+    } else {
+        found = deviations_from(after.points(), before);
+        const Deviations back = deviations_from(before.points(), after);
+        found = {found.sum + back.sum, std::max(found.largest, back.largest),
+                 found.count + back.count};
     }
-    change.largest_deviation = largest;
-    change.mean_deviation =
-        change.moved_vertices > 0 ? sum / static_cast<double>(change.moved_vertices) : 0.0;
+    change.largest_deviation = found.largest;
+    change.mean_deviation = found.count > 0.0 ? found.sum / found.count : 0.0;
 }
 
 }  // namespace
 
 SurfaceChange surface_change(const Scene& before, const Scene& after) {
     SurfaceChange change;
-    const bool old_surface = before.surface && !before.surface->empty();
-    const bool new_surface = after.surface && !after.surface->empty();
-    if (old_surface) change.triangles_before = before.surface->triangle_count();
-    if (new_surface) change.triangles_after = after.surface->triangle_count();
-    change.volume_before = volume_of(before.surface);
-    const bool same_shape = old_surface && new_surface &&
-                            before.surface->positions == after.surface->positions &&
+    const bool had = before.surface && !before.surface->empty();
+    const bool has = after.surface && !after.surface->empty();
+    if (had) {
+        change.triangles_before = before.surface->triangle_count();
+        change.volume_before = volume(*before.surface);
+    }
+    if (!has) return change;
+    change.triangles_after = after.surface->triangle_count();
+    const bool same_shape = had && before.surface->positions == after.surface->positions &&
                             before.surface->topology == after.surface->topology;
-    change.volume_after = same_shape ? change.volume_before : volume_of(after.surface);
-    if (old_surface && new_surface && before.surface->topology == after.surface->topology)
-        add_vertex_deviations(before.surface->points(), after.surface->points(), change);
+    change.volume_after = same_shape ? change.volume_before : volume(*after.surface);
+    if (had) add_deviations(*before.surface, *after.surface, change);
     return change;
 }
 
