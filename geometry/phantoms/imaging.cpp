@@ -114,6 +114,18 @@ bool deleted(const std::vector<Deletion>& deletions, int i, int j, int k) {
     });
 }
 
+/// True in the strip that the expert leaves out between two parts: near both, inside no third one.
+bool between(const KeptApart& apart, const std::vector<PhantomPart>& parts,
+             const PhantomField& field, const Vec3& p) {
+    const double a = field.part(apart.first, p), b = field.part(apart.second, p);
+    const bool near_both = std::min(a, b) > -0.5 * apart.gap && std::max(a, b) < apart.gap;
+    if (!near_both || std::abs(a - b) >= apart.gap) return false;
+    return std::none_of(parts.begin(), parts.end(), [&](const PhantomPart& part) {
+        return part.name != apart.first && part.name != apart.second &&
+               field.part(part.name, p) < 0.0;
+    });
+}
+
 /// Slowly varying loss of contrast in [0, 1], one and a half waves over the image along each axis.
 double contrast_loss(const Image& grid, int i, int j, int k, double phase) {
     const double waves = 3.0 * 3.14159265358979;
@@ -157,11 +169,8 @@ Image phantom_mask(const PhantomDescription& description, const PhantomField& fi
         const double offset = imaging.mask_jitter * normal_noise(description.seed ^ kContourSeed,
                                                                  static_cast<std::uint64_t>(drawn));
         if (field(p) > offset) return 0.0F;
-        for (const KeptApart& apart : imaging.kept_apart) {
-            const double a = field.part(apart.first, p), b = field.part(apart.second, p);
-            // Only where both are near: on the far side of either vessel nothing is left out.
-            if (std::abs(a - b) < apart.gap && std::min(a, b) > -0.5 * apart.gap) return 0.0F;
-        }
+        for (const KeptApart& apart : imaging.kept_apart)
+            if (between(apart, description.parts, field, p)) return 0.0F;
         return 1.0F;
     });
     return mask;

@@ -1,5 +1,6 @@
 #include "geometry/phantoms/phantom.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -73,6 +74,37 @@ SCENARIO("The field of a blended vessel keeps the vessel's radius away from the 
     CHECK(field(Vec3(10, 0, 1)) == Approx(0.0).margin(1e-12));
     CHECK(field(Vec3(10, 0, 0)) == Approx(-1.0));
     CHECK_THROWS_AS(field.part("c", Vec3(0, 0, 0)), InvalidInput);
+}
+
+SCENARIO("The expert's mask keeps two vessels apart and leaves the rest whole",
+         "[geometry][phantom]") {
+    PhantomDescription fork = sphere_of(1.0);
+    fork.parts = {
+        {"stem", VesselShape{{Vec3(0, 0, -12), Vec3(0, 0, 0)}, {2.0, 2.0}}, 0.0},
+        {"left", VesselShape{{Vec3(0, 0, 0), Vec3(-1.8, 0, 5), Vec3(-1.7, 0, 14)}, {1.5, 1.5, 1.5}},
+         0.0},
+        {"right", VesselShape{{Vec3(0, 0, 0), Vec3(1.8, 0, 5), Vec3(1.7, 0, 14)}, {1.5, 1.5, 1.5}},
+         0.0}};
+    fork.imaging.spacing = Vec3(0.4, 0.4, 0.4);
+    const double whole = mean_intensity_volume(make_phantom(fork).mask, 1.0);
+    fork.imaging.kept_apart = {{"left", "right", 0.8}};
+    const Phantom apart = make_phantom(fork);
+    THEN("only a thin strip is missing") {
+        const double rest = mean_intensity_volume(apart.mask, 1.0);
+        CHECK(rest < whole);
+        CHECK(rest > 0.95 * whole);
+    }
+    THEN("between the branches lies background, in the stem none") {
+        const auto label = [&](const Vec3& p) {
+            const Vec3 index = apart.mask.to_index(p);
+            return apart.mask.at(static_cast<int>(std::lround(index.x())),
+                                 static_cast<int>(std::lround(index.y())),
+                                 static_cast<int>(std::lround(index.z())));
+        };
+        CHECK(label(Vec3(0, 0, 12)) == 0.0F);
+        CHECK(label(Vec3(0, 0, -3)) == 1.0F);
+        CHECK(label(Vec3(-1.7, 0, 12)) == 1.0F);
+    }
 }
 
 SCENARIO("A phantom that is described badly is refused", "[geometry][phantom]") {
