@@ -103,6 +103,26 @@ private:
     std::span<const Triangle> triangles_;
 };
 
+/// Calls test(i, j), i < j, for the places of items in leaves whose boxes meet the leaf's box.
+template <class Test>
+void for_pairs_of(std::span<const BoxTree::Node> nodes, const BoxTree::Node& leaf, Test&& test) {
+    std::uint32_t stack[64];  // the tree is balanced: twice its depth is far below
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const std::uint32_t at = stack[--depth];
+        const BoxTree::Node& node = nodes[at];
+        if (node.end <= leaf.begin || !node.box.intersects(leaf.box)) continue;
+        if (node.right != 0) {
+            stack[depth++] = node.right;
+            stack[depth++] = at + 1;
+            continue;
+        }
+        for (std::uint32_t i = leaf.begin; i < leaf.end; ++i)
+            for (std::uint32_t j = std::max(node.begin, i + 1); j < node.end; ++j) test(i, j);
+    }
+}
+
 }  // namespace
 
 std::vector<TrianglePair> self_intersections(const Positions& positions,
@@ -111,25 +131,31 @@ std::vector<TrianglePair> self_intersections(const Positions& positions,
     const Tester tester(positions, triangles);
     const auto boxes = triangle_boxes(positions, triangles);
     const BoxTree tree(boxes);
-    std::vector<std::uint8_t> flat(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t t) {
-        flat[t] = tester.degenerate(static_cast<TriangleId>(t)) ? 1 : 0;
+    const auto items = tree.items();
+    // In the order of the leaves neighbours lie close together in memory, and each pair is met from
+    // its first triangle only.
+    std::vector<BoxTree::Box> leaf_boxes(boxes.size());
+    std::vector<std::uint8_t> flat(boxes.size());
+    tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
+        leaf_boxes[i] = boxes[items[i]];
+        flat[i] = tester.degenerate(items[i]) ? 1 : 0;
     });
+    std::vector<BoxTree::Node> leaves;
+    for (const BoxTree::Node& node : tree.nodes())
+        if (node.right == 0) leaves.push_back(node);
     // Fixed blocks keep the order of the result whatever the number of threads.
-    constexpr std::size_t kBlock = 4096;
-    std::vector<std::vector<TrianglePair>> found((triangles.size() + kBlock - 1) / kBlock);
+    constexpr std::size_t kBlock = 1024;
+    std::vector<std::vector<TrianglePair>> found((leaves.size() + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {
         progress.check_cancelled();
-        const std::size_t end = std::min(triangles.size(), (block + 1) * kBlock);
-        for (std::size_t s = block * kBlock; s < end; ++s) {
-            if (flat[s]) continue;
-            const auto wanted = [&](const BoxTree::Box& box) { return box.intersects(boxes[s]); };
-            tree.traverse(wanted, [&](std::uint32_t t) {
-                if (t > s && !flat[t] && boxes[t].intersects(boxes[s]) &&
-                    tester.intersect(static_cast<TriangleId>(s), t))
-                    found[block].emplace_back(static_cast<TriangleId>(s), t);
-            });
-        }
+        const auto test = [&](std::uint32_t i, std::uint32_t j) {
+            if (!flat[i] && !flat[j] && leaf_boxes[i].intersects(leaf_boxes[j]) &&
+                tester.intersect(items[i], items[j]))
+                found[block].push_back(std::minmax({items[i], items[j]}));
+        };
+        const std::size_t end = std::min(leaves.size(), (block + 1) * kBlock);
+        for (std::size_t l = block * kBlock; l < end; ++l)
+            for_pairs_of(tree.nodes(), leaves[l], test);
     });
     std::vector<TrianglePair> all;
     for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());

@@ -6,11 +6,12 @@
 
 #include "geometry/errors.h"
 #include "geometry/io/file_parts.h"
+#include "geometry/io/legacy_vtk.h"
 #include "geometry/io/obj.h"
 #include "geometry/io/off.h"
 #include "geometry/io/ply.h"
 #include "geometry/io/stl.h"
-#include "geometry/io/vtk_surface.h"
+#include "geometry/io/vtp.h"
 
 namespace vesselbench {
 
@@ -22,11 +23,9 @@ struct Format {
     void (*write)(const Surface&, const std::string&);
 };
 
-constexpr Format kFormats[] = {{".stl", read_stl, write_stl},
-                               {".ply", read_ply, write_ply},
-                               {".obj", read_obj, write_obj},
-                               {".off", read_off, write_off},
-                               {".vtp", read_vtp, write_vtp}};
+constexpr Format kFormats[] = {{".stl", read_stl, write_stl}, {".ply", read_ply, write_ply},
+                               {".obj", read_obj, write_obj}, {".off", read_off, write_off},
+                               {".vtp", read_vtp, write_vtp}, {".vtk", read_legacy_vtk, nullptr}};
 
 std::string suffix_of(const std::string& path) {
     std::string suffix = std::filesystem::path(path).extension().string();
@@ -58,8 +57,8 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
     const Format* format = format_of(path);
     if (!format)
         throw InvalidInput(bare_name(path) +
-                           ": surfaces are read from .stl, .ply, .obj, .off and .vtp "
-                           "files");
+                           ": surfaces are read from .stl, .ply, .obj, .off, .vtp "
+                           "and .vtk files");
     RawSurface raw = format->read(path);
     if (raw.triangles.empty())
         throw InvalidInput(bare_name(path) + " holds no triangles" +

@@ -18,7 +18,7 @@ struct SurfaceFile {
     std::vector<std::string> notes;  ///< what was left out or decided
 };
 
-/// Reads STL, PLY, OBJ, OFF or VTP, by the suffix. Parts that the file names or numbers
+/// Reads STL, PLY, OBJ, OFF, VTP or legacy VTK, by the suffix. Parts that the file names or numbers
 /// become patches: those named wall, inlet..., outlet..., cut... by their names; unnamed flat ones
 /// become openings to be chosen ("cut_1" ...), all others belong to the wall.
 /// \param unit of the file; none: as the file states it, or guessed from the extent

@@ -1,8 +1,8 @@
 #include <cstdint>
 
 #include "geometry/io/atomic_file.h"
-#include "geometry/io/vtk_surface.h"
 #include "geometry/io/vtk_xml.h"
+#include "geometry/io/vtp.h"
 
 namespace vesselbench {
 

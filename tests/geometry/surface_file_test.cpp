@@ -1,10 +1,12 @@
 #include "geometry/io/surface_file.h"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
@@ -36,7 +38,55 @@ Surface patient_tube() {
     return tube;
 }
 
+std::string legacy_vtk() {
+    return "# vtk DataFile Version 3.0\na tetrahedron\nASCII\nDATASET POLYDATA\n"
+           "POINTS 4 double\n0 0 0 10 0 0 0 10 0 0 0 10\n"
+           "POLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+           "POINT_DATA 4\nSCALARS weight double\nLOOKUP_TABLE default\n1 2 3 4\n"
+           "NORMALS n float\n0 0 1 0 0 1 0 0 1 0 0 1\n";
+}
+
 }  // namespace
+
+SCENARIO("Legacy VTK files are read, text and binary, old and new", "[geometry][io]") {
+    const auto text = read_surface(written("t.vtk", legacy_vtk()), LengthUnit::Millimetre);
+    CHECK(volume(text.surface) == Approx(1000.0 / 6.0));
+    CHECK(text.surface.attributes.at("weight")->at(2) == 3.0);
+    std::string bytes =
+        "# vtk DataFile Version 5.1\nstrip\nBINARY\nDATASET POLYDATA\nPOINTS 4 float\n";
+    for (const char* xyz : {"000", "100", "010", "110"})
+        for (int k = 0; k < 3; ++k) bytes.append(xyz[k] == '1' ? "\x41\x20\0\0" : "\0\0\0\0", 4);
+    const auto whole = [&](char value) { bytes.append(7, '\0') += value; };
+    bytes += "\nMETADATA\nINFORMATION 0\n\nTRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n";
+    for (const char v : {'\0', '\4'}) whole(v);
+    bytes += "\nCONNECTIVITY vtktypeint64\n";
+    for (const char v : {'\0', '\1', '\2', '\3'}) whole(v);
+    const auto strip = read_surface(written("s.vtk", bytes), LengthUnit::Millimetre);
+    CHECK(area(strip.surface) == Approx(100.0));
+    CHECK(area_normal(strip.surface.points(), strip.surface.triangles()[0]).z() ==
+          Approx(area_normal(strip.surface.points(), strip.surface.triangles()[1]).z()));
+    CHECK_THROWS_WITH(read_surface(written("g.vtk",
+                                           "# vtk DataFile Version 3.0\nx\nASCII\nDATASET "
+                                           "UNSTRUCTURED_GRID\n")),
+                      Catch::Contains("POLYDATA"));
+}
+
+SCENARIO("A full disk is told, and nothing is left", "[geometry][io]") {
+    const std::string folder = temporary_folder();
+    const std::string path = folder + "/a.stl";
+    write_surface(cube(1.0), path);
+    const std::string before = bytes_of(path);
+    rlimit old{};
+    ::getrlimit(RLIMIT_FSIZE, &old);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{1000, old.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    CHECK_THROWS_AS(write_surface(icosphere(1.0, 4), path), IoError);
+    ::setrlimit(RLIMIT_FSIZE, &old);
+    std::signal(SIGXFSZ, handler);
+    CHECK(bytes_of(path) == before);
+    CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
+}
 
 SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry][io]") {
     const Surface tube = patient_tube();
@@ -66,7 +116,7 @@ SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry
 SCENARIO("A file that was cut off is refused at any length", "[geometry][io]") {
     const Surface tube = closed_tube(2.0, 20.0, 12, 4);
     const std::string folder = temporary_folder();
-    std::vector<std::string> files;
+    std::vector<std::string> files = {written("t.vtk", legacy_vtk())};
     for (const std::string suffix : {".stl", ".ply", ".off", ".vtp"}) {
         files.push_back(folder + "/tube" + suffix);
         write_surface(tube, files.back());
@@ -200,7 +250,7 @@ SCENARIO("Files that are no surface are refused clearly", "[geometry][io]") {
     }
     CHECK_THROWS_AS(read_surface("no_such_file.stl"), IoError);
     CHECK_THROWS_AS(read_surface(written("a.docx", "x")), InvalidInput);
-    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp"}) {
+    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp", ".vtk"}) {
         CAPTURE(suffix);
         CHECK_THROWS_AS(read_surface(written("garbage" + suffix, "this is not a surface\n\1\2\3")),
                         InvalidInput);

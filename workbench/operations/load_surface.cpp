@@ -53,7 +53,7 @@ Operation load_surface_operation() {
     return {.name = "load-surface",
             .usual_step = Step::Source,
             .allowed = {Step::Source},
-            .summary = "read a surface from an STL, PLY, OBJ, OFF or VTP file",
+            .summary = "read a surface from an STL, PLY, OBJ, OFF, VTP or VTK file",
             .parameters = {{.name = "file",
                             .type = File,
                             .help = "the surface file; its suffix tells the format",

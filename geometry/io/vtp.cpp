@@ -1,4 +1,4 @@
-#include "geometry/io/vtk_surface.h"
+#include "geometry/io/vtp.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
