@@ -1,5 +1,7 @@
 #include "geometry/io/vtp.h"
 
+#include <new>
+
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
@@ -8,6 +10,7 @@
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -188,8 +191,13 @@ RawSurface read_vtp(const std::string& path) {
         throw InvalidInput(file + " holds no surface (type PolyData)");
     if (bytes.rfind("</VTKFile>") == std::string::npos)
         throw InvalidInput(file + " ends without '</VTKFile>': it was cut off; fetch it again");
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // the error is ours to tell
     vtkNew<vtkXMLPolyDataReader> reader;
-    return raw_from(read_with(reader.Get(), path), file);
+    try {
+        return raw_from(read_with(reader.Get(), path), file);
+    } catch (const std::bad_alloc&) {
+        throw InvalidInput(file + " announces more data than it can hold: it is damaged");
+    }
 }
 
 }  // namespace vesselbench
