@@ -91,7 +91,7 @@ SCENARIO("docs/operations.md says what the program says", "[workbench][command-l
     std::ifstream page(VESSELBENCH_SOURCE_DIR "/docs/operations.md");
     const std::string text{std::istreambuf_iterator<char>(page), {}};
     INFO("renew it with scripts/docs");
-    CHECK(text == run({"operations", "--markdown"}).out);
+    CHECK((text == run({"operations", "--markdown"}).out));
 }
 
 SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {

@@ -48,21 +48,23 @@ bool near_an_end(const Vec3& p, const std::vector<CutEnd>& ends) {
     });
 }
 
-std::vector<std::uint8_t> on_wall(const Surface& surface) {
-    std::vector<std::uint8_t> wall(surface.vertex_count(), 0);
+/// 1 at the wall's vertices that have a counterpart in the source, #V.
+std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
+                                              const std::vector<CutEnd>& ends) {
+    std::vector<std::uint8_t> flags(surface.vertex_count(), 0);
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
         if (surface.patch_of(t).kind == PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) wall[v] = 1;
-    return wall;
+            for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (flags[v] && near_an_end(surface.points()[v], ends)) flags[v] = 0;
+    return flags;
 }
 
 Json distance_json(const Surface& surface, const Surface& reference,
-                   const std::vector<CutEnd>& ends) {
-    const std::vector<std::uint8_t> wall = on_wall(surface);
+                   const std::vector<std::uint8_t>& comparable) {
     Positions points;
     for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (wall[v] && !near_an_end(surface.points()[v], ends))
-            points.push_back(surface.points()[v]);
+        if (comparable[v]) points.push_back(surface.points()[v]);
     if (points.empty()) return nullptr;
     std::vector<double> distances;
     double sum = 0.0;
@@ -223,18 +225,19 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     progress.report(0.1, "measuring");
     add_quality(report, source, surface);
     const auto clip = last_edit(edits, {"clip-opening"});
-    const std::vector<CutEnd> ends =
-        cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface);
+    const std::vector<std::uint8_t> comparable = comparable_vertices(
+        surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
     if (source.surface) {
-        report["distance_to_source"] = distance_json(surface, *source.surface, ends);
+        report["distance_to_source"] = distance_json(surface, *source.surface, comparable);
         report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
     }
     if (prepared.input.exact)
-        report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, ends);
+        report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
     if (prepared.purpose == "cfd") add_cfd(report, prepared);
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
-    return {report, report_pictures(surface, source.surface ? &*source.surface : nullptr)};
+    return {report,
+            report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable)};
 }
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
@@ -35,34 +36,47 @@ std::string drawn(const Surface& surface, const View& view, std::vector<Colour> 
                               .vertex_colours = std::move(colours)}));
 }
 
-/// The deviation that the full colour stands for [mm]: 1.5 times what 85 of 100 vertices stay
-/// below, so that extruded ends do not wash out the rest.
+/// The deviation that the full colour stands for [mm]: what 98 of 100 vertices stay below.
 double colour_scale(std::vector<double> deviations) {
+    if (deviations.empty()) return 1.0;
     for (double& deviation : deviations) deviation = std::abs(deviation);
-    const auto place = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 0.85);
+    const auto place =
+        deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
     std::ranges::nth_element(deviations, place);
-    return std::max(1.5 * *place, 1e-6);
+    return std::max(*place, 1e-6);
+}
+
+/// Signed deviations [mm] as colours, and what the full colour stands for.
+std::pair<std::vector<Colour>, double> deviation_colours(
+    const Surface& surface, const Surface& source, const std::vector<std::uint8_t>& comparable) {
+    const std::vector<double> deviations =
+        SurfaceDistance(source).signed_distances(surface.points());
+    std::vector<double> compared;
+    for (std::size_t v = 0; v < deviations.size(); ++v)
+        if (comparable[v]) compared.push_back(deviations[v]);
+    const double scale = colour_scale(std::move(compared));
+    std::vector<Colour> colours;
+    for (std::size_t v = 0; v < deviations.size(); ++v)
+        colours.push_back(
+            diverging_colour(comparable[v] ? std::clamp(deviations[v] / scale, -1.0, 1.0) : 0.0));
+    return {std::move(colours), scale};
 }
 
 }  // namespace
 
-std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source) {
+std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source,
+                                           const std::vector<std::uint8_t>& comparable) {
     std::vector<ReportPicture> pictures;
     try {
         for (const View& view : kViews)
             pictures.push_back({std::string("Patches, ") + view.name, drawn(surface, view, {})});
         if (source == nullptr) return pictures;
-        const std::vector<double> deviations =
-            SurfaceDistance(*source).signed_distances(surface.points());
-        const double scale = colour_scale(deviations);
-        std::vector<Colour> colours;
-        for (const double deviation : deviations)
-            colours.push_back(diverging_colour(std::clamp(deviation / scale, -1.0, 1.0)));
+        const auto [colours, scale] = deviation_colours(surface, *source, comparable);
         char title[128];
         for (const View& view : kViews) {
             std::snprintf(title, sizeof title,
-                          "Deviation from the source, %s: blue -%.2g mm, red +%.2g mm", view.name,
-                          scale, scale);
+                          "Deviation from the source, %s: blue %.2g mm inside, red outside",
+                          view.name, scale);
             pictures.push_back({title, drawn(surface, view, colours)});
         }
     } catch (const GpuUnavailable&) {
