@@ -19,6 +19,14 @@ constexpr double kCandidateStep = 0.4;
 constexpr int kCandidates = 9;
 /// Left between the first whole section and the first place [tip radii].
 constexpr double kMargin = 0.25;
+constexpr double kBlindMargin = 0.5;
+/// The line's last stretch may turn: directions are taken at least this far inward [tip radii].
+constexpr double kSteady = 1.0;
+/// At most this share of a branch is given up; of a vessel without furcations, at each end.
+constexpr double kMostOfBranch = 0.6;
+constexpr double kMostOfVessel = 0.2;
+/// A place whose axis cannot be measured counts as this much bent [deg].
+constexpr double kUnmeasuredCost = 60.0;
 /// One radius of vessel given up weighs as much as this much of bend [deg].
 constexpr double kCostPerRadius = 5.0;
 /// A section is whole when half a radius further inward is hardly larger.
@@ -43,14 +51,30 @@ public:
     }
 
     Vec3 outward(double s) const {
-        return outward_direction(graph_, tip_, std::min(s, length), radius);
+        const double steady = std::max(s, std::min(kSteady * radius, 0.5 * length));
+        return outward_direction(graph_, tip_, std::min(steady, length), radius);
     }
 
-    /// Arc length from the tip up to which the branch is a vessel of its own.
-    double own_length() const {
+    /// Arc length from the tip up to which a cut may be chosen: where the branch is a vessel of its
+    /// own, or in the outer part of a stub that never becomes one.
+    double reach_of_cut() const {
         const auto& branch = graph_.branches[branch_];
         const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
-        return length - furcation_zone_end(graph_, branch_, other);
+        if (graph_.nodes[other].is_tip()) return kMostOfVessel * length;
+        const double own = length - furcation_zone_end(graph_, branch_, other);
+        return std::min(std::max(own, 0.5 * length), kMostOfBranch * length);
+    }
+
+    /// Neither an open border nor a known cap is at the tip: the end may be rounded.
+    bool is_blind() const {
+        const Vec3 tip = graph_.nodes[tip_].position;
+        const auto& border = near_.topology->boundary_vertices();
+        for (TriangleId t = 0; t < near_.triangle_count(); ++t)
+            for (const VertexId v : near_.triangles()[t])
+                if ((near_.patch_of(t).kind != PatchKind::Wall || border[v]) &&
+                    (near_.points()[v] - tip).norm() < 1.5 * radius)
+                    return false;
+        return true;
     }
 
     /// The closed curve round the plane's point that lies wholly on the wall.
@@ -62,9 +86,11 @@ public:
         return curve;
     }
 
-    bool is_whole(double s) const {
+    /// The section is closed and, at an end that may be rounded, has its full area.
+    bool is_whole(double s, bool blind) const {
         const Vec3 normal = outward(s);
         const auto here = section({position(s), normal});
+        if (!blind) return here.has_value();
         const auto inward = section({position(s) - 0.5 * radius * normal, normal});
         return here && inward && std::abs(here->area) >= kWholeShare * std::abs(inward->area);
     }
@@ -81,6 +107,7 @@ public:
             plane.point = curve->centroid;
             const auto axis = axis_inward(near_, plane, curve->diameter());
             if (turn == 0 || (axis && axis->tilt_deg < best_tilt)) {
+                found.measured = axis.has_value();
                 found.plane = plane;
                 found.diameter = curve->diameter();
                 found.tilt_deg = axis ? axis->tilt_deg : 0.0;
@@ -113,14 +140,15 @@ private:
 }
 
 OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
-    const double end = std::max(branch.own_length(), 0.25 * branch.length);
+    const bool blind = branch.is_blind();
+    const double end = branch.reach_of_cut();
     double first = 0.5 * kSearchStep * branch.radius;
-    while (first < end && !branch.is_whole(first)) first += kSearchStep * branch.radius;
+    while (first < end && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
     if (first >= end)
         fail(tip,
              "has no whole section before its furcation: remove it (remove-branch), or give the "
              "distance from its tip");
-    first = std::min(first + kMargin * branch.radius, 0.5 * (first + end));
+    first = std::min(first + (blind ? kBlindMargin : kMargin) * branch.radius, 0.5 * (first + end));
     std::optional<OpeningPlace> best;
     double least = 0.0;
     for (int k = 0; k < kCandidates; ++k) {
@@ -128,8 +156,8 @@ OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
         if (s > end) break;
         const auto place = branch.place(s);
         if (!place) continue;
-        const double cost =
-            place->bend_deg + place->tilt_deg + kCostPerRadius * (s - first) / branch.radius;
+        const double bent = place->measured ? place->bend_deg + place->tilt_deg : kUnmeasuredCost;
+        const double cost = bent + kCostPerRadius * (s - first) / branch.radius;
         if (best && cost >= least) continue;
         best = place;
         least = cost;

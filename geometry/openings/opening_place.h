@@ -16,6 +16,8 @@ struct OpeningPlace {
     double diameter = 0.0;    ///< of the circle with the section's area [mm]
     double tilt_deg = 0.0;    ///< left between the plane's normal and the vessel's axis
     double bend_deg = 0.0;    ///< turn of the vessel over one diameter inward
+    bool measured = false;    ///< there is an axis inside: tilt and bend are known; otherwise the
+                              ///< normal is the centerline's direction
 };
 
 /// A vessel that turns by more than this over one diameter is called a bend [deg].

@@ -27,8 +27,8 @@ constexpr double kKeptTiltDeg = 2.0;
 /// A border or a cap belongs to a tip within this many of its diameters.
 constexpr double kTipReach = 1.5;
 /// A sac: wider than its neck by this factor, and no longer than this many of its radii.
-constexpr double kSacToNeck = 1.25;
-constexpr double kSacLength = 4.0;
+constexpr double kSacToNeck = 1.4;
+constexpr double kSacLength = 2.5;
 
 /// An end of a vessel that the surface itself shows.
 struct End {
@@ -111,7 +111,8 @@ PlannedOpening kept_cap(const Surface& surface, std::size_t patch, const Vec3& t
                       .distance = 0.0,
                       .diameter = shape.diameter(),
                       .tilt_deg = axis ? axis->tilt_deg : 0.0,
-                      .bend_deg = axis ? axis->bend_deg : 0.0},
+                      .bend_deg = axis ? axis->bend_deg : 0.0,
+                      .measured = axis.has_value()},
             .keep = true,
             .patch = std::nullopt};
 }
@@ -199,6 +200,11 @@ private:
             plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
                                      " lies in a bend: the vessel turns by " +
                                      degrees_text(opening.place.bend_deg) + " over one diameter");
+        if (!opening.place.measured)
+            plan_.warnings.push_back("the vessel behind the opening at " +
+                                     place_text(opening.place.plane.point) +
+                                     " is too short to measure its axis: the opening follows the "
+                                     "centerline's direction");
         if (opening.place.tilt_deg > kKeptTiltDeg)
             plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
                                      " is tilted by " + degrees_text(opening.place.tilt_deg) +

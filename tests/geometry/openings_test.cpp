@@ -5,9 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/centerlines.h"
 #include "geometry/errors.h"
+#include "geometry/io/surface_file.h"
 #include "geometry/openings/clip.h"
 #include "geometry/openings/opening_axis.h"
+#include "geometry/repair.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -259,4 +262,24 @@ SCENARIO("Cutting fails with a clear text where it cannot be done", "[geometry][
         CHECK_THROWS_WITH(cut_branch(ring, {Vec3(8, 0.1, 0), Vec3::UnitY()}),
                           Catch::Contains("does not separate"));
     }
+}
+
+SCENARIO("Ends of real vessels are opened perpendicular and flat", "[geometry][openings][data]") {
+    struct Case {
+        const char* file;
+        std::size_t openings;
+    };
+
+    const auto c = GENERATE(Case{"surfaces/vmtk_aorta_surface.stl", 3},
+                            Case{"surfaces/vmtk_aorta_surface_open_ends.stl", 3},
+                            Case{"surfaces/vampy_aneurisk_C0015_artery.vtp", 3},
+                            Case{"surfaces/vampy_vein.stl", 2},
+                            Case{"surfaces/vasp_small_aneurysm_fluidboundary.vtp", 3},
+                            Case{"surfaces/jk_carotid_left_lumen_capped.stl", 3});
+    const auto path = shared_data(c.file);
+    if (path.empty()) return;
+    INFO(c.file);
+    const Surface surface = repair(read_surface(path).surface).surface;
+    const auto plan = plan_openings(surface, compute_centerlines(surface));
+    check_caps(clip_openings(surface, plan), c.openings);
 }
