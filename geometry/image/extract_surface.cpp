@@ -149,6 +149,15 @@ Field masked_field(const Image& image, const Image& mask, const ExtractionParame
     return field;
 }
 
+/// A vessel that leaves the image shows at least this many voxel faces; less is a touch.
+constexpr double kSmallestCut = 2.0;
+
+/// Area of the smallest face of a voxel [mm^2].
+double smallest_face(const Image& image) {
+    const Vec3 spacing = image.spacing();
+    return spacing.prod() / spacing.maxCoeff();
+}
+
 void check_share(const Field& field, const Extraction& result) {
     const auto inside = std::count_if(field.image.voxels->begin(), field.image.voxels->end(),
                                       [&](float v) { return v >= static_cast<float>(field.iso); });
@@ -210,7 +219,7 @@ Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
             ? body_at(all, *parameters.seed, kSeedTolerance * field.image.spacing().maxCoeff())
         : parameters.bodies == Bodies::Largest ? largest_body(all)
                                                : all_bodies(all);
-    result.surface = std::move(choice.surface);
+    result.surface = with_separate_cuts(choice.surface, kSmallestCut * smallest_face(field.image));
     result.sampling = sampling_of(field.image);
     result.bodies = choice.bodies;
     result.hollows = choice.hollows;

@@ -68,7 +68,8 @@ struct Extraction {
 };
 
 /// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels, or
-/// intensities inside a dilated mask.
+/// intensities inside a dilated mask. Where the vessel leaves the image, in more than a touch of
+/// fewer than two voxel faces, it is closed flat by a patch of kind Cut.
 /// \param mask on the image's grid, inside where > 0, or nothing
 /// \throw InvalidInput if the image is empty or constant, a mask lies on another grid, or a label
 /// is not there \throw AlgorithmFailure if no voxel or every voxel is inside, or no body is at the

@@ -32,8 +32,8 @@ struct IndexMesh {
 };
 
 /// A grid value closer to the iso-value than this part of the largest difference to a neighbour
-/// makes a sliver; it is moved that far away.
-constexpr float kClear = 1e-3f;
+/// makes a sliver; it is moved that far away. The surface moves by at most as many voxel edges.
+constexpr float kClear = 1e-2f;
 
 /// The value relative to the iso-value, positive inside, never too close to 0.
 float cleared(const Image& image, int i, int j, int k, float iso, float sign, float fallback) {

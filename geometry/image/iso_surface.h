@@ -8,7 +8,7 @@ namespace vesselbench {
 /// Iso-surface of an image: closed, 2-manifold, outward, in patient coordinates, all pieces. Where
 /// the inside reaches the image's border, it is closed flat in the plane of the outermost voxel
 /// centres; the closures in one border plane are a patch of kind Cut (border_1...border_6). Grid
-/// values that lie on the iso-value (within a thousandth of the difference to their neighbours) are
+/// values that lie on the iso-value (within a hundredth of the difference to their neighbours) are
 /// moved off it, so that no triangle degenerates. Source: Schroeder et al., "Flying edges: a
 /// high-performance scalable isocontouring algorithm", LDAV 2015 (vtkFlyingEdges3D). \param
 /// inside_below the inside has the values below iso, not above \throw InvalidInput if an axis has

@@ -79,7 +79,7 @@ ShellChoice only(const Surface& surface, const Shells& shells, std::size_t shell
     std::vector<bool> chosen(shells.volumes.size(), false);
     chosen[shell] = true;
     ShellChoice choice = counted(shells, chosen);
-    choice.surface = with_separate_cuts(part_of(surface, shells, chosen));
+    choice.surface = part_of(surface, shells, chosen);
     return choice;
 }
 
@@ -160,7 +160,7 @@ std::vector<std::uint16_t> kept_labels(const Surface& surface) {
 
 }  // namespace
 
-Surface with_separate_cuts(const Surface& surface) {
+Surface with_separate_cuts(const Surface& surface, double smallest) {
     const CutNodes nodes(surface);
     std::vector<Cap> caps;
     std::map<std::uint32_t, std::size_t> cap_of;  // by name of its set
@@ -170,6 +170,9 @@ Surface with_separate_cuts(const Surface& surface) {
         if (fresh) caps.push_back({at->first, 0.0});
         caps[at->second].area += 0.5 * area_normal(surface.points(), surface.triangles()[t]).norm();
     }
+    std::map<std::uint32_t, std::uint16_t> label_of;
+    for (const Cap& cap : caps) label_of[cap.name] = 0;
+    std::erase_if(caps, [&](const Cap& cap) { return cap.area < smallest; });
     constexpr std::size_t kMostPatches = 60000;  // patch labels are 16 bits
     if (caps.size() > kMostPatches)
         throw AlgorithmFailure("the surface meets the image's border in " +
@@ -181,13 +184,13 @@ Surface with_separate_cuts(const Surface& surface) {
     std::vector<std::uint16_t> new_label = kept_labels(surface);
     std::size_t number = 0;
     for (const Cap& cap : caps) {
-        cap_of[cap.name] = patches.size();
+        label_of[cap.name] = static_cast<std::uint16_t>(patches.size());
         patches.push_back({"cut_" + std::to_string(++number), PatchKind::Cut});
     }
     PatchLabels labels(surface.triangle_count());
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
         labels[t] = surface.patch_of(t).kind == PatchKind::Cut
-                        ? static_cast<std::uint16_t>(cap_of[nodes.name_of(t)])
+                        ? label_of[nodes.name_of(t)]
                         : new_label[(*surface.patch_labels)[t]];
     return surface.with_patches(std::move(labels), std::move(patches));
 }
@@ -226,7 +229,7 @@ ShellChoice body_at(const Surface& surface, const Vec3& point, double tolerance)
 ShellChoice all_bodies(const Surface& surface) {
     const Shells shells = shells_of(surface);
     ShellChoice choice = counted(shells, std::vector<bool>(shells.volumes.size(), true));
-    choice.surface = with_separate_cuts(surface);
+    choice.surface = surface;
     return choice;
 }
 

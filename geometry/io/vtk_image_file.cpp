@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkLogger.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStructuredPoints.h>
 #include <vtkStructuredPointsReader.h>
 #include <vtkXMLImageDataReader.h>
@@ -19,23 +22,37 @@ namespace vesselbench {
 
 namespace {
 
-/// Collects a reader's first error text instead of printing it.
-class ErrorCollector {
+/// Takes VTK's complaints instead of printing them.
+class ComplaintWindow : public vtkOutputWindow {
 public:
-    explicit ErrorCollector(vtkObject* reader) {
-        command_->SetClientData(this);
-        command_->SetCallback([](vtkObject*, unsigned long, void* self, void*) {
-            static_cast<ErrorCollector*>(self)->failed_ = true;
-        });
-        reader->AddObserver("ErrorEvent", command_);
-        reader->AddObserver("WarningEvent", command_);
+    static ComplaintWindow* New();
+    vtkTypeMacro(ComplaintWindow, vtkOutputWindow);
+
+    void DisplayText(const char* /*text*/) override { complained = true; }
+
+    bool complained = false;
+};
+
+vtkStandardNewMacro(ComplaintWindow);
+
+/// VTK readers report damage by printing: while this lives, they print into it.
+class Complaints {
+public:
+    Complaints() {
+        vtkOutputWindow::SetInstance(window_);
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     }
 
-    [[nodiscard]] bool failed() const { return failed_; }
+    ~Complaints() { vtkOutputWindow::SetInstance(before_); }
+
+    Complaints(const Complaints&) = delete;
+    Complaints& operator=(const Complaints&) = delete;
+
+    [[nodiscard]] bool any() const { return window_->complained; }
 
 private:
-    vtkNew<vtkCallbackCommand> command_;
-    bool failed_ = false;
+    vtkSmartPointer<vtkOutputWindow> before_ = vtkOutputWindow::GetInstance();
+    vtkNew<ComplaintWindow> window_;
 };
 
 [[noreturn]] void damaged(const std::string& name) {
@@ -120,10 +137,10 @@ Image image_from_vtk(vtkImageData* data, const std::string& name) {
 template <class Reader>
 Image read_with(const std::string& path, const std::string& name) {
     vtkNew<Reader> reader;
-    const ErrorCollector errors(reader);
+    const Complaints complaints;
     reader->SetFileName(path.c_str());
     reader->Update();
-    if (errors.failed() || !reader->GetOutput() || reader->GetOutput()->GetNumberOfPoints() == 0)
+    if (complaints.any() || !reader->GetOutput() || reader->GetOutput()->GetNumberOfPoints() == 0)
         damaged(name);
     return image_from_vtk(reader->GetOutput(), name);
 }

@@ -8,7 +8,6 @@
 #include <gdcmImage.h>
 #include <gdcmImageWriter.h>
 #include <gdcmMediaStorage.h>
-#include <gdcmTrace.h>
 #include <gdcmUIDGenerator.h>
 
 #include "geometry/errors.h"
@@ -41,7 +40,6 @@ void set_text(gdcm::DataSet& set, const char* text) {
 }
 
 void write_slice(const std::string& path, const Slice& slice) {
-    gdcm::Trace::WarningOff();
     gdcm::ImageWriter writer;
     gdcm::Image& image = writer.GetImage();
     image.SetNumberOfDimensions(2);
@@ -72,6 +70,7 @@ void write_slice(const std::string& path, const Slice& slice) {
                              gdcm::MediaStorage::GetMSString(gdcm::MediaStorage::CTImageStorage));
     set_text<0x0008, 0x0018>(set, gdcm::UIDGenerator().Generate());
     set_text<0x0020, 0x000e>(set, slice.series.c_str());
+    set_text<0x0028, 0x0004>(set, "MONOCHROME2");
     set_text<0x0010, 0x0010>(set, "Secret^Name");
     writer.SetFileName(path.c_str());
     REQUIRE(writer.Write());
