@@ -249,12 +249,23 @@ VolumeMesh mesh_of_size(Mesher& mesher, const TetrahedralizeParameters& paramete
     return mesh;
 }
 
-void warn_of_other_number(double wanted, TetrahedralizeReport& report) {
+// Below this factor the lumen is resolved much better than the wall, where the shear is wanted.
+constexpr double kFineLumen = 0.6;
+
+void warn_of_number(double wanted, TetrahedralizeReport& report) {
     const auto reached = static_cast<double>(report.quality.cells);
+    char text[200] = "";
     if (std::abs(reached / wanted - 1.0) > 0.1)
-        report.warnings.push_back("asked for " + std::to_string(std::lround(wanted)) +
-                                  " cells, reached " + std::to_string(report.quality.cells) +
-                                  ": the surface's edge length decides; change it with `remesh`");
+        std::snprintf(text, sizeof text,
+                      "asked for %.0f cells, reached %.0f: the surface's edge length decides; "
+                      "change it with `remesh`",
+                      wanted, reached);
+    else if (report.size < kFineLumen)
+        std::snprintf(text, sizeof text,
+                      "the lumen's edges are %.2g of the surface's: for %.0f cells, `remesh` with "
+                      "an edge length of about that part resolves the wall as well",
+                      report.size, wanted);
+    if (text[0] != 0) report.warnings.emplace_back(text);
 }
 
 }  // namespace
@@ -285,7 +296,7 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
             "TetGen needed to divide triangles of the surface; the volume mesh's boundary is finer "
             "than the surface");
     result.report.quality = volume_quality(result.mesh);
-    if (parameters.cells) warn_of_other_number(*parameters.cells, result.report);
+    if (parameters.cells) warn_of_number(*parameters.cells, result.report);
     return result;
 }
 
