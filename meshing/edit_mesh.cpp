@@ -192,6 +192,24 @@ void EditMesh::collapse(HalfEdge h) {
         for (HalfEdge k = 3 * t; k < 3 * t + 3; ++k) origin_[k] = kNone;
 }
 
+void EditMesh::compact() {
+    std::vector<HalfEdge> number(origin_.size(), kNone);
+    HalfEdge count = 0;
+    for (HalfEdge h = 0; h < origin_.size(); ++h)
+        if (origin_[h] != kNone) number[h] = count++;
+    for (HalfEdge h = 0; h < origin_.size(); ++h) {
+        if (number[h] == kNone) continue;
+        origin_[number[h]] = origin_[h];
+        twin_[number[h]] = number[twin_[h]];
+        patch_[number[h] / 3] = patch_[h / 3];
+    }
+    origin_.resize(count);
+    twin_.resize(count);
+    patch_.resize(count / 3);
+    for (HalfEdge& h : leaving_)
+        if (h != kNone) h = number[h];
+}
+
 Vec3 EditMesh::area_normal_of(TriangleId t) const {
     const Vec3& a = points[origin_[3 * t]];
     return (points[origin_[3 * t + 1]] - a).cross(points[origin_[3 * t + 2]] - a);

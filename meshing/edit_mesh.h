@@ -88,6 +88,10 @@ public:
     /// Merges the origin of h into its target, which stays where it is.
     void collapse(HalfEdge h);
 
+    /// Drops the places of removed triangles, so that half-edges and triangles get new numbers (in
+    /// the old order); vertices keep theirs.
+    void compact();
+
     /// Area normal of triangle t [mm^2], twice the area long.
     [[nodiscard]] Vec3 area_normal_of(TriangleId t) const;
 

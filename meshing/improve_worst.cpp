@@ -66,8 +66,9 @@ bool Remesher::try_places(VertexId v, double first_step, double last_step, const
         std::optional<TargetPlace> better;
         for (int i = 0; i < kDirections; ++i) {
             const double turn = 2.0 * std::numbers::pi * i / kDirections;
-            const TargetPlace place = place_for(
-                v, kind, mesh_.points[v] + step * (std::cos(turn) * x + std::sin(turn) * y));
+            const Vec3 raw = mesh_.points[v] + step * (std::cos(turn) * x + std::sin(turn) * y);
+            if (kind.features == 0 && score(v, raw) <= best) continue;  // spares the search
+            const TargetPlace place = place_for(v, kind, raw);
             if (!place.normal.isZero(0.0) && place.normal.dot(normal) < 0.0) continue;
             const double reached = score(v, place.point);
             if (reached <= best || !move_keeps_shape(v, place.point)) continue;

@@ -211,7 +211,7 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
     result = with_attributes(std::move(result), surface);
     report.triangles_after = result.triangle_count();
     measure_quality(result, report);
-    return {std::move(result), report, {}};
+    return {std::move(result), report};
 }
 
 }  // namespace vesselbench

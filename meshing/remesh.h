@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "geometry/centerline_graph.h"
 #include "geometry/progress.h"
@@ -36,7 +34,6 @@ struct RemeshReport {
 struct Remeshed {
     Surface surface;
     RemeshReport report;
-    std::vector<std::string> warnings;
 };
 
 /// Covers the surface with well-shaped triangles of a wanted size: graded (small where the vessel

@@ -132,8 +132,9 @@ void Remesher::collapse_short_edges() {
                 continue;
             changed = true;
         }
-        if (!changed) return;
+        if (!changed) break;
     }
+    mesh_.compact();
 }
 
 bool Remesher::flip_keeps_shape(HalfEdge h) const {
@@ -168,7 +169,8 @@ void Remesher::flip_edges(FlipRule rule) {
         bool changed = false;
         for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h) {
             if (mesh_.origin(h) == EditMesh::kNone || h > mesh_.twin(h)) continue;
-            if (!mesh_.can_flip(h) || !flip_helps(h, rule) || !flip_keeps_shape(h)) continue;
+            if (mesh_.is_feature(h) || mesh_.is_hole(mesh_.patch_at(h))) continue;
+            if (!flip_helps(h, rule) || !mesh_.can_flip(h) || !flip_keeps_shape(h)) continue;
             mesh_.flip(h);
             changed = true;
         }

@@ -11,15 +11,16 @@ namespace vesselbench {
 /// Largest of (t - 60) / 120 and (60 - t) / 60 over the angles t [deg]: 0 for an equilateral
 /// triangle, 1 for a degenerate one.
 [[nodiscard]] inline double equiangle_skewness(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double twice_area = (b - a).cross(c - a).norm();
-    const auto angle = [&](const Vec3& at, const Vec3& p, const Vec3& q) {
-        return std::atan2(twice_area, (p - at).dot(q - at));
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const double twice_area = ab.cross(ca).norm(), third = std::numbers::pi / 3.0;
+    const double x = bc.squaredNorm(), y = ca.squaredNorm(), z = ab.squaredNorm();
+    // The angle opposite to an edge, by the law of cosines: the largest one is opposite to the
+    // longest edge.
+    const auto opposite = [&](double edge) {
+        return std::atan2(2.0 * twice_area, x + y + z - 2.0 * edge);
     };
-    const double third = std::numbers::pi / 3.0;
-    double skewness = 0.0;
-    for (const double t : {angle(a, b, c), angle(b, c, a), angle(c, a, b)})
-        skewness = std::max({skewness, (t - third) / (2.0 * third), (third - t) / third});
-    return skewness;
+    const double largest = opposite(std::max({x, y, z})), least = opposite(std::min({x, y, z}));
+    return std::max((largest - third) / (2.0 * third), (third - least) / third);
 }
 
 /// 2 r_in / r_out: 1 for an equilateral triangle, 0 for a degenerate one.

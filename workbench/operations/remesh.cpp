@@ -1,7 +1,11 @@
 #include "meshing/remesh.h"
 
+#include <optional>
+
 #include <nlohmann/json.hpp>
 
+#include "geometry/centerlines.h"
+#include "geometry/errors.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -29,18 +33,40 @@ Report report_from(const RemeshReport& figures) {
         {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
 }
 
+/// The lines, if they are wanted and can be found; what was used is resolved.
+std::optional<CenterlineGraph> centerlines(const Surface& surface, Outcome& outcome,
+                                           const Progress& progress) {
+    if (outcome.resolved.text("radius") != "centerlines") return std::nullopt;
+    std::string reason;
+    try {
+        return compute_centerlines(surface, {}, progress);
+    } catch (const AlgorithmFailure& failure) {
+        reason = failure.what();
+    } catch (const InvalidInput& failure) {
+        reason = failure.what();
+    }
+    outcome.resolved.set("radius", std::string("rays"));
+    outcome.warnings.push_back(
+        "remesh measured the radius by rays across the lumen, for there are "
+        "no centerlines: " +
+        reason);
+    return std::nullopt;
+}
+
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    Remeshed remeshed = remesh(surface_of(scene), parameters_from(arguments), nullptr, progress);
-    const RemeshReport& figures = remeshed.report;
+    const Surface& surface = surface_of(scene);
     Outcome outcome;
     outcome.resolved = arguments;
+    const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.3));
+    Remeshed remeshed = remesh(surface, parameters_from(arguments), lines ? &*lines : nullptr,
+                               progress.part(0.3, 1.0));
+    const RemeshReport& figures = remeshed.report;
     outcome.resolved.set("edge", figures.edge);
     if (arguments.text("mode") == "graded") {
         outcome.resolved.set("min_edge", figures.min_edge);
         outcome.resolved.set("max_edge", figures.max_edge);
     }
     outcome.report = report_from(figures);
-    outcome.warnings = remeshed.warnings;
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
 }
@@ -78,6 +104,12 @@ Operation remesh_operation() {
               .help = "graded: no edge shall be longer; twice edge when left out",
               .minimum = 0.0,
               .above_minimum = true},
+             {.name = "radius",
+              .type = Choice,
+              .default_value = "centerlines",
+              .help = "where the vessel's radius comes from: centerlines, or rays across the lumen "
+                      "(faster, and taken by itself where no centerlines can be found)",
+              .choices = {"centerlines", "rays"}},
              {.name = "gradation",
               .unit = "-",
               .default_value = 1.5,

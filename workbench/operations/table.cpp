@@ -20,6 +20,7 @@ std::span<const Operation> operation_table() {
         extrude_opening_operation(),
         smooth_operation(),
         remesh_operation(),
+        subdivide_operation(),
         tetrahedralize_operation(),
         print_check_operation(),
     };

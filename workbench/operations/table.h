@@ -20,6 +20,7 @@ namespace vesselbench {
 [[nodiscard]] Operation remove_branch_operation();
 [[nodiscard]] Operation repair_operation();
 [[nodiscard]] Operation smooth_operation();
+[[nodiscard]] Operation subdivide_operation();
 [[nodiscard]] Operation tetrahedralize_operation();
 
 }  // namespace vesselbench

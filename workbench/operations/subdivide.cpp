@@ -1,0 +1,45 @@
+#include "meshing/subdivide.h"
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/measure.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Surface& before = surface_of(scene);
+    Surface after = subdivide(before, static_cast<int>(arguments.integer("iterations")), progress);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    outcome.report = std::make_shared<nlohmann::ordered_json>(
+        nlohmann::ordered_json{{"triangles_before", before.triangle_count()},
+                               {"triangles_after", after.triangle_count()},
+                               {"mean_edge_mm", mean_edge_length(after)},
+                               {"volume_before_mm3", volume(before)},
+                               {"volume_after_mm3", volume(after)}});
+    outcome.scene = with_surface(scene, std::move(after));
+    return outcome;
+}
+
+}  // namespace
+
+Operation subdivide_operation() {
+    return {.name = "subdivide",
+            .usual_step = Step::Remeshing,
+            .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                        Step::Smoothing, Step::Deformation, Step::Remeshing},
+            .summary = "divide every triangle into four and smooth (Loop); caps stay flat",
+            .parameters = {{.name = "iterations",
+                            .type = ParameterType::Integer,
+                            .default_value = std::int64_t{1},
+                            .help = "each one makes four triangles of one",
+                            .minimum = 1,
+                            .maximum = 6}},
+            .run = &run,
+            .thesis = "3.3.1"};
+}
+
+}  // namespace vesselbench
