@@ -114,7 +114,7 @@ void Remesher::polish() {
 bool Remesher::improve_by_collapses(TriangleId t) {
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h)
         for (const HalfEdge k : {h, mesh_.twin(h)}) {
-            if (!may_collapse(k)) continue;
+            if (!may_collapse(k, kLong)) continue;
             const VertexId a = mesh_.origin(k), b = mesh_.target(k);
             double after = 1.0;
             mesh_.for_each_leaving(a, [&](HalfEdge e) {

@@ -60,6 +60,8 @@ void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
         progress.report(static_cast<double>(round) / rounds, "remeshing");
         remesher.split_long_edges(round == 0 ? kFirstSplit : Remesher::kLong);
         remesher.collapse_short_edges();
+        if (round >= 2 && round + 2 < rounds)
+            remesher.collapse_defects();  // sizes have settled, and settle again
         remesher.flip_edges(round % 2 == 0 ? Remesher::FlipRule::Valence
                                            : Remesher::FlipRule::Angle);
         remesher.relax(Remesher::RelaxRule::Size);

@@ -10,6 +10,10 @@ namespace {
 // Botsch & Kobbelt's limits: splitting and collapsing then do not undo each other.
 constexpr double kLong = Remesher::kLong, kShort = 4.0 / 5.0;
 
+// Edges that may go for better valences, and the edges that this may leave: twice the height of an
+// equilateral triangle, and a little. Flips and moves shorten those.
+constexpr double kDefect = 1.2, kAfterDefect = 1.8;
+
 /// A prime above any number of half-edges: i * kScatter mod count visits each edge once in a
 /// scattered order. In the order of their numbers every second row of a regular grid would go, and
 /// the rows that stay would be too far apart in one direction for ever.
@@ -95,7 +99,7 @@ void Remesher::split_long_edges(double limit) {
     }
 }
 
-bool Remesher::may_collapse(HalfEdge h) const {
+bool Remesher::may_collapse(HalfEdge h, double limit) const {
     if (!mesh_.can_collapse(h)) return false;
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     bool allowed = true;
@@ -104,7 +108,7 @@ bool Remesher::may_collapse(HalfEdge h) const {
         const VertexId u = mesh_.target(k), w = mesh_.apex(k);
         if (u == b || w == b) return;
         const Vec3 &pu = mesh_.points[u], &pw = mesh_.points[w], &pb = mesh_.points[b];
-        if ((pu - pb).norm() > kLong * wanted(u, b) || (pw - pb).norm() > kLong * wanted(w, b))
+        if ((pu - pb).norm() > limit * wanted(u, b) || (pw - pb).norm() > limit * wanted(w, b))
             allowed = false;
         const Vec3 before = mesh_.area_normal_of(EditMesh::triangle_of(k));
         const Vec3 after = (pu - pb).cross(pw - pb);
@@ -124,15 +128,36 @@ void Remesher::collapse_short_edges() {
             if (a > b || is_hub(a) || is_hub(b)) continue;
             if (length(h) >= kShort * wanted(a, b)) continue;
             const HalfEdge g = mesh_.twin(h);
-            if (may_collapse(h))
+            if (may_collapse(h, kLong))
                 mesh_.collapse(h);
-            else if (may_collapse(g))
+            else if (may_collapse(g, kLong))
                 mesh_.collapse(g);
             else
                 continue;
             changed = true;
         }
         if (!changed) break;
+    }
+    mesh_.compact();
+}
+
+int Remesher::collapse_valence_excess(HalfEdge h) const {
+    const auto square = [](int off) { return off * off; };
+    const int a = mesh_.valence(mesh_.origin(h)) - 6, b = mesh_.valence(mesh_.target(h)) - 6,
+              c = mesh_.valence(mesh_.apex(h)) - 6,
+              d = mesh_.valence(mesh_.apex(mesh_.twin(h))) - 6;
+    return square(a + b + 2) + square(c - 1) + square(d - 1) - square(a) - square(b) - square(c) -
+           square(d);
+}
+
+void Remesher::collapse_defects() {
+    const std::uint64_t count = mesh_.half_edge_count();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const auto h = static_cast<HalfEdge>(i * kScatter % count);
+        if (mesh_.origin(h) == EditMesh::kNone) continue;
+        const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+        if (is_hub(a) || is_hub(b) || length(h) > kDefect * wanted(a, b)) continue;
+        if (collapse_valence_excess(h) <= -2 && may_collapse(h, kAfterDefect)) mesh_.collapse(h);
     }
     mesh_.compact();
 }

@@ -27,6 +27,9 @@ public:
     /// makes no long edge and folds nothing over.
     void collapse_short_edges();
 
+    /// Collapses edges of any length where that brings at least two valences nearer to six.
+    void collapse_defects();
+
     enum class FlipRule { Valence, Angle };
 
     /// Flips edges where that brings valences towards six, or removes an angle pair above 180 deg.
@@ -73,7 +76,8 @@ private:
     }
 
     [[nodiscard]] bool is_long(HalfEdge h, double limit) const;
-    [[nodiscard]] bool may_collapse(HalfEdge h) const;
+    [[nodiscard]] bool may_collapse(HalfEdge h, double limit) const;
+    [[nodiscard]] int collapse_valence_excess(HalfEdge h) const;
     [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
     [[nodiscard]] bool flip_helps(HalfEdge h, FlipRule rule) const;
     [[nodiscard]] int ideal_valence_excess(HalfEdge h) const;
