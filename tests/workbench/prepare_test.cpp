@@ -179,3 +179,42 @@ SCENARIO("A full disk leaves nothing half-written", "[workbench][bad-input]") {
     CHECK(result.exit_code == 3);
     for (const std::string& name : names_in(out)) CHECK_THAT(name, Contains("project.vbench"));
 }
+
+SCENARIO("Of the damaged files each is prepared, or refused with a reason", "[workbench][nasty]") {
+    const std::string folder = shared_data("nasty");
+    if (folder.empty()) return;
+    const std::string out = temporary_folder() + "/out";
+    const Names hopeless = {"assimp_crash.ply",
+                            "assimp_invalid.off",
+                            "assimp_malformed.obj",
+                            "gc_moebius.obj",
+                            "gc_triple_vierbein.obj",
+                            "igl_truck.obj",
+                            "svmtk_degtri_sliding.off",
+                            "trimesh_empty.ply",
+                            "trimesh_empty.stl",
+                            "trimesh_empty_bin.stl",
+                            "trimesh_points_emptyface.ply",
+                            "trimesh_soup.stl"};
+    for (const std::string& name : hopeless) {
+        INFO(name);
+        check_bad_input(run({"prepare", folder + "/" + name, "--for", "rp", "--out", out}));
+        CHECK_FALSE(fs::exists(out));
+    }
+}
+
+SCENARIO("Ctrl-C ends prepare and leaves the project", "[workbench][prepare]") {
+    const std::string folder = temporary_folder();
+    write_text(folder + "/run.sh",
+               "\"$1\" prepare \"$2\" --for cfd --out \"$3\" &\npid=$!\n"
+               "for i in $(seq 200); do [ -f \"$3/project.vbench\" ] && break; sleep 0.05; done\n"
+               "sleep 0.5\nkill -INT $pid\nwait $pid\n");
+    const ProgramRun result = run_program(
+        "/bin/bash", {"-m", folder + "/run.sh", VESSELBENCH_BINARY, tube(), folder + "/out"});
+    INFO(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, Contains("cancelled"));
+    CHECK(fs::exists(folder + "/out/project.vbench"));
+    CHECK_FALSE(fs::exists(folder + "/out/report.json"));
+    CHECK(run({"log", folder + "/out/project.vbench"}).exit_code == 0);
+}

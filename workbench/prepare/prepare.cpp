@@ -21,11 +21,24 @@ using Json = nlohmann::ordered_json;
 /// Share of the whole progress that the edits take; reports and files take the rest.
 constexpr double kEditsShare = 0.8;
 
+/// The surface that was loaded cannot be repaired: the input is bad, not the recipe.
+class UnusableSource : public InvalidInput {
+public:
+    using InvalidInput::InvalidInput;
+};
+
 /// Removes a project that holds nothing because its first edit failed.
 void remove_project(const fs::path& project) {
     std::error_code ignored;
     for (const char* suffix : {"", "-wal", "-shm", "-journal"})
         fs::remove(project.string() + suffix, ignored);
+}
+
+/// Leaves no trace of a run on an input that cannot be used.
+void clear_away(const fs::path& project, bool new_folder) {
+    remove_project(project);
+    std::error_code ignored;
+    if (new_folder) fs::remove(project.parent_path(), ignored);  // keeps what is not empty
 }
 
 /// An earlier project stays, as project.1.vbench, project.2.vbench ...
@@ -92,6 +105,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
                 tell("warning: " + entry.operation + ": " + warning);
         return "";
     } catch (const AlgorithmFailure& error) {
+        if (entry.operation == "repair") throw UnusableSource(error.what());
         if (!entry.optional) throw;
         const std::string warning = entry.operation + " was left out: " + error.what();
         tell("warning: " + warning);
@@ -149,14 +163,15 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
                                          progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
         write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
+    } catch (const UnusableSource&) {
+        clear_away(project, new_folder);
+        throw;
     } catch (const std::exception&) {
-        if (any_edit)
+        if (!any_edit)
+            clear_away(project, new_folder);
+        else
             tell("the edits done so far are kept in " + project.filename().string() +
                  "; no other file was written");
-        else
-            remove_project(project);
-        std::error_code ignored;
-        if (new_folder) fs::remove(options.out, ignored);  // keeps what is not empty
         throw;
     }
 }

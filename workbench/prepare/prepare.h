@@ -27,7 +27,7 @@ using Teller = std::function<void(const std::string&)>;
 /// Results appear only when all of them are whole. An earlier project in the folder is kept under
 /// another name.
 /// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
-/// the edits that were done, and there is no project if the input could not even be loaded
+/// the edits that were done; there is no project if the input cannot be loaded or repaired
 void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
 
 /// Makes a project whose first edit loads the input. \throw IoError if the file exists
