@@ -125,12 +125,12 @@ public:
     }
 
     OpeningPlan run() {
-        if (options_.tip)
+        if (options_.tip) {
             plan_tip(near_tip(*options_.tip));
-        else if (ends_.empty())
-            plan_closed();
-        else
+        } else {
             plan_visible();
+            if (all_ends_are_cuts()) plan_blind();
+        }
         if (plan_.openings.empty())
             throw AlgorithmFailure(
                 "no vessel end was found that could be opened: name one by tip=x,y,z");
@@ -162,15 +162,34 @@ private:
         }
     }
 
-    void plan_closed() {
+    /// Open rims and named caps say where the vessels end. Cuts at an image's border do not: other
+    /// vessels may end inside the image.
+    bool all_ends_are_cuts() const {
+        return std::all_of(ends_.begin(), ends_.end(), [&](const End& end) {
+            return end.patch && surface_.patches[*end.patch].kind == PatchKind::Cut;
+        });
+    }
+
+    void plan_blind() {
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
-            if (!graph_.nodes[n].is_tip()) continue;
+            const bool visible = std::any_of(ends_.begin(), ends_.end(),
+                                             [&](const End& end) { return end.tip == n; });
+            if (!graph_.nodes[n].is_tip() || visible) continue;
             if (looks_like_sac(graph_, n))
                 plan_.warnings.push_back("the branch with its tip at " +
                                          place_text(graph_.nodes[n].position) +
                                          " looks like an aneurysm and was not opened");
             else
-                plan_tip(n);
+                plan_blind_tip(n);
+        }
+    }
+
+    /// A blind stub that is too short to be opened stays closed.
+    void plan_blind_tip(std::size_t tip) {
+        try {
+            plan_tip(tip);
+        } catch (const AlgorithmFailure& failure) {
+            plan_.warnings.push_back(std::string("left closed: ") + failure.what());
         }
     }
 
