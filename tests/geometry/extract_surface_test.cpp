@@ -113,6 +113,19 @@ SCENARIO("A body in a corner of the image is closed on three sides", "[images][e
     CHECK(volume(part) == Approx(ball_volume(8.3) / 8.0).epsilon(0.01));
 }
 
+SCENARIO("A touch of the border is no vessel's end", "[images][extraction]") {
+    const Image mask = image_of({9, 9, 9}, Eigen::Matrix4d::Identity(), [](const Vec3& p) {
+        const bool body = p.x() > 1 && p.x() < 7 && p.y() > 1 && p.y() < 7 && p.z() > 0;
+        const bool hair = p.x() == 4 && p.y() == 4;
+        return body || hair ? 1.0 : 0.0;
+    });
+    const Extraction extraction = extract_surface(mask, {}, {});
+    // The body ends at the last slice; the hair of one voxel meets the first one.
+    REQUIRE(extraction.surface.patches.size() == 2);
+    CHECK(measure_patches(extraction.surface)[1].centroid.z() == Approx(8.0));
+    CHECK(is_closed_manifold(extraction.surface));
+}
+
 SCENARIO("The surface of any image is a closed manifold", "[images][extraction][property]") {
     const unsigned seed = GENERATE(1u, 2u, 3u, 4u, 5u);
     const bool binary = GENERATE(false, true);
