@@ -1,5 +1,6 @@
 #include "workbench/prepare/prepare.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -93,7 +94,25 @@ std::string told(const LogEntry& entry) {
            (change.empty() ? "" : ": " + change);
 }
 
-/// Applies one entry. \return what could not be done, if the entry is optional; else empty
+/// Smoothing that costs more of the volume than this is told [-]: the surface is too coarse for it.
+constexpr double kNoticedLoss = 0.03;
+
+/// What a user should know of a smoothing run beside its own warnings; else empty.
+std::string noticed(const LogEntry& entry) {
+    if (entry.edit.operation != "smooth" || !entry.result) return "";
+    const SurfaceChange& change = entry.result->change;
+    if (!change.volume_before || !change.volume_after || *change.volume_before <= 0) return "";
+    const double ratio = *change.volume_after / *change.volume_before;
+    if (std::abs(ratio - 1.0) <= kNoticedLoss) return "";
+    char text[128];
+    std::snprintf(
+        text, sizeof text,
+        "smooth changed the volume by %.1f %%: fewer iterations, or filter=taubin, keep it",
+        100.0 * (ratio - 1.0));
+    return text;
+}
+
+/// Applies one entry. \return what should be told beside the edit's own warnings; else empty
 std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
                         const Teller& tell, const Progress& progress) {
     try {
@@ -103,7 +122,9 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         if (done.result)
             for (const std::string& warning : done.result->warnings)
                 tell("warning: " + entry.operation + ": " + warning);
-        return "";
+        const std::string warning = noticed(done);
+        if (!warning.empty()) tell("warning: " + warning);
+        return warning;
     } catch (const AlgorithmFailure& error) {
         if (entry.operation == "repair") throw UnusableSource(error.what());
         if (!entry.optional) throw;
