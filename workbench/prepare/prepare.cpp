@@ -125,6 +125,10 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         const std::string warning = noticed(done);
         if (!warning.empty()) tell("warning: " + warning);
         return warning;
+    } catch (const InvalidInput& error) {
+        // What was loaded was accepted: from here on it is the operation that cannot be done.
+        if (find_operation(entry.operation).usual_step == Step::Source) throw;
+        throw AlgorithmFailure(error.what());
     } catch (const AlgorithmFailure& error) {
         if (entry.operation == "repair") throw UnusableSource(error.what());
         if (!entry.optional) throw;
@@ -151,7 +155,7 @@ std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
 void write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                    const Progress& progress) {
     PendingFiles files;
-    progress.report(0.0, "measuring");
+    progress.report(0.0, "writing the products");
     prepared.products =
         write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
@@ -183,7 +187,11 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
         prepared.warnings = apply_recipe(session, recipe, options.purpose, noting,
                                          progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
-        write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
+        try {
+            write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
+        } catch (const InvalidInput& error) {
+            throw AlgorithmFailure(error.what());  // the model lacks what the product needs
+        }
     } catch (const UnusableSource&) {
         clear_away(project, new_folder);
         throw;
