@@ -346,19 +346,21 @@ OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
         throw AlgorithmFailure("the clipping plane at " + place_text(plane.point) +
                                " meets an open border: clip further away from the tip");
     // Moving vertices may pinch the rim where the mesh is bad; cutting without it never does.
+    bool separates = true;
     for (const bool snapping : {true, false}) {
         Cut cut(surface, plane, *curve);
         if (snapping) cut.snap();
         cut.divide();
         const auto rim = cut.rim();
         if (rim.empty()) continue;
-        if (!cut.mark_removed())
-            throw AlgorithmFailure("the cut at " + place_text(plane.point) +
-                                   " does not separate the branch from the rest: the vessels form "
-                                   "a loop there; clip one of the other branches as well, or "
-                                   "choose another place");
-        return RimCleaner(cut.result(rim)).run();
+        separates = cut.mark_removed();
+        if (separates) return RimCleaner(cut.result(rim)).run();
     }
+    if (!separates)
+        throw AlgorithmFailure("the cut at " + place_text(plane.point) +
+                               " does not separate the branch from the rest: the vessels form a "
+                               "loop there; clip one of the other branches as well, or choose "
+                               "another place");
     throw AlgorithmFailure("the cut at " + place_text(plane.point) +
                            " has no simple rim: repair the surface there, or clip elsewhere");
 }
