@@ -419,7 +419,11 @@ History ProjectFile::history() const {
                            row.text(4)});
     const StateId current = database.number("SELECT value FROM meta WHERE name = 'current'");
     database.run("COMMIT");
-    return {std::move(edits), std::move(states), std::move(results), current};
+    try {
+        return {std::move(edits), std::move(states), std::move(results), current};
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(database.name() + " is damaged: " + error.what());
+    }
 }
 
 EditRecord ProjectFile::edit(EditRef edit) const {

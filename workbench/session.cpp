@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "geometry/errors.h"
 #include "workbench/scene_cache.h"
 #include "workbench/source_files.h"
+#include "workbench/stored_text.h"
 #include "workbench/surface_change.h"
 #include "workbench/version.h"
 
@@ -96,6 +98,9 @@ struct Session::Parts {
     ProjectFile project;
     History history;
     SceneCache cache;
+    /// Results of pending edits that a session without the right to write ran for itself.
+    std::map<ResultId, ResultRecord> own_results;
+    std::map<ResultId, Scene> own_scenes;
 
     Parts(SessionOptions o, ProjectFile p)
         : options(std::move(o)),
@@ -129,7 +134,7 @@ struct Session::Parts {
         record.input = input;
         record.resolved = without_folders(operation, done.outcome.resolved);
         record.warnings = done.outcome.warnings;
-        if (done.outcome.report) record.report = done.outcome.report->dump();
+        if (done.outcome.report) record.report = stored_text(*done.outcome.report);
         record.change = surface_change(done.input, done.outcome.scene);
         record.duration = took.count();
         record.device = device_of(record.resolved);
@@ -142,12 +147,36 @@ struct Session::Parts {
         record.program_version = version();
     }
 
+    [[nodiscard]] bool only_reads() const { return !project.read_only_reason().empty(); }
+
     /// Writes the difference between the history and `next`, then makes it the history.
     void commit(History next, ProjectChange change) {
         change.before = &history;
         change.after = &next;
         project.commit(change);
         history = std::move(next);
+    }
+
+    /// Enters the result of a pending edit. A session that only reads keeps it to itself.
+    void commit_result(History next, const ResultRecord& record, const Scene* scene,
+                       const Scene* input) {
+        if (only_reads()) {
+            own_results[record.id] = record;
+            if (scene != nullptr) own_scenes[record.id] = *scene;
+            history = std::move(next);
+            return;
+        }
+        ProjectChange change;
+        change.result = &record;
+        change.scene = scene;
+        change.input = input;
+        commit(std::move(next), std::move(change));
+        if (scene != nullptr) cache.put(record.id, *scene);
+    }
+
+    [[nodiscard]] ResultRecord record_of(ResultId id) const {
+        const auto own = own_results.find(id);
+        return own != own_results.end() ? own->second : project.result(id);
     }
 
     void navigate(const std::function<void(History&)>& move) {
@@ -176,11 +205,10 @@ struct Session::Parts {
 
     /// Runs a pending edit on an input and stores what came out. \return the result behind it
     ResultId run_pending(EditRef ref, ResultId input, Progress& progress) {
-        check_writable();
         const EditRecord edit = project.edit(ref);
         const HistoryResult* earlier = history.newest_result_of(ref);
         const Arguments arguments =
-            earlier != nullptr ? project.result(earlier->id).resolved : edit.given;
+            earlier != nullptr ? record_of(earlier->id).resolved : edit.given;
         History next = history;
         try {
             const Operation& operation = options.find(edit.operation);
@@ -190,12 +218,7 @@ struct Session::Parts {
                     progress);
             done.record.edit = ref;
             done.record.id = next.add_result(ref, input);
-            ProjectChange change;
-            change.result = &done.record;
-            change.scene = &done.outcome.scene;
-            change.input = &done.input;
-            commit(std::move(next), std::move(change));
-            cache.put(done.record.id, done.outcome.scene);
+            commit_result(std::move(next), done.record, &done.outcome.scene, &done.input);
             return done.record.id;
         } catch (const AlgorithmFailure& error) {
             return enter_stale(ref, input, error.what());
@@ -215,9 +238,7 @@ struct Session::Parts {
         record.stale_reason = reason;
         record.device = "cpu";
         stamp(record);
-        ProjectChange change;
-        change.result = &record;
-        commit(std::move(next), std::move(change));
+        commit_result(std::move(next), record, nullptr, nullptr);
         return input;
     }
 
@@ -239,6 +260,7 @@ struct Session::Parts {
 
     Scene load(ResultId id) {
         if (id == 0) return {};
+        if (const auto own = own_scenes.find(id); own != own_scenes.end()) return own->second;
         if (auto scene = cache.find(id)) return *scene;
         const std::vector<Scene> recalled = recall(id);
         Scene scene = project.scene(id);
@@ -273,8 +295,8 @@ struct Session::Parts {
         const EditRecord edit = project.edit(result.edit);
         const Operation& operation = options.find(edit.operation);
         const Arguments arguments =
-            with_found_files(operation, project.result(result.id).resolved,
-                             project.sources(result.edit), project.folder());
+            with_found_files(operation, record_of(result.id).resolved, project.sources(result.edit),
+                             project.folder());
         return run_operation(operation, load(result.input), arguments, progress, options.worker);
     }
 
@@ -283,8 +305,8 @@ struct Session::Parts {
         replayed.edit = entry.edit;
         replayed.operation = project.edit(entry.edit).operation;
         replayed.variant = entry.place.variant;
-        if (entry.status != EditStatus::Done) {
-            replayed.note = to_string(entry.status) + ": it has no result";
+        if (entry.status != EditStatus::Done || own_results.contains(entry.result)) {
+            replayed.note = to_string(entry.status) + ": it has no stored result";
             return replayed;
         }
         replayed.differences = project.damages(entry.result);
@@ -318,11 +340,7 @@ Session Session::create(const std::filesystem::path& project, SessionOptions opt
 
 Session Session::open(const std::filesystem::path& project, SessionOptions options) {
     auto file = ProjectFile::open(project, options.embed_limit);
-    try {
-        return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(project.filename().string() + " is damaged: " + error.what());
-    }
+    return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
 }
 
 Session Session::unsaved(SessionOptions options) {
@@ -417,7 +435,7 @@ std::vector<LogEntry> Session::log() const {
         line.edit = parts_->project.edit(entry.edit);
         line.status = entry.status;
         line.reason = entry.reason;
-        if (entry.status == EditStatus::Done) line.result = parts_->project.result(entry.result);
+        if (entry.status == EditStatus::Done) line.result = parts_->record_of(entry.result);
         log.push_back(std::move(line));
     }
     return log;

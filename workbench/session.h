@@ -98,7 +98,8 @@ public:
     void redo(EditId to);
     void jump(StateId state);
 
-    /// The scene of a variant. Pending edits run first; those that no longer apply become stale.
+    /// The scene of a variant. Pending edits run first; those that no longer apply become stale. A
+    /// session that only reads runs them for itself.
     [[nodiscard]] Scene scene(const std::string& variant = "cfd", Progress progress = {});
 
     /// The scene right after one edit of the current state; pending edits up to it run first.

@@ -73,8 +73,11 @@ Value value_from_json(const Json& json) {
 std::string stored_text(const Arguments& arguments) {
     Json json = Json::object();
     for (const auto& [name, value] : arguments.values()) json[name] = std::visit(ToJson{}, value);
-    // A file's name may be in any encoding; what is not UTF-8 is replaced.
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return stored_text(json);
+}
+
+std::string stored_text(const Json& report) {
+    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Arguments arguments_from_stored(const std::string& text) {

@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "workbench/arguments.h"
 #include "workbench/bytes.h"
 
@@ -12,6 +14,9 @@ namespace vesselbench {
 /// back with its type and its bits, whatever operation it belongs to. Points are {"x", "y", "z"},
 /// numbers that JSON does not know {"real": "inf"}.
 [[nodiscard]] std::string stored_text(const Arguments& arguments);
+
+/// A report's text; what is not UTF-8 in it (a file's name) is replaced.
+[[nodiscard]] std::string stored_text(const nlohmann::ordered_json& report);
 
 /// \throw InvalidInput if the text is no such JSON
 [[nodiscard]] Arguments arguments_from_stored(const std::string& text);

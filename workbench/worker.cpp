@@ -37,6 +37,13 @@ constexpr int kFirstFree = 10;
 constexpr int kPollMilliseconds = 20;
 constexpr auto kProgressInterval = std::chrono::milliseconds(20);
 
+// The sanitizers' shadow memory takes more address space than any limit.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 enum class Ending : std::uint8_t { Done = 1, Usage, Input, Io, Algorithm, Gpu, Cancel, Memory };
 
 /// A file descriptor that is closed with its owner.
@@ -113,9 +120,9 @@ Bytes request_bytes(const Operation& operation, const Scene& scene, const Argume
 Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known) {
     ByteWriter writer;
     writer.put(Ending::Done);
-    writer.put_text(outcome.report ? outcome.report->dump() : "");
+    writer.put_text(outcome.report ? stored_text(*outcome.report) : "");
     writer.put_text(stored_text(outcome.resolved));
-    writer.put_text(Json(outcome.warnings).dump());
+    writer.put_text(stored_text(Json(outcome.warnings)));
     writer.append(encode_scene(outcome.scene, known));
     return writer.take();
 }
@@ -286,7 +293,8 @@ Progress::Receiver progress_lines() {
 Bytes run_request(const OperationLookup& find) {
     const Bytes request = read_all(STDIN_FILENO);
     ByteReader reader(request);
-    if (const auto memory = reader.get<std::uint64_t>(); memory > 0) limit(RLIMIT_AS, memory);
+    const auto memory = reader.get<std::uint64_t>();
+    if (memory > 0 && !kSanitized) limit(RLIMIT_AS, memory);
     const Operation& operation = find(reader.get_text());
     const Arguments arguments = arguments_from_stored(reader.get_text());
     const Scene scene = decode_scene(reader.get_bytes(reader.left()));

@@ -190,6 +190,31 @@ SCENARIO("Two processes on one project: the second only reads", "[workbench][pro
     }
 }
 
+SCENARIO("A reader sees pending edits run, for itself only", "[workbench][project]") {
+    const std::string file = new_project();
+    Session writer = Session::open(file, options());
+    writer.apply("bump", small_bump());
+    writer.change_edit(1, {{"levels", std::int64_t{3}}});
+    Session reader = Session::open(file, options());
+    CHECK(reader.log()[1].status == EditStatus::Pending);
+    CHECK(surface_of(reader.scene()).triangle_count() == 1280);
+    CHECK(reader.log()[1].status == EditStatus::Done);
+    CHECK(reader.log()[1].result->change.moved_vertices > 0);
+    CHECK(writer.log()[1].status == EditStatus::Pending);
+    CHECK(writer.scene().surface->points() == reader.scene().surface->points());
+    CHECK(reader.replay()[0].replayed);
+}
+
+SCENARIO("A session without a file becomes a project", "[workbench][project]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    Session session = Session::unsaved(options());
+    session.apply("make-sphere", {});
+    session.save_as(file);
+    Session saved = Session::open(file, options());
+    CHECK(saved.read_only_reason().empty());
+    CHECK(saved.scene().surface->points() == session.scene().surface->points());
+}
+
 SCENARIO("A project of a newer version is refused", "[workbench][project]") {
     const std::string file = new_project();
     run_sql(file,
