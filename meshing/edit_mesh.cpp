@@ -162,18 +162,20 @@ void EditMesh::flip(HalfEdge h) {
     leaving_[a] = h_prev, leaving_[b] = g_prev, leaving_[c] = h_next, leaving_[d] = g_next;
 }
 
-bool EditMesh::can_collapse(HalfEdge h) const {
+bool EditMesh::can_collapse(HalfEdge h) {
     const HalfEdge g = twin(h);
     if (is_hole(patch_at(h)) && is_hole(patch_at(g))) return false;
     const int features = feature_edges_at(origin(h));
     if (features > 2 || (features > 0 && !is_feature(h))) return false;
     const VertexId a = origin(h), b = target(h), c = apex(h), d = apex(g);
     if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
+    // The neighbours that both ends share must be c and d alone. Marks find them in one walk around
+    // either end; hubs of fans have hundreds of neighbours.
+    marked_.resize(points.size(), kNone);
+    for_each_leaving(a, [&](HalfEdge k) { marked_[target(k)] = a; });
     int common = 0;
-    for_each_leaving(a, [&](HalfEdge k) {
-        const VertexId u = target(k);
-        if (u != b && are_neighbours(b, u)) ++common;
-    });
+    for_each_leaving(b, [&](HalfEdge k) { common += marked_[target(k)] == a; });
+    for_each_leaving(a, [&](HalfEdge k) { marked_[target(k)] = kNone; });
     return common == 2;
 }
 

@@ -84,7 +84,7 @@ public:
 
     /// True where the origin of h may be merged into its target and the surface stays a manifold
     /// of the same kind.
-    [[nodiscard]] bool can_collapse(HalfEdge h) const;
+    [[nodiscard]] bool can_collapse(HalfEdge h);
     /// Merges the origin of h into its target, which stays where it is.
     void collapse(HalfEdge h);
 
@@ -114,6 +114,7 @@ private:
     std::vector<HalfEdge> twin_;        ///< by half-edge
     std::vector<HalfEdge> leaving_;     ///< by vertex
     std::vector<std::uint32_t> patch_;  ///< by triangle
+    std::vector<VertexId> marked_;      ///< by vertex; kNone between calls
     std::uint32_t first_hole_ = 0;      ///< patches from here on are holes
 };
 

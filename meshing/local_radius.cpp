@@ -15,7 +15,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kMostRayVertices = 20000;  // more are filled in from their neighbours
+constexpr std::size_t kMostRayVertices = 8000;  // more are filled in from their neighbours
 constexpr double kBlindTip = 2.0;  // a tip is an opening's if the opening is within 2 radii of it
 
 struct LinePoint {

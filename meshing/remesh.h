@@ -37,9 +37,11 @@ struct Remeshed {
 };
 
 /// Covers the surface with well-shaped triangles of a wanted size: graded (small where the vessel
-/// is thin, curved, or close to another wall) or uniform. Vertices lie on the input; patches stay;
-/// rims of caps and open boundaries stay features (on their circle where round, on their polyline
-/// otherwise), flat caps stay exactly flat; attributes are interpolated at the closest point.
+/// is thin, curved, or close to another wall) or uniform.
+/// Vertices lie on the input, but for the small lift that gives its volume back to the flat
+/// triangles. Patches stay; rims of caps and open boundaries stay features (on their circle where
+/// round, on their polyline otherwise), flat caps stay exactly flat; attributes are interpolated at
+/// the closest point.
 /// Sources: Botsch & Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004; Dunyach
 /// et al., "Adaptive remeshing for real-time mesh deformation", Eurographics short papers 2013.
 /// \param surface an oriented manifold, closed or open

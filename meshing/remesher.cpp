@@ -19,6 +19,8 @@ constexpr double kDefect = 1.2, kAfterDefect = 1.8;
 /// the rows that stay would be too far apart in one direction for ever.
 constexpr std::uint64_t kScatter = 4294967311ULL;
 
+constexpr double kMostLift = 0.05;  // in wanted edges: twice what 14 edges around ask for
+
 constexpr int kMostPasses = 12;  // of splits or collapses in one step; each halves what is left
 
 /// Cosine of the largest turn of a triangle's normal that an edit may make.
@@ -99,17 +101,22 @@ void Remesher::split_long_edges(double limit) {
     }
 }
 
-bool Remesher::may_collapse(HalfEdge h, double limit) const {
+bool Remesher::may_collapse(HalfEdge h, double limit) {
     if (!mesh_.can_collapse(h)) return false;
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    constexpr double kSlack = 1.01;  // edges that are long already may stay so: needles go first
+    const Vec3& pa = mesh_.points[a];
     bool allowed = true;
     mesh_.for_each_leaving(a, [&](HalfEdge k) {
         if (!allowed || mesh_.is_hole(mesh_.patch_at(k))) return;
         const VertexId u = mesh_.target(k), w = mesh_.apex(k);
         if (u == b || w == b) return;
         const Vec3 &pu = mesh_.points[u], &pw = mesh_.points[w], &pb = mesh_.points[b];
-        if ((pu - pb).norm() > limit * wanted(u, b) || (pw - pb).norm() > limit * wanted(w, b))
-            allowed = false;
+        const auto grows_long = [&](const Vec3& p, VertexId x) {
+            const double after = (p - pb).norm();
+            return after > limit * wanted(x, b) && after > kSlack * (p - pa).norm();
+        };
+        if (grows_long(pu, u) || grows_long(pw, w)) allowed = false;
         const Vec3 before = mesh_.area_normal_of(EditMesh::triangle_of(k));
         const Vec3 after = (pu - pb).cross(pw - pb);
         if (!before.isZero(0.0) && turns_too_far(before, after)) allowed = false;
@@ -157,7 +164,7 @@ void Remesher::collapse_defects() {
         if (mesh_.origin(h) == EditMesh::kNone) continue;
         const VertexId a = mesh_.origin(h), b = mesh_.target(h);
         if (is_hub(a) || is_hub(b) || length(h) > kDefect * wanted(a, b)) continue;
-        if (collapse_valence_excess(h) <= -2 && may_collapse(h, kAfterDefect)) mesh_.collapse(h);
+        if (collapse_valence_excess(h) <= 0 && may_collapse(h, kAfterDefect)) mesh_.collapse(h);
     }
     mesh_.compact();
 }
@@ -286,6 +293,25 @@ void Remesher::relax(RelaxRule rule) {
         if (!place.normal.isZero(0.0) && place.normal.dot(normal_at(v)) < 0.0) continue;
         if (move_keeps_shape(v, place.point)) move(v, place);
     }
+}
+
+void Remesher::keep_volume() {
+    Positions lifted = mesh_.points;
+    for (VertexId v = 0; v < mesh_.vertex_count(); ++v) {
+        if (mesh_.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
+        const VertexKind kind = kind_of(v);
+        if (kind.features != 0 || target_.plane_normal(kind.p)) continue;
+        const Vec3 normal = normal_at(v);
+        double sum = 0.0, count = 0.0;
+        mesh_.for_each_leaving(v, [&](HalfEdge h) {
+            const Vec3 middle = 0.5 * (mesh_.points[v] + mesh_.points[mesh_.target(h)]);
+            sum += (target_.on_patch(kind.p, middle, near_[v]).point - middle).dot(normal);
+            count += 1.0;
+        });
+        const double most = kMostLift * size_[v];
+        lifted[v] += std::clamp(sum / count, -most, most) * normal;
+    }
+    mesh_.points = std::move(lifted);
 }
 
 Surface Remesher::result() const {

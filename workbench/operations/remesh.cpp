@@ -21,16 +21,16 @@ RemeshParameters parameters_from(const Arguments& arguments) {
 }
 
 Report report_from(const RemeshReport& figures) {
-    return std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{
-        {"usual_radius_mm", figures.usual_radius},
-        {"edge_mm", figures.edge},
-        {"triangles_before", figures.triangles_before},
-        {"triangles_after", figures.triangles_after},
-        {"wall_equiangle_skewness",
-         {{"mean", figures.wall_skewness_mean}, {"max", figures.wall_skewness_max}}},
-        {"wall_radius_ratio",
-         {{"mean", figures.wall_radius_ratio_mean}, {"min", figures.wall_radius_ratio_min}}},
-        {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
+    return std::make_shared<nlohmann::ordered_json>(
+        nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
+                               {"edge_mm", figures.edge},
+                               {"triangles_before", figures.triangles_before},
+                               {"triangles_after", figures.triangles_after},
+                               {"wall_equiangle_skewness_mean", figures.wall_skewness_mean},
+                               {"wall_equiangle_skewness_max", figures.wall_skewness_max},
+                               {"wall_radius_ratio_mean", figures.wall_radius_ratio_mean},
+                               {"wall_radius_ratio_min", figures.wall_radius_ratio_min},
+                               {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
 }
 
 /// The lines, if they are wanted and can be found; what was used is resolved.
