@@ -26,7 +26,7 @@ constexpr double kKeptFlatness = 1e-5;
 constexpr double kKeptTiltDeg = 2.0;
 /// A border or a cap belongs to a tip within this many of its diameters.
 constexpr double kTipReach = 1.5;
-/// A sac: wider than its neck by this factor, and no longer than this many of its radii.
+/// A sac: wider than its neck or its neighbours by this factor, and no longer than this many radii.
 constexpr double kSacToNeck = 1.4;
 constexpr double kSacLength = 2.5;
 
@@ -80,21 +80,39 @@ void match_tips(std::vector<End>& ends, const CenterlineGraph& graph) {
         if (!ends[pair.end].tip && taken.insert(pair.tip).second) ends[pair.end].tip = pair.tip;
 }
 
-bool looks_like_sac(const CenterlineGraph& graph, std::size_t tip) {
+/// A branch beyond the wall of the vessel it leaves.
+struct BlindBranch {
+    double length = 0.0;  ///< [mm]
+    double widest = 0.0;  ///< largest radius [mm]
+    bool bulges = false;  ///< wider than its neck, or than every vessel it meets: a sac
+
+    [[nodiscard]] bool is_short() const { return length < kSacLength * widest; }
+};
+
+/// Radius of a branch where it has left the furcation at `node` [mm].
+double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
+    const double zone = furcation_zone_end(graph, branch, node);
+    return radius_at(graph.branches[branch], place_from_node(graph, branch, node, zone).abscissa);
+}
+
+BlindBranch blind_branch(const CenterlineGraph& graph, std::size_t tip, std::size_t root) {
     const std::size_t index = branch_of_tip(graph, tip);
     const auto& branch = graph.branches[index];
-    const std::size_t root = branch.start_node == tip ? branch.end_node : branch.start_node;
-    if (graph.nodes[root].is_tip()) return false;
-    const double length = branch_length(branch);
+    const double whole = branch_length(branch);
     const double zone = furcation_zone_end(graph, index, root);
-    double neck = std::numeric_limits<double>::infinity(), widest = 0.0;
-    for (double s = zone; s <= length; s += 0.02 * length + 1e-9) {
+    BlindBranch found{.length = whole - zone};
+    double neck = std::numeric_limits<double>::infinity();
+    for (double s = zone; s <= whole; s += 0.02 * whole + 1e-9) {
         const double r = radius_at(branch, place_from_node(graph, index, root, s).abscissa);
         neck = std::min(neck, r);
-        // Only what is wider than the neck before it.
-        if (r > kSacToNeck * neck) widest = std::max(widest, r);
+        found.widest = std::max(found.widest, r);
+        found.bulges = found.bulges || r > kSacToNeck * neck;
     }
-    return widest > 0.0 && length - zone < kSacLength * widest;
+    double others = 0.0;
+    for (const std::size_t other : graph.nodes[root].branches)
+        if (other != index) others = std::max(others, radius_beyond(graph, other, root));
+    found.bulges = found.bulges || found.widest > kSacToNeck * others;
+    return found;
 }
 
 bool is_good_cap(const Surface& surface, std::size_t patch) {
@@ -175,17 +193,26 @@ private:
             const bool visible = std::any_of(ends_.begin(), ends_.end(),
                                              [&](const End& end) { return end.tip == n; });
             if (!graph_.nodes[n].is_tip() || visible) continue;
-            if (looks_like_sac(graph_, n))
-                plan_.warnings.push_back("the branch with its tip at " +
-                                         place_text(graph_.nodes[n].position) +
-                                         " looks like an aneurysm and was not opened");
-            else
-                plan_blind_tip(n);
+            plan_blind_tip(n);
         }
     }
 
-    /// A blind stub that is too short to be opened stays closed.
+    /// An aneurysm stays closed, and so does what is too short to be opened. Where cuts already
+    /// show how the blood comes and goes, a short blind stub is no opening either.
     void plan_blind_tip(std::size_t tip) {
+        const std::size_t index = branch_of_tip(graph_, tip);
+        const auto& branch = graph_.branches[index];
+        const std::size_t root = branch.start_node == tip ? branch.end_node : branch.start_node;
+        if (!graph_.nodes[root].is_tip()) {
+            const BlindBranch blind = blind_branch(graph_, tip, root);
+            if (blind.is_short() && (blind.bulges || ends_.size() >= 2)) {
+                plan_.warnings.push_back("the branch with its tip at " +
+                                         place_text(graph_.nodes[tip].position) +
+                                         (blind.bulges ? " looks like an aneurysm" : " is short") +
+                                         " and was not opened; tip=x,y,z opens it");
+                return;
+            }
+        }
         try {
             plan_tip(tip);
         } catch (const AlgorithmFailure& failure) {
