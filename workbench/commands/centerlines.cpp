@@ -8,9 +8,9 @@
 
 #include "geometry/errors.h"
 #include "geometry/io/centerline_file.h"
-#include "geometry/io/surface_file.h"
 #include "workbench/commands/commands.h"
 #include "workbench/console.h"
+#include "workbench/foreign_surface.h"
 
 namespace vesselbench {
 
@@ -80,8 +80,7 @@ void print_table(const CenterlineGraph& graph) {
 void find_centerlines(const CenterlineOptions& options, const Progress& progress) {
     if (!options.out.ends_with(".vtp"))
         throw UsageError("OUT '" + options.out + "' does not end in .vtp");
-    const LengthUnit unit = length_unit_from(options.units.empty() ? "mm" : options.units);
-    const Surface surface = read_surface(options.surface, unit).surface;
+    const Surface surface = read_foreign_surface(options.surface, options.units);
     const CenterlineGraph graph = compute_centerlines(surface, {}, progress);
     write_centerlines(graph, options.out);
     if (options.json)

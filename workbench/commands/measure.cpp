@@ -4,11 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
 #include "geometry/reference_comparison.h"
 #include "workbench/commands/commands.h"
 #include "workbench/console.h"
+#include "workbench/foreign_surface.h"
 #include "workbench/report/measure_json.h"
 
 namespace vesselbench {
@@ -16,12 +15,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A measured file is taken as it is, in millimetres, unless the user says otherwise: a figure must
-/// not depend on a guess.
-Surface surface_from(const std::string& file, const std::string& units) {
-    return read_surface(file, length_unit_from(units.empty() ? "mm" : units)).surface;
-}
 
 std::string numbers(const Json& list) {
     std::string text;
@@ -61,11 +54,11 @@ void print_table(const Json& document) {
 }  // namespace
 
 void measure_surface(const MeasureOptions& options) {
-    const Surface surface = surface_from(options.surface, options.units);
+    const Surface surface = read_foreign_surface(options.surface, options.units);
     Json document = measure_json(measure(surface));
     if (!options.reference.empty())
-        document["reference"] = reference_json(
-            compare_with_reference(surface, surface_from(options.reference, options.units)));
+        document["reference"] = reference_json(compare_with_reference(
+            surface, read_foreign_surface(options.reference, options.units)));
     if (options.json)
         std::cout << document.dump(2) << "\n";
     else

@@ -9,8 +9,8 @@
 
 #include "geometry/errors.h"
 #include "geometry/io/image_file.h"
-#include "geometry/io/surface_file.h"
 #include "geometry/phantoms/phantom.h"
+#include "workbench/foreign_surface.h"
 #include "workbench/pending_files.h"
 #include "workbench/phantoms/phantom_json.h"
 
@@ -102,7 +102,7 @@ void fill_from_case(Input& input, const fs::path& folder, const Json& json,
     input.file = case_file(folder, json, input.is_image ? "image" : "surface");
     if (json.contains("mask")) input.mask = case_file(folder, json, "mask");
     if (json.contains("exact"))
-        input.exact = read_surface(case_file(folder, json, "exact").string()).surface;
+        input.exact = read_foreign_surface(case_file(folder, json, "exact").string(), input.units);
 }
 
 void read_case(Input& input, const fs::path& folder, const Progress& progress) {

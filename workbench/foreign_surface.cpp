@@ -1,0 +1,17 @@
+#include "workbench/foreign_surface.h"
+
+#include "geometry/io/length_unit.h"
+#include "workbench/run_operation.h"
+
+namespace vesselbench {
+
+Surface read_foreign_surface(const std::string& file, const std::string& units,
+                             const Progress& progress) {
+    Arguments arguments;
+    arguments.set("file", file);
+    arguments.set("units", to_string(length_unit_from(units.empty() ? "mm" : units)));
+    Progress reading = progress;
+    return *run_operation(find_operation("load-surface"), {}, arguments, reading).scene.surface;
+}
+
+}  // namespace vesselbench
