@@ -23,6 +23,9 @@ constexpr double kMostLift = 0.05;  // in wanted edges: twice what 14 edges arou
 
 constexpr int kMostPasses = 12;  // of splits or collapses in one step; each halves what is left
 
+/// Edges this often too long belong to a coarse source; they go in steps of this factor.
+constexpr double kCoarse = 8.0, kCoarseStep = 1.3;
+
 /// Cosine of the largest turn of a triangle's normal that an edit may make.
 constexpr double kTurn = 0.3;
 
@@ -84,7 +87,23 @@ bool Remesher::is_long(HalfEdge h, double limit) const {
     return length(h) > limit * wanted(mesh_.origin(h), mesh_.target(h));
 }
 
+double Remesher::longest_share() const {
+    double longest = 0.0;
+    for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h)
+        if (is_long(h, longest)) longest = length(h) / wanted(mesh_.origin(h), mesh_.target(h));
+    return longest;
+}
+
 void Remesher::split_long_edges(double limit) {
+    // A coarse source loses its longest edges first: halved in any order, its triangles would
+    // become slivers of slivers, millions out of fifty.
+    for (double coarse = longest_share() / kCoarseStep; coarse > kCoarse * limit;
+         coarse /= kCoarseStep)
+        split_edges_above(coarse);
+    split_edges_above(limit);
+}
+
+void Remesher::split_edges_above(double limit) {
     for (int pass = 0; pass < kMostPasses; ++pass) {
         const std::size_t count = mesh_.half_edge_count();
         for (HalfEdge h = 0; h < count; ++h) {

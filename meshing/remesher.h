@@ -84,6 +84,8 @@ private:
 
     [[nodiscard]] bool is_long(HalfEdge h, double limit) const;
     [[nodiscard]] bool may_collapse(HalfEdge h, double limit);
+    [[nodiscard]] double longest_share() const;  ///< of all edges, in wanted lengths
+    void split_edges_above(double limit);
     [[nodiscard]] int collapse_valence_excess(HalfEdge h) const;
     [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
     [[nodiscard]] bool flip_helps(HalfEdge h, FlipRule rule) const;

@@ -11,6 +11,7 @@
 #include "geometry/measure.h"
 #include "geometry/self_intersections.h"
 #include "geometry/surface_distance.h"
+#include "meshing/remesher.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -136,6 +137,17 @@ SCENARIO("Slivers and long fans do no harm", "[meshing][remesh]") {
     const auto [remeshed, report] = remesh(closed_tube(2.0, 12.0, 400, 3), {.edge = 0.5});
     check_sound(remeshed, true);
     check_quality(report);
+}
+
+SCENARIO("A coarse source is not cut into slivers of slivers", "[meshing][remesh]") {
+    const Surface bar = mapped(icosphere(1.0, 0), [](const Vec3& p) {
+        return Vec3(300.0 * p.x(), 10.0 * p.y(), 6.0 * p.z());
+    });
+    constexpr double kEdge = 2.0;
+    Remesher remesher(bar, std::vector<double>(bar.vertex_count(), kEdge), bar);
+    remesher.split_long_edges();
+    const double wanted = area(bar) / (std::sqrt(3.0) / 4.0 * kEdge * kEdge);
+    CHECK(static_cast<double>(remesher.mesh().triangle_count()) < 12.0 * wanted);
 }
 
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {
