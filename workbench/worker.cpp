@@ -44,7 +44,17 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-enum class Ending : std::uint8_t { Done = 1, Usage, Input, Io, Algorithm, Gpu, Cancel, Memory };
+enum class Ending : std::uint8_t {
+    Done = 1,
+    Usage,
+    Input,
+    Io,
+    Algorithm,
+    Gpu,
+    Cancel,
+    Memory,
+    Broken
+};
 
 /// A file descriptor that is closed with its owner.
 class Descriptor {
@@ -269,8 +279,10 @@ Bytes outcome_or_error(Run run) {
         return error(Ending::Cancel, e.what());
     } catch (const std::bad_alloc&) {
         return error(Ending::Memory, "");
-    } catch (const std::exception& e) {
+    } catch (const AlgorithmFailure& e) {
         return error(Ending::Algorithm, e.what());
+    } catch (const std::exception& e) {
+        return error(Ending::Broken, e.what());  // of a library: it names neither place nor remedy
     }
 }
 
@@ -332,6 +344,8 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene, const Argu
     if (ending == Ending::Memory)
         throw_broken(operation, checked,
                      "needs more memory than its limit of " + gigabytes(options.memory_limit));
+    if (ending == Ending::Broken)
+        throw_broken(operation, checked, "failed (" + reader.get_text() + ")");
     if (ending != Ending::Done) throw_ending(ending, reader.get_text());
     return read_outcome(reader, take_apart(scene).parts);
 }

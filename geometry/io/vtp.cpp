@@ -1,6 +1,8 @@
 #include "geometry/io/vtp.h"
 
+#include <cstdlib>
 #include <new>
+#include <string_view>
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -181,6 +183,19 @@ RawSurface raw_from(vtkPolyData* data, const std::string& file) {
     return raw;
 }
 
+/// VTK makes room for whatever number of components a file announces.
+void check_components(const std::string& bytes, const std::string& file) {
+    constexpr std::string_view kKey = "NumberOfComponents=\"";
+    constexpr long kMost = 1000;
+    for (auto at = bytes.find(kKey); at != std::string::npos; at = bytes.find(kKey, at)) {
+        at += kKey.size();
+        const long count = std::strtol(bytes.c_str() + at, nullptr, 10);
+        if (count < 1 || count > kMost)
+            throw InvalidInput(file + " announces an array with " + std::to_string(count) +
+                               " numbers a point or cell: it is damaged; fetch it again");
+    }
+}
+
 }  // namespace
 
 RawSurface read_vtp(const std::string& path) {
@@ -191,6 +206,7 @@ RawSurface read_vtp(const std::string& path) {
         throw InvalidInput(file + " holds no surface (type PolyData)");
     if (bytes.rfind("</VTKFile>") == std::string::npos)
         throw InvalidInput(file + " ends without '</VTKFile>': it was cut off; fetch it again");
+    check_components(bytes, file);
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // the error is ours to tell
     vtkNew<vtkXMLPolyDataReader> reader;
     try {

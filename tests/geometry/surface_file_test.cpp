@@ -258,6 +258,20 @@ SCENARIO("Files that are no surface are refused clearly", "[geometry][io]") {
     }
 }
 
+SCENARIO("A VTP file that announces huge arrays is refused at once", "[geometry][io]") {
+    const std::string file = temporary_folder() + "/cube.vtp";
+    write_surface(cube(3.0), file);
+    std::ifstream whole(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(whole), {}};
+    const std::string key = "NumberOfComponents=\"3\"";
+    for (const std::string count : {"1000000000", "-1", "x"}) {
+        std::string damaged = text;
+        damaged.replace(damaged.find(key), key.size(), "NumberOfComponents=\"" + count + "\"");
+        std::ofstream(file, std::ios::binary) << damaged;
+        CHECK_THROWS_WITH(read_surface(file), Catch::Contains("cube.vtp announces an array"));
+    }
+}
+
 SCENARIO("What cannot be written leaves no file behind", "[geometry][io]") {
     const std::string folder = temporary_folder();
     CHECK_THROWS_AS(write_surface(cube(1.0), folder + "/missing/a.stl"), IoError);

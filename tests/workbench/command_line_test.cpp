@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/io/surface_file.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -92,6 +93,24 @@ SCENARIO("docs/operations.md says what the program says", "[workbench][command-l
     const std::string text{std::istreambuf_iterator<char>(page), {}};
     INFO("renew it with scripts/docs");
     CHECK((text == run({"operations", "--markdown"}).out));
+}
+
+SCENARIO("A file that crashes its reader is bad input", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), file = folder + "/cube.vtp";
+    vesselbench::write_surface(cube(3.0), file);
+    std::ifstream whole(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(whole), {}};
+    const std::string key = "NumberOfPoints=\"";
+    const auto at = text.find(key) + key.size();
+    write_text(file, text.replace(at, text.find('"', at) - at, "-1"));
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"measure", file}, {"centerlines", file, folder + "/out.vtp"}}) {
+        const ProgramRun result = run(command);
+        INFO(command[0] << ": " << result.err);
+        CHECK(result.exit_code == 3);
+        CHECK_THAT(result.err, Contains("cube.vtp"));
+    }
+    CHECK(names_in(folder) == std::vector<std::string>{"cube.vtp"});
 }
 
 SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {

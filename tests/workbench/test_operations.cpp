@@ -134,6 +134,7 @@ Outcome refuse(const Scene&, const Arguments& arguments, Progress&) {
     if (as == "usage") throw UsageError("refused as usage");
     if (as == "input") throw InvalidInput("refused as input");
     if (as == "io") throw IoError("refused as io");
+    if (as == "library") throw std::length_error("vector::_M_default_append");
     throw AlgorithmFailure("refused as algorithm");
 }
 
