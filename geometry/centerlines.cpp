@@ -12,6 +12,7 @@
 #include "geometry/centerlines/vessel_wall.h"
 #include "geometry/centerlines/wall_section.h"
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 namespace {
@@ -83,9 +84,8 @@ void anchor_points(const Positions& points, const LumenGrid& grid, Anchors& anch
         const double deepest = *std::max_element(grid.depth.begin(), grid.depth.end());
         if (!grid.nearest(p, deepest + 4.0 * grid.spacing, v) ||
             (grid.centre(v) - p).norm() > grid.depth[v] + 4.0 * grid.spacing) {
-            throw InvalidInput("the given end (" + std::to_string(p.x()) + ", " +
-                               std::to_string(p.y()) + ", " + std::to_string(p.z()) +
-                               ") mm is not in or near the vessel; give a point on its wall");
+            throw InvalidInput("the given end " + place_text(p) +
+                               " is not in or near the vessel; give a point on its wall");
         }
         if (std::count(anchors.fixed.begin(), anchors.fixed.end(), v) == 0) {
             anchors.fixed.push_back(v);

@@ -1,7 +1,6 @@
 #include "geometry/repair.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
@@ -12,6 +11,7 @@
 #include "geometry/repair/soup.h"
 #include "geometry/repair/stray_holes.h"
 #include "geometry/repair/untangle.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -21,12 +21,6 @@ constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex lets oth
 
 /// Untangling may cost this part of the area [-] before it counts as damage.
 constexpr double kMostLost = 0.05;
-
-std::string place_text(const Vec3& p) {
-    char text[80];
-    std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g) mm", p.x(), p.y(), p.z());
-    return text;
-}
 
 void check_input(const Surface& surface) {
     if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to repair");

@@ -57,12 +57,12 @@ struct Surface {
 
     [[nodiscard]] const Patch& patch_of(TriangleId t) const { return patches[(*patch_labels)[t]]; }
 
-    /// The same surface with other positions (and so other shape). \throw InvalidInput unless #V
-    /// long
+    /// The same surface with other positions (and so other shape).
+    /// \throw InvalidInput unless #V long
     [[nodiscard]] Surface with_positions(Positions moved) const;
 
-    /// The same surface with other patches. \throw InvalidInput unless labels is #T long and in
-    /// range
+    /// The same surface with other patches.
+    /// \throw InvalidInput unless labels is #T long and in range
     [[nodiscard]] Surface with_patches(PatchLabels labels, std::vector<Patch> table) const;
 };
 

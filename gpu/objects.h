@@ -44,8 +44,8 @@ using VertexArray = GlObject<delete_vertex_array>;
 using Framebuffer = GlObject<delete_framebuffer>;
 using Renderbuffer = GlObject<delete_renderbuffer>;
 
-/// A buffer filled with bytes, labelled for debuggers. \throw GpuUnavailable if the device has no
-/// room for it
+/// A buffer filled with bytes, labelled for debuggers.
+/// \throw GpuUnavailable if the device has no room for it
 [[nodiscard]] Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label);
 
 /// A linked program from the texts of gpu/shaders/<name>.vert and .frag.

@@ -1,18 +1,16 @@
 #include "meshing/edit_mesh.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
 namespace {
 
 [[noreturn]] void refuse(const char* what, const Vec3& at) {
-    std::ostringstream text;
-    text << what << " near (" << at.transpose() << ") mm; repair the surface first";
-    throw InvalidInput(text.str());
+    throw InvalidInput(what + (" near " + place_text(at)) + "; repair the surface first");
 }
 
 }  // namespace

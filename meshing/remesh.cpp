@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "geometry/errors.h"
 #include "geometry/self_intersections.h"
 #include "geometry/surface_distance.h"
+#include "geometry/wording.h"
 #include "meshing/remesher.h"
 #include "meshing/sizing_field.h"
 #include "meshing/triangle_shape.h"
@@ -158,9 +158,7 @@ bool refine_crossings(const Surface& source, const Surface& result, std::vector<
 
 [[noreturn]] void refuse_crossing(const Surface& source, const Surface& result) {
     const auto describe = [](const Surface& surface, TriangleId t) {
-        std::ostringstream text;
-        text << "near (" << surface.points()[surface.triangles()[t][0]].transpose() << ") mm";
-        return text.str();
+        return "near " + place_text(surface.points()[surface.triangles()[t][0]]);
     };
     if (const auto old = self_intersections(source); !old.empty())
         throw AlgorithmFailure("the surface intersects itself " +

@@ -47,8 +47,8 @@ public:
     void polish();
 
     /// Works on the triangles that are worse than `quality` (the smaller of 1 - equiangle skewness
-    /// and radius ratio): flips, moves of single vertices, collapses. \return the worst that is
-    /// left
+    /// and radius ratio): flips, moves of single vertices, collapses.
+    /// \return the worst that is left
     double improve_worst(double quality);
 
     /// Lifts the wall's vertices by the mean height of the source over the middles of their edges.

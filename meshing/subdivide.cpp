@@ -5,6 +5,7 @@
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -123,8 +124,8 @@ Surface subdivide(const Surface& surface, int iterations, const Progress& progre
         throw InvalidInput("iterations = " + std::to_string(iterations) + " is not in [1, 6]");
     if (surface.triangle_count() > kMostTriangles >> (2 * iterations))
         throw InvalidInput("subdividing " + std::to_string(surface.triangle_count()) +
-                           " triangles " + std::to_string(iterations) +
-                           " times makes more than 40 million; use fewer iterations");
+                           " triangles " + counted(static_cast<std::size_t>(iterations), "time") +
+                           " makes more than 40 million; use fewer iterations");
     Surface result = surface;
     for (int i = 0; i < iterations; ++i) {
         progress.report(static_cast<double>(i) / iterations, "subdividing");

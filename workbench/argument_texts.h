@@ -8,7 +8,8 @@
 namespace vesselbench {
 
 /// Reads the command line's "parameter=value" texts in the operation's own types. Defaults are not
-/// filled in. \throw UsageError that names the operation and the text
+/// filled in.
+/// \throw UsageError that names the operation and the text
 [[nodiscard]] Arguments arguments_from_texts(const Operation& operation,
                                              std::span<const std::string> texts);
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -19,7 +20,7 @@ struct JsonOf {
 
     Json operator()(const std::string& text) const { return text; }
 
-    Json operator()(const Vec3& p) const { return Json::array({p.x(), p.y(), p.z()}); }
+    Json operator()(const Vec3& p) const { return point_json(p); }
 
     Json operator()(const std::vector<double>& list) const { return list; }
 };

@@ -20,7 +20,7 @@ constexpr const char* kDescription =
     "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
 
 constexpr const char* kPrepareFooter =
-    "Surfaces: .stl .ply .obj .off .vtp. Images: .nii .nii.gz .nrrd .mha .mhd .vti .vtk and "
+    "Surfaces: .stl .ply .obj .off .vtp .vtk. Images: .nii .nii.gz .nrrd .mha .mhd .vti .vtk and "
     "DICOM.\n"
     "A case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the like\n"
     "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
@@ -56,14 +56,14 @@ CLI::App& add_command(CommandLine& line, const std::string& name, const std::str
 }
 
 void add_project(CLI::App& command, std::string& project) {
-    command.add_option("PROJECT", project, "Project file (.vbench)")->required();
+    command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
 }
 
 void add_operations(CommandLine& line) {
     const auto options = std::make_shared<OperationsOptions>();
     CLI::App& command = add_command(line, "operations", "List the operations and their parameters",
                                     [options] { return list_operations(*options), 0; });
-    command.add_option("NAME", options->name, "Explain this operation only");
+    command.add_option("NAME", options->name, "Explain this operation only")->type_name("");
     command.add_flag("--json", options->json, "Print one JSON document");
     command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
         ->group("");
@@ -76,17 +76,24 @@ void add_apply(CommandLine& line) {
                     [options, &line] { return apply_operation(*options, line.progress), 0; });
     add_project(command, options->project);
     command.add_option("OPERATION", options->operation, "Its name, as 'operations' lists it")
-        ->required();
-    command.add_option("parameter=value", options->arguments,
-                       "Its arguments; 'vesselbench operations OPERATION' explains them");
+        ->required()
+        ->type_name("");
+    command
+        .add_option("parameter=value", options->arguments,
+                    "Its arguments; 'vesselbench operations OPERATION' explains them")
+        ->type_name("");
     command
         .add_option("--variant", options->variant,
                     "Variant for edits of steps 6-8: cfd, rp or a name")
-        ->capture_default_str();
-    command.add_option("--step", options->step,
-                       "Step the edit belongs to (default: the operation's usual step)");
-    command.add_option("--author", options->author, "Who makes the edit (default: login name)");
-    command.add_option("--note", options->note, "Why, in your words");
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--step", options->step,
+                    "Step the edit belongs to (default: the operation's usual step)")
+        ->type_name("STEP");
+    command.add_option("--author", options->author, "Who makes the edit (default: login name)")
+        ->type_name("NAME");
+    command.add_option("--note", options->note, "Why, in your words")->type_name("WORDS");
     command.add_flag("--json", options->json, "Print the edit as one JSON document");
 }
 
@@ -104,11 +111,13 @@ void add_undo_and_redo(CommandLine& line) {
     CLI::App& undo = add_command(line, "undo", "Go back to the state before an edit",
                                  [options] { return undo_edit(*options), 0; });
     add_project(undo, options->project);
-    undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)");
+    undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)")
+        ->type_name("");
     CLI::App& redo = add_command(line, "redo", "Go forward again to an edit that was undone",
                                  [options] { return redo_edit(*options), 0; });
     add_project(redo, options->project);
-    redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)");
+    redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)")
+        ->type_name("");
 }
 
 void add_replay(CommandLine& line) {
@@ -124,10 +133,14 @@ void add_input(CLI::App& command, InputArguments& input) {
     command
         .add_option("INPUT", input.input,
                     "A surface, an image, a folder of DICOM slices, or of a case")
-        ->required();
-    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid");
-    command.add_option("--units", input.units,
-                       "Unit of the file: mm, cm or m (default: as it says, or a guess)");
+        ->required()
+        ->type_name("");
+    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
+        ->type_name("FILE");
+    command
+        .add_option("--units", input.units,
+                    "Unit of the file: mm, cm or m (default: as it says, or a guess)")
+        ->type_name("UNIT");
 }
 
 void add_prepare(CommandLine& line) {
@@ -138,14 +151,18 @@ void add_prepare(CommandLine& line) {
     add_input(command, options->input);
     command.footer(kPrepareFooter);
     command.add_option("--for", options->purpose, "What the model is for: cfd or rp (printing)")
-        ->required();
-    command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead");
+        ->required()
+        ->type_name("cfd|rp");
+    command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead")
+        ->type_name("FILE");
     command
         .add_option("--set", options->settings,
                     "operation.parameter=value: change an argument of the recipe")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
     command.add_option("--out", options->out, "Folder of the results; made if it is not there")
-        ->required();
+        ->required()
+        ->type_name("FOLDER");
 }
 
 void add_new(CommandLine& line) {
@@ -168,13 +185,17 @@ void add_export(CommandLine& line) {
     command
         .add_option("FILE", options->file,
                     "Its suffix tells the format; a folder: an OpenFOAM case")
-        ->required();
+        ->required()
+        ->type_name("");
     command.footer(kExportFooter);
-    command.add_option("--variant", options->variant, "Variant to write")->capture_default_str();
+    command.add_option("--variant", options->variant, "Variant to write")
+        ->capture_default_str()
+        ->type_name("NAME");
     command
         .add_option("--set", options->settings,
                     "openfoam.parameter=value: change the flow of the case")
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
 }
 
 void add_measure(CommandLine& line) {
@@ -182,9 +203,11 @@ void add_measure(CommandLine& line) {
     CLI::App& command =
         add_command(line, "measure", "Measure a surface, also against a reference surface",
                     [options] { return measure_surface(*options), 0; });
-    command.add_option("SURFACE", options->surface, "Surface file")->required();
-    command.add_option("REFERENCE", options->reference, "Surface file to compare with");
-    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)");
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("REFERENCE", options->reference, "Surface file to compare with")
+        ->type_name("");
+    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
     command.add_flag("--json", options->json, "Print one JSON document");
 }
 
@@ -193,10 +216,12 @@ void add_centerlines(CommandLine& line) {
     CLI::App& command =
         add_command(line, "centerlines", "Find the vessel tree's centerlines and radii",
                     [options, &line] { return find_centerlines(*options, line.progress), 0; });
-    command.add_option("SURFACE", options->surface, "Surface file")->required();
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
     command.add_option("OUT.vtp", options->out, "Polylines with MaximumInscribedSphereRadius")
-        ->required();
-    command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)");
+        ->required()
+        ->type_name("");
+    command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
     command.add_flag("--json", options->json, "Print nodes and branches as one JSON document");
 }
 
@@ -205,8 +230,12 @@ void add_phantom(CommandLine& line) {
     CLI::App& command =
         add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
                     [options, &line] { return write_phantom(*options, line.progress), 0; });
-    command.add_option("NAME", options->name, "One of " + joined(phantom_names()))->required();
-    command.add_option("--out", options->out, "Folder; made if it is not there")->required();
+    command.add_option("NAME", options->name, "One of " + joined(phantom_names()))
+        ->required()
+        ->type_name("");
+    command.add_option("--out", options->out, "Folder; made if it is not there")
+        ->required()
+        ->type_name("FOLDER");
 }
 
 void set_up(CommandLine& line) {
@@ -237,7 +266,10 @@ std::vector<std::string> command_names(const CLI::App& app) {
 }
 
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') return;
+    if (argc < 2) return;
+    if (std::string(argv[1]).starts_with("--screenshot"))
+        throw UsageError("--screenshot: this version has no window yet");
+    if (argv[1][0] == '-') return;
     const std::vector<std::string> names = command_names(app);
     const std::string name = argv[1];
     if (std::ranges::find(names, name) != names.end()) return;

@@ -27,7 +27,8 @@ private:
 };
 
 /// SHA-256 of a file's content; of a folder: of the digests of its regular files, in the order of
-/// their names. \throw IoError if it cannot be read
+/// their names.
+/// \throw IoError if it cannot be read
 [[nodiscard]] std::string hash_of_file(const std::filesystem::path& path);
 
 }  // namespace vesselbench

@@ -116,8 +116,8 @@ public:
     /// Adds a new edit behind the edits of its step: a child state. \return the new edit
     EditRef apply(const EditPlace& place);
 
-    /// A new revision of an edit in its old place: a child state. \throw UsageError if the current
-    /// state does not hold it
+    /// A new revision of an edit in its old place: a child state.
+    /// \throw UsageError if the current state does not hold it
     EditRef change(EditId id);
 
     /// Leaves an edit out: a child state. \throw UsageError if the current state does not hold it
@@ -127,11 +127,11 @@ public:
     void undo();
     /// To the child last visited. \throw UsageError if there is none
     void redo();
-    /// Back to the state before the current revision of an edit was made. \throw UsageError if the
-    /// current state does not come from one
+    /// Back to the state before the current revision of an edit was made.
+    /// \throw UsageError if the current state does not come from one
     void undo_before(EditId id);
-    /// Forward along the children last visited until the edit is made or changed. \throw UsageError
-    /// if none of them does
+    /// Forward along the children last visited until the edit is made or changed.
+    /// \throw UsageError if none of them does
     void redo_to(EditId id);
     /// To any state. \throw UsageError if there is none of this id
     void jump(StateId id);

@@ -160,22 +160,6 @@ Value checked(const Parameter& parameter, const Value& value) {
     return *typed;
 }
 
-std::vector<std::string> parameter_names(const Operation& operation) {
-    std::vector<std::string> names;
-    for (const Parameter& parameter : operation.parameters) names.push_back(parameter.name);
-    return names;
-}
-
-void refuse_unknown_names(const Operation& operation, const Arguments& given) {
-    const std::vector<std::string> names = parameter_names(operation);
-    for (const auto& [name, value] : given.values()) {
-        if (std::ranges::count(names, name) > 0) continue;
-        const std::string takes = names.empty() ? "it takes none" : "it takes " + joined(names);
-        throw UsageError(operation.name + " has no parameter '" + name + "'" +
-                         did_you_mean(name, names) + " (" + takes + ")");
-    }
-}
-
 }  // namespace
 
 std::string to_string(Step step) {
@@ -195,12 +179,24 @@ const Operation& find_operation(const std::string& name) {
                      " ('vesselbench operations' lists them all)");
 }
 
+const Parameter& find_parameter(const Operation& operation, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : operation.parameters) {
+        if (parameter.name == name) return parameter;
+        names.push_back(parameter.name);
+    }
+    const std::string takes = names.empty() ? "it takes none" : "it takes " + joined(names);
+    throw UsageError(operation.name + " has no parameter '" + name + "'" +
+                     did_you_mean(name, names) + " (" + takes + ")");
+}
+
 Value parse_value(const Parameter& parameter, const std::string& text) {
     return checked(parameter, Value(text));
 }
 
 Arguments checked_arguments(const Operation& operation, const Arguments& given) {
-    refuse_unknown_names(operation, given);
+    for (const auto& [name, value] : given.values())
+        static_cast<void>(find_parameter(operation, name));
     Arguments result;
     for (const Parameter& parameter : operation.parameters) {
         const auto found = given.values().find(parameter.name);

@@ -86,13 +86,16 @@ struct Operation {
 /// \throw UsageError that lists the near names if there is none of this name
 [[nodiscard]] const Operation& find_operation(const std::string& name);
 
-/// Parses the command line's text of one argument. \throw UsageError that names the parameter, the
-/// text and the range
+/// \throw UsageError that lists the near names and all names if the operation has none of this name
+[[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
+
+/// Parses the command line's text of one argument.
+/// \throw UsageError that names the parameter, the text and the range
 [[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
 
 /// Fills in defaults and checks types, ranges, choices, unknown names. Absent optional arguments
-/// stay absent. \throw UsageError that names the operation, the parameter, the value and what is
-/// allowed
+/// stay absent.
+/// \throw UsageError that names the operation, the parameter, the value and what is allowed
 [[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
 
 }  // namespace vesselbench

@@ -68,8 +68,9 @@ public:
     /// One transaction. \throw IoError if it cannot be written; the project is then as before
     void commit(const ProjectChange& change);
 
-    /// The scene of a result, sharing its parts with the scenes in memory. \throw InvalidInput if
-    /// it is damaged, or if a part of it is referenced only and was not recalled
+    /// The scene of a result, sharing its parts with the scenes in memory.
+    /// \throw InvalidInput if it is damaged, or if a part of it is referenced only and was not
+    ///        recalled
     [[nodiscard]] Scene scene(ResultId id) const;
 
     /// True if the result's scene holds an image that is referenced only and not in memory.

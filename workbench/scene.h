@@ -21,8 +21,8 @@ struct Scene {
     std::shared_ptr<const VolumeMesh> volume_mesh;
 };
 
-/// The scene's surface. \throw InvalidInput that names the operations that make one, if there is
-/// none
+/// The scene's surface.
+/// \throw InvalidInput that names the operations that make one, if there is none
 [[nodiscard]] const Surface& surface_of(const Scene& scene);
 
 /// The scene with another surface; a volume mesh of the old one is dropped.

@@ -18,8 +18,8 @@ struct SceneParts {
 
 [[nodiscard]] SceneParts take_apart(const Scene& scene);
 
-/// The scene again, sharing the parts. \throw InvalidInput if the manifest is damaged, or parts do
-/// not fit together
+/// The scene again, sharing the parts.
+/// \throw InvalidInput if the manifest is damaged, or parts do not fit together
 [[nodiscard]] Scene put_together(std::span<const std::byte> manifest,
                                  const std::vector<ScenePart>& parts);
 

@@ -59,8 +59,9 @@ public:
                                         SessionOptions options = {});
 
     /// Opens a project. If another process has it open for writing, or it cannot be written, this
-    /// session only reads; read_only_reason() says why. \throw IoError if it cannot be read,
-    /// InvalidInput if it is no project, damaged, or of a newer version
+    /// session only reads; read_only_reason() says why.
+    /// \throw IoError if it cannot be read, InvalidInput if it is no project, damaged, or of a
+    ///        newer version
     [[nodiscard]] static Session open(const std::filesystem::path& project,
                                       SessionOptions options = {});
 
@@ -82,16 +83,18 @@ public:
                    const EditOptions& options = {}, Progress progress = {});
 
     /// Runs an edit of the current state with other arguments: its next revision. The edits behind
-    /// it become pending. \throw as apply()
+    /// it become pending.
+    /// \throw as apply()
     LogEntry change_edit(EditId id, const Arguments& given, const EditOptions& options = {},
                          Progress progress = {});
 
-    /// Leaves an edit out; the edits behind it become pending. \throw UsageError if there is no
-    /// such edit
+    /// Leaves an edit out; the edits behind it become pending.
+    /// \throw UsageError if there is no such edit
     void remove_edit(EditId id);
 
     /// To the parent state, the child last visited, or any state; with an edit: back to before it
-    /// was made or changed, forward to where it was. No scene is read. \throw UsageError
+    /// was made or changed, forward to where it was. No scene is read.
+    /// \throw UsageError
     void undo();
     void undo(EditId before);
     void redo();
@@ -116,7 +119,8 @@ public:
     [[nodiscard]] std::vector<ReplayEntry> replay(Progress progress = {});
 
     /// Writes the whole project, with its history, to a new file; this session stays with the old
-    /// one. \throw IoError if the file exists or cannot be written
+    /// one.
+    /// \throw IoError if the file exists or cannot be written
     void save_as(const std::filesystem::path& project) const;
 
 private:

@@ -11,8 +11,9 @@ namespace vesselbench {
 /// The arguments with files named without their folders: what may enter a project.
 [[nodiscard]] Arguments without_folders(const Operation& operation, const Arguments& arguments);
 
-/// The files that the arguments name, with their content's hash. \param folder of the project;
-/// `place` is relative to it. \throw IoError if one cannot be read
+/// The files that the arguments name, with their content's hash.
+/// \param folder of the project; `place` is relative to it.
+/// \throw IoError if one cannot be read
 [[nodiscard]] std::vector<SourceFile> source_files(const Operation& operation,
                                                    const Arguments& arguments,
                                                    const std::filesystem::path& folder);

@@ -21,8 +21,8 @@ namespace vesselbench {
 /// \throw InvalidInput if the text is no such JSON
 [[nodiscard]] Arguments arguments_from_stored(const std::string& text);
 
-/// A text as a blob, compressed where that pays. \throw InvalidInput from unpack_text if it is
-/// damaged
+/// A text as a blob, compressed where that pays.
+/// \throw InvalidInput from unpack_text if it is damaged
 [[nodiscard]] Bytes pack_text(const std::string& text);
 [[nodiscard]] std::string unpack_text(std::span<const std::byte> blob);
 

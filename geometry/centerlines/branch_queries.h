@@ -50,8 +50,8 @@ struct NearestPlace {
                                                      const Vec3& position);
 
 /// Size of the vessel at a tip [mm]: median radius over its last stretch, from half a radius to
-/// two radii inward. The tip's own sphere may be small in a rounded end. \throw InvalidInput if the
-/// node is not a tip
+/// two radii inward. The tip's own sphere may be small in a rounded end.
+/// \throw InvalidInput if the node is not a tip
 [[nodiscard]] double tip_radius(const CenterlineGraph& graph, std::size_t tip);
 
 /// The branch that ends at a tip. \throw InvalidInput if the node is not a tip
@@ -72,7 +72,8 @@ struct NearestPlace {
 [[nodiscard]] Vec3 beyond_tip(const CenterlineGraph& graph, std::size_t tip, double distance);
 
 /// Arc length [mm] from one of the branch's end nodes.
-/// \param node start_node or end_node of the branch \throw InvalidInput if it is neither
+/// \param node start_node or end_node of the branch
+/// \throw InvalidInput if it is neither
 [[nodiscard]] double distance_from_node(const CenterlineGraph& graph, const BranchPlace& place,
                                         std::size_t node);
 

@@ -24,7 +24,8 @@ struct LineFit {
     double radius = 0.0;
 };
 
-/// Fits of all points of a line. \param window half width in local radii [-]
+/// Fits of all points of a line.
+/// \param window half width in local radii [-]
 /// \param least smallest half width [mm]
 [[nodiscard]] std::vector<LineFit> fit_line(const Line& line, double window, double least);
 

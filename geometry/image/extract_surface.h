@@ -72,8 +72,8 @@ struct Extraction {
 /// fewer than two voxel faces, it is closed flat by a patch of kind Cut.
 /// \param mask on the image's grid, inside where > 0, or nothing
 /// \throw InvalidInput if the image is empty or constant, a mask lies on another grid, or a label
-/// is not there \throw AlgorithmFailure if no voxel or every voxel is inside, or no body is at the
-/// seed
+///        is not there
+/// \throw AlgorithmFailure if no voxel or every voxel is inside, or no body is at the seed
 [[nodiscard]] Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
                                          const ExtractionParameters& parameters,
                                          const Progress& progress = {});

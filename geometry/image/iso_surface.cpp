@@ -10,26 +10,15 @@
 
 #include <Eigen/LU>
 #include <tbb/parallel_for.h>
-#include <vtkCellArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include "geometry/errors.h"
+#include "geometry/image/flying_edges.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Index3 = std::array<float, 3>;
-
-/// Triangles in index coordinates of the image; the padding layer's vertices lie beyond its border.
-struct IndexMesh {
-    std::vector<Index3> points;
-    std::vector<Triangle> triangles;
-};
 
 /// A grid value closer to the iso-value than this part of the largest difference to a neighbour
 /// makes a sliver; it is moved that far away. The surface moves by at most as many voxel edges.
@@ -57,53 +46,31 @@ float cleared(const Image& image, int i, int j, int k, float iso, float sign, fl
 }
 
 /// The image relative to the iso-value with one layer of outside around it.
-vtkNew<vtkImageData> padded(const Image& image, double iso, bool inside_below) {
-    vtkNew<vtkImageData> data;
+std::vector<float> padded(const Image& image, double iso, bool inside_below) {
     const auto [ni, nj, nk] = image.size;
-    data->SetDimensions(ni + 2, nj + 2, nk + 2);
-    data->SetOrigin(-1.0, -1.0, -1.0);
-    data->AllocateScalars(VTK_FLOAT, 1);
-    auto* values = static_cast<float*>(data->GetScalarPointer());
+    const std::size_t slice = static_cast<std::size_t>(ni + 2) * static_cast<std::size_t>(nj + 2);
+    std::vector<float> values(slice * static_cast<std::size_t>(nk + 2));
     const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
     const float range = std::max(*most - *least, 1e-20f);
     const float sign = inside_below ? -1.0f : 1.0f;
     const auto level = static_cast<float>(iso);
     tbb::parallel_for(-1, nk + 1, [&, ni = ni, nj = nj, nk = nk](int k) {
-        float* at = values + static_cast<std::size_t>(k + 1) * static_cast<std::size_t>(ni + 2) *
-                                 static_cast<std::size_t>(nj + 2);
+        float* at = values.data() + static_cast<std::size_t>(k + 1) * slice;
         for (int j = -1; j <= nj; ++j)
             for (int i = -1; i <= ni; ++i, ++at) {
                 const bool within = i >= 0 && j >= 0 && k >= 0 && i < ni && j < nj && k < nk;
                 *at = within ? cleared(image, i, j, k, level, sign, range) : -range;
             }
     });
-    return data;
+    return values;
 }
 
-IndexMesh flying_edges(vtkImageData* data) {
-    vtkNew<vtkFlyingEdges3D> filter;
-    filter->SetInputData(data);
-    filter->SetValue(0, 0.0);
-    filter->ComputeNormalsOff();
-    filter->ComputeGradientsOff();
-    filter->ComputeScalarsOff();
-    filter->Update();
-    vtkPolyData* output = filter->GetOutput();
-    IndexMesh mesh;
-    mesh.points.resize(static_cast<std::size_t>(output->GetNumberOfPoints()));
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-        double p[3];
-        output->GetPoint(static_cast<vtkIdType>(v), p);
-        mesh.points[v] = {static_cast<float>(p[0]), static_cast<float>(p[1]),
-                          static_cast<float>(p[2])};
-    }
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    vtkCellArray* cells = output->GetPolys();
-    for (cells->InitTraversal(); cells->GetNextCell(count, ids);)
-        mesh.triangles.push_back({static_cast<VertexId>(ids[0]), static_cast<VertexId>(ids[1]),
-                                  static_cast<VertexId>(ids[2])});
-    return mesh;
+/// The iso-surface in index coordinates of the image; the padding layer's vertices lie beyond its
+/// border.
+GridSurface index_mesh(const Image& image, double iso, bool inside_below) {
+    const auto [ni, nj, nk] = image.size;
+    return flying_edges(padded(image, iso, inside_below),
+                        {.size = {ni + 2, nj + 2, nk + 2}, .origin = Vec3(-1.0, -1.0, -1.0)});
 }
 
 /// Which border planes a point lies in: bit 2a for index 0 of axis a, bit 2a + 1 for the last one.
@@ -117,7 +84,7 @@ unsigned border_planes(const Index3& p, const std::array<int, 3>& size) {
 }
 
 /// Presses the padding layer flat into the border planes and merges the vertices that meet there.
-void press_to_border(IndexMesh& mesh, const std::array<int, 3>& size) {
+void press_to_border(GridSurface& mesh, const std::array<int, 3>& size) {
     std::map<Index3, VertexId> at_border;
     std::vector<VertexId> new_id(mesh.points.size());
     std::vector<Index3> kept;
@@ -138,7 +105,7 @@ void press_to_border(IndexMesh& mesh, const std::array<int, 3>& size) {
 }
 
 /// Per triangle 0 for the wall, else 1 + the number of the border plane that holds it.
-PatchLabels border_labels(const IndexMesh& mesh, const std::array<int, 3>& size) {
+PatchLabels border_labels(const GridSurface& mesh, const std::array<int, 3>& size) {
     PatchLabels labels;
     labels.reserve(mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -159,7 +126,7 @@ Surface iso_surface(const Image& image, double iso, bool inside_below) {
             throw InvalidInput(
                 "the image has fewer than two voxels along an axis: a surface needs "
                 "a volume");
-    IndexMesh mesh = flying_edges(padded(image, iso, inside_below));
+    GridSurface mesh = index_mesh(image, iso, inside_below);
     press_to_border(mesh, image.size);
     PatchLabels labels = border_labels(mesh, image.size);
     std::vector<Patch> patches = {{"wall", PatchKind::Wall}};

@@ -17,7 +17,8 @@ namespace vesselbench {
 /// Slices are those across the axis with the largest voxel edge.
 /// Source: Raya, Udupa, "Shape-based interpolation of multidimensional objects", IEEE Trans.
 /// Medical Imaging 1990; distances: Felzenszwalb, Huttenlocher, "Distance transforms of sampled
-/// functions", Theory of Computing 2012; thesis 3.2.3. \throw as resample_intensities
+/// functions", Theory of Computing 2012; thesis 3.2.3.
+/// \throw as resample_intensities
 [[nodiscard]] Image resample_mask(const Image& mask, double edge);
 
 }  // namespace vesselbench

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geometry/measure.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -69,10 +70,10 @@ void classify_by_shape(std::vector<Part>& parts, const std::vector<PatchMeasures
 std::string note_of(const std::vector<Part>& parts, bool named) {
     const auto openings = std::count_if(
         parts.begin(), parts.end(), [](const Part& part) { return part.kind != PatchKind::Wall; });
-    return std::to_string(parts.size()) + " parts in the file" +
+    return counted(parts.size(), "part") + " in the file" +
            (named ? " (by name)" : " (told apart by their flatness)") + ": " +
            std::to_string(parts.size() - static_cast<std::size_t>(openings)) + " wall, " +
-           std::to_string(openings) + " openings";
+           counted(static_cast<std::size_t>(openings), "opening");
 }
 
 /// Patch table: wall, inlets, outlets, cuts, each in the order of the part numbers.

@@ -40,8 +40,8 @@ struct ImageHeader {
 /// All bytes of a file. \throw IoError if it cannot be read
 [[nodiscard]] std::string file_bytes(const std::string& path);
 
-/// Voxels of a volume. \throw InvalidInput if a size is below 1 or the volume has more than 2^30
-/// voxels
+/// Voxels of a volume.
+/// \throw InvalidInput if a size is below 1 or the volume has more than 2^30 voxels
 [[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,
                                               const std::string& name);
 
@@ -49,8 +49,8 @@ struct ImageHeader {
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
 /// The first `wanted` bytes of a gzip or zlib stream; unless it is `only_head`, the rest is looked
-/// at too, so that a missing end or a wrong checksum shows. \throw InvalidInput if it is damaged or
-/// truncated
+/// at too, so that a missing end or a wrong checksum shows.
+/// \throw InvalidInput if it is damaged or truncated
 [[nodiscard]] std::string inflated(std::string_view compressed, std::size_t wanted,
                                    const std::string& name, bool only_head = false);
 

@@ -11,10 +11,10 @@
 #include "geometry/openings/collision.h"
 #include "geometry/openings/flat_cap.h"
 #include "geometry/openings/opening_axis.h"
-#include "geometry/openings/opening_place.h"
 #include "geometry/openings/patch_rim.h"
 #include "geometry/openings/profile.h"
 #include "geometry/openings/surface_parts.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 

@@ -13,8 +13,8 @@
 
 #include "geometry/errors.h"
 #include "geometry/openings/flat_cap.h"
-#include "geometry/openings/opening_place.h"
 #include "geometry/openings/surface_parts.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 

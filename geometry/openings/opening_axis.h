@@ -27,7 +27,8 @@ struct OpeningAxis {
 [[nodiscard]] std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch);
 
 /// Angle [deg] between a cap's normal and the vessel's axis just inside of it (axis_inward); 90 if
-/// the axis cannot be measured. \throw InvalidInput if the surface has no such patch
+/// the axis cannot be measured.
+/// \throw InvalidInput if the surface has no such patch
 [[nodiscard]] double opening_tilt_deg(const Surface& surface, std::size_t patch);
 
 /// Plane, area and flatness of a patch.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "geometry/centerlines/branch_queries.h"
 #include "geometry/errors.h"
 #include "geometry/openings/opening_axis.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -180,12 +180,6 @@ OpeningPlace choose_opening_place(const Surface& surface, const CenterlineGraph&
         fail(at, "has no closed section " + std::to_string(*distance) +
                      " mm from its tip: choose another distance");
     return *place;
-}
-
-std::string place_text(const Vec3& point) {
-    char text[96];
-    std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f) mm", point.x(), point.y(), point.z());
-    return text;
 }
 
 }  // namespace vesselbench

@@ -35,7 +35,4 @@ inline constexpr double kBendDeg = 15.0;
                                                 const CenterlineGraph& graph, std::size_t tip,
                                                 std::optional<double> distance = std::nullopt);
 
-/// "(x, y, z) mm" with two decimals, for texts.
-[[nodiscard]] std::string place_text(const Vec3& point);
-
 }  // namespace vesselbench

@@ -15,6 +15,7 @@
 #include "geometry/openings/hole_filling.h"
 #include "geometry/openings/opening_axis.h"
 #include "geometry/openings/surface_parts.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 

@@ -6,15 +6,16 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
 
 #include "geometry/errors.h"
 #include "geometry/openings/hole_filling.h"
-#include "geometry/openings/opening_place.h"
 #include "geometry/openings/surface_parts.h"
 #include "geometry/openings/vessel_tube.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 

@@ -9,7 +9,7 @@
 
 #include "geometry/centerlines/branch_queries.h"
 #include "geometry/errors.h"
-#include "geometry/openings/opening_place.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -132,6 +132,58 @@ Vec3 perpendicular(const Vec3& axis, const Vec3& tangent) {
     return result.normalized();
 }
 
+Line from_point(const Line& line, std::size_t first) {
+    const auto skipped = static_cast<std::ptrdiff_t>(first);
+    return {{line.points.begin() + skipped, line.points.end()},
+            {line.radii.begin() + skipped, line.radii.end()}};
+}
+
+/// Where a branch's line leaves the spheres of the other vessels.
+struct Mouth {
+    std::size_t at = 0;          ///< point of the branch's line
+    double branch_radius = 0.0;  ///< [mm], the smallest within one parent's radius behind it
+    double parent_radius = 0.0;  ///< [mm]
+};
+
+/// Radius of the last of the vessels' spheres that holds x, or nothing.
+std::optional<double> radius_around(const std::vector<Line>& vessels, const Vec3& x) {
+    std::optional<double> radius;
+    for (const Line& vessel : vessels)
+        for (std::size_t i = 0; i < vessel.points.size(); ++i)
+            if ((vessel.points[i] - x).norm() < vessel.radii[i]) radius = vessel.radii[i];
+    return radius;
+}
+
+Mouth mouth_of(const Line& own, const std::vector<Line>& others, double node_radius) {
+    Mouth mouth{.parent_radius = node_radius};
+    for (; mouth.at + 1 < own.points.size(); ++mouth.at) {
+        const auto around = radius_around(others, own.points[mouth.at]);
+        if (!around) break;
+        mouth.parent_radius = *around;
+    }
+    mouth.branch_radius = own.radii[mouth.at];
+    double along = 0.0;
+    for (std::size_t i = mouth.at; i + 1 < own.points.size() && along < mouth.parent_radius; ++i) {
+        mouth.branch_radius = std::min(mouth.branch_radius, own.radii[i]);
+        along += (own.points[i + 1] - own.points[i]).norm();
+    }
+    return mouth;
+}
+
+/// Length [mm] of another vessel's line that is drawn towards the branch: as far as its mouth
+/// reaches.
+double gap_at_mouth(const Line& line, const BranchRoot& root) {
+    double s = 0.0, nearest = (line.points[0] - root.mouth).norm(), at_s = 0.0;
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+        s += (line.points[i] - line.points[i - 1]).norm();
+        if (const double d = (line.points[i] - root.mouth).norm(); d < nearest) {
+            nearest = d;
+            at_s = s;
+        }
+    }
+    return std::min(at_s + root.branch_radius + 0.5 * root.parent_radius, 0.6 * length_of(line));
+}
+
 }  // namespace
 
 VesselTube::VesselTube(Positions points, std::vector<double> radii, const Vec3& first_axis)
@@ -211,70 +263,34 @@ BranchRoot branch_root(const CenterlineGraph& graph, std::size_t tip) {
     const std::size_t index = branch_of_tip(graph, tip);
     const auto& branch = graph.branches[index];
     const std::size_t node = branch.start_node == tip ? branch.end_node : branch.start_node;
-    const std::string at = place_text(graph.nodes[tip].position);
+    const auto& meeting = graph.nodes[node].branches;
     std::vector<Line> others;
-    for (const std::size_t b : graph.nodes[node].branches)
+    for (const std::size_t b : meeting)
         if (b != index) others.push_back(from_node(graph.branches[b], node));
     if (others.size() < 2)
-        throw AlgorithmFailure("the vessel with its tip at " + at +
+        throw AlgorithmFailure("the vessel with its tip at " +
+                               place_text(graph.nodes[tip].position) +
                                " stands on no other one: there is nothing that would stay");
-
     const Line own = from_node(branch, node);
-    // The mouth: where the line leaves the spheres of the others.
-    std::size_t mouth = 0;
-    double parent_radius = 0.0;
-    const auto inside_others = [&](const Vec3& x) {
-        bool inside = false;
-        for (const Line& other : others)
-            for (std::size_t i = 0; i < other.points.size(); ++i)
-                if ((other.points[i] - x).norm() < other.radii[i]) {
-                    inside = true;
-                    parent_radius = other.radii[i];
-                }
-        return inside;
-    };
-    while (mouth + 1 < own.points.size() && inside_others(own.points[mouth])) ++mouth;
-    if (parent_radius == 0.0) parent_radius = graph.nodes[node].radius;
-    const Vec3 mouth_at = own.points[mouth];
-    double along = 0.0, branch_radius = own.radii[mouth];
-    for (std::size_t i = mouth; i + 1 < own.points.size() && along < parent_radius; ++i) {
-        branch_radius = std::min(branch_radius, own.radii[i]);
-        along += (own.points[i + 1] - own.points[i]).norm();
-    }
-    // The others' lines are drawn towards the branch as far as its mouth reaches.
-    const auto gap = [&](const Line& line) {
-        double s = 0.0, nearest = (line.points[0] - mouth_at).norm(), at_s = 0.0;
-        for (std::size_t i = 1; i < line.points.size(); ++i) {
-            s += (line.points[i] - line.points[i - 1]).norm();
-            if (const double d = (line.points[i] - mouth_at).norm(); d < nearest) {
-                nearest = d;
-                at_s = s;
-            }
-        }
-        return std::min(at_s + branch_radius + 0.5 * parent_radius, 0.6 * length_of(line));
-    };
-    BranchRoot root{
-        .branch = index,
-        .node = node,
-        .mouth = mouth_at,
-        .branch_radius = branch_radius,
-        .parent_radius = parent_radius,
-        .parents = {},
-        .others = {},
-        .own =
-            tube_from({{own.points.begin() + static_cast<std::ptrdiff_t>(mouth), own.points.end()},
-                       {own.radii.begin() + static_cast<std::ptrdiff_t>(mouth), own.radii.end()}})};
+    const Mouth mouth = mouth_of(own, others, graph.nodes[node].radius);
+    BranchRoot root{.branch = index,
+                    .node = node,
+                    .mouth = own.points[mouth.at],
+                    .branch_radius = mouth.branch_radius,
+                    .parent_radius = mouth.parent_radius,
+                    .parents = {},
+                    .others = {},
+                    .own = tube_from(from_point(own, mouth.at))};
+    const auto gap = [&](const Line& line) { return gap_at_mouth(line, root); };
     for (std::size_t i = 0; i < others.size(); ++i)
         for (std::size_t j = i + 1; j < others.size(); ++j)
             root.parents.push_back(
                 tube_from(joined(others[i], gap(others[i]), others[j], gap(others[j])))
-                    .turned_to(mouth_at));
-    for (std::size_t b = 0; b < graph.branches.size(); ++b) {
-        const auto& here = graph.nodes[node].branches;
-        if (b != index && std::find(here.begin(), here.end(), b) == here.end())
+                    .turned_to(root.mouth));
+    for (std::size_t b = 0; b < graph.branches.size(); ++b)
+        if (b != index && std::find(meeting.begin(), meeting.end(), b) == meeting.end())
             root.others.push_back(
                 tube_from(from_node(graph.branches[b], graph.branches[b].start_node)));
-    }
     return root;
 }
 

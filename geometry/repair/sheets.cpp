@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -159,15 +159,12 @@ bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marke
             report.places.push_back({RepairKind::Orientation, place, 0.0});
             for (const VertexId v : mesh.triangles[t]) mesh.cut[v] = 1;
         }
-    if (static_cast<double>(count) > kMostContradictions * static_cast<double>(marked.size())) {
-        char text[80];
-        std::snprintf(text, sizeof text, "%.4g, %.4g, %.4g", place.x(), place.y(), place.z());
+    if (static_cast<double>(count) > kMostContradictions * static_cast<double>(marked.size()))
         throw AlgorithmFailure(
             "the surface has no inner and outer side (like a Moebius strip): orientations "
             "contradict each other at " +
-            std::to_string(count) + " triangles, one near (" + text +
-            ") mm; cut the band there or export the surface again");
-    }
+            counted(count, "triangle") + ", one near " + place_text(place) +
+            "; cut the band there or export the surface again");
     mesh.remove_triangles(marked);
     return true;
 }

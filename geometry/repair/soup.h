@@ -11,8 +11,9 @@ void weld(RepairMesh& mesh, double tolerance, RepairReport& report);
 /// vertices.
 void remove_degenerate_and_duplicate(RepairMesh& mesh, RepairReport& report);
 
-/// Keeps the `count` components of largest area. \throw AlgorithmFailure if the largest one is only
-/// a small part of everything: scattered triangles are no surface
+/// Keeps the `count` components of largest area.
+/// \throw AlgorithmFailure if the largest one is only a small part of everything: scattered
+///        triangles are no surface
 void keep_largest_components(RepairMesh& mesh, std::size_t count, RepairReport& report);
 
 }  // namespace vesselbench

@@ -17,7 +17,8 @@ using Regions = std::vector<BoxTree::Box>;
 
 /// One attempt at removing self-intersections; `attempt` counts from 0. The first attempts smooth
 /// the vertices around, later ones cut the triangles out, each time a ring more; the rims are
-/// marked as cut, to be closed again. \return the regions changed
+/// marked as cut, to be closed again.
+/// \return the regions changed
 [[nodiscard]] Regions untangle(RepairMesh& mesh, const std::vector<TrianglePair>& pairs,
                                int attempt, RepairReport& report);
 

@@ -14,8 +14,8 @@ namespace vesselbench {
 /// flows back comes in at rest (inletOutlet); at the inlet the velocity is fixed, plug or
 /// parabolic, with exactly the wanted flow. simpleFoam writes mean pressure and flow of each
 /// opening, and the wall shear stress, to postProcessing/ and the last time folder. An existing
-/// case in the folder is replaced (its results stay where they are). \throw InvalidInput if the
-/// mesh has no inlet or outlet; IoError if a file cannot be written, or
+/// case in the folder is replaced (its results stay where they are).
+/// \throw InvalidInput if the mesh has no inlet or outlet; IoError if a file cannot be written, or
 ///        the folder holds something that is not a case
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters);

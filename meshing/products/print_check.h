@@ -31,7 +31,8 @@ struct PrintCheck {
 /// Checks a closed surface for printing. Distances are measured along the normals of the wall's
 /// vertices to the wall that faces them within 60 degrees; rims and caps are left out. Walls whose
 /// shortest way along the surface is below three times their distance belong to one fold (the
-/// crotch of a furcation), not to two branches. \throw InvalidInput if the surface has no triangle
+/// crotch of a furcation), not to two branches.
+/// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] PrintCheck print_check(const Surface& surface, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -8,7 +8,8 @@ namespace vesselbench {
 
 /// Writes a VTK XML unstructured grid [mm]: the tetrahedra, then the boundary triangles. Cell array
 /// `CellEntityIds`: 0 for volume cells, 1 the wall, 2... the openings; names of 1, 2... in the
-/// field array `PatchNames`. \throw InvalidInput if there are no cells, IoError
+/// field array `PatchNames`.
+/// \throw InvalidInput if there are no cells, IoError
 void write_vtu(const VolumeMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace vesselbench

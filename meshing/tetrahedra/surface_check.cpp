@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/edges.h"
 #include "geometry/measure.h"
 #include "geometry/self_intersections.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -163,20 +163,15 @@ void Finder::find_intersections(const Progress& progress) {
         places.push_back(0.5 * (centre(s) + centre(t)));
     }
     add(Kind::SelfIntersection, triangles, places, "two triangles intersect",
-        "run `repair`, or `separate` where two branches touch");
+        "run `repair`; where two branches touch, extract them apart (a mask, another threshold)");
 }
 
 }  // namespace
 
 std::string to_string(const SurfaceProblem& problem) {
     std::string text = std::to_string(problem.count) + " x " + problem.cause;
-    for (std::size_t i = 0; i < problem.places.size(); ++i) {
-        const Vec3& p = problem.places[i];
-        char place[96];
-        std::snprintf(place, sizeof place, "%s(%.4g, %.4g, %.4g)", i == 0 ? ", at " : ", ", p.x(),
-                      p.y(), p.z());
-        text += place;
-    }
+    for (std::size_t i = 0; i < problem.places.size(); ++i)
+        text += (i == 0 ? ", at " : ", ") + coordinates_text(problem.places[i]);
     text += problem.count > problem.places.size() ? " ... mm" : " mm";
     return text + "; " + problem.remedy;
 }

@@ -23,8 +23,9 @@ using TooLarge = std::function<bool(const Vec3& centroid, double volume)>;
 /// tetgen_guard.cpp). Input facets carry their patch as marker; the boundary triangles come back
 /// outward with their patches. A NaN coordinate aborts the process: check the surface first
 /// (surface_check.h). Source: Si, "TetGen, a Delaunay-based quality tetrahedral mesh generator",
-/// ACM TOMS 2015. \param switches TetGen's, without the dash, beginning with "p" \param too_large
-/// refinement wish, or empty; used with the switch `q` only
+/// ACM TOMS 2015.
+/// \param switches TetGen's, without the dash, beginning with "p"
+/// \param too_large refinement wish, or empty; used with the switch `q` only
 [[nodiscard]] TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
                                       const TooLarge& too_large = {});
 

@@ -9,6 +9,7 @@
 #include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "geometry/wording.h"
 #include "meshing/tetrahedra/cell_order.h"
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/size_field.h"
@@ -197,11 +198,8 @@ private:
             const auto& [a, b, c] = surface_.triangles()[culprits[i]];
             const Vec3 centre =
                 (surface_.points()[a] + surface_.points()[b] + surface_.points()[c]) / 3.0;
-            char place[128];
-            std::snprintf(place, sizeof place,
-                          "\n  facet %u at (%.4g, %.4g, %.4g) mm meets another one", culprits[i],
-                          centre.x(), centre.y(), centre.z());
-            text += place;
+            text += "\n  facet " + std::to_string(culprits[i]) + " at " + place_text(centre) +
+                    " meets another one";
         }
         throw AlgorithmFailure(text +
                                "\nrun `repair` and `remesh` before it, with a smaller edge length "

@@ -3,43 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
-#include <vtkCellArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
+#include "geometry/image/flying_edges.h"
 
 namespace vesselbench::test {
 
 Surface iso_surface(const ImplicitShape& shape, const Eigen::AlignedBox3d& box, double cell) {
-    vtkNew<vtkImageData> image;
-    int n[3];
-    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(box.sizes()[a] / cell)) + 1;
-    image->SetDimensions(n);
-    image->SetSpacing(cell, cell, cell);
-    image->SetOrigin(box.min().data());
-    image->AllocateScalars(VTK_DOUBLE, 1);
-    auto* value = static_cast<double*>(image->GetScalarPointer());
-    for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-            for (int i = 0; i < n[0]; ++i) *value++ = shape(box.min() + cell * Vec3(i, j, k));
-    vtkNew<vtkFlyingEdges3D> edges;
-    edges->SetInputData(image);
-    edges->SetValue(0, 0.0);
-    edges->ComputeNormalsOff();
-    edges->Update();
-    vtkPolyData* found = edges->GetOutput();
-    Positions points(static_cast<std::size_t>(found->GetNumberOfPoints()));
-    for (std::size_t i = 0; i < points.size(); ++i)
-        found->GetPoint(static_cast<vtkIdType>(i), points[i].data());
-    std::vector<Triangle> triangles;
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    for (found->GetPolys()->InitTraversal(); found->GetPolys()->GetNextCell(count, ids) != 0;)
-        triangles.push_back({static_cast<VertexId>(ids[0]), static_cast<VertexId>(ids[1]),
-                             static_cast<VertexId>(ids[2])});
-    return make_surface(std::move(points), std::move(triangles));
+    GridFrame grid{.origin = box.min(), .spacing = cell};
+    for (int a = 0; a < 3; ++a)
+        grid.size[static_cast<std::size_t>(a)] =
+            static_cast<int>(std::ceil(box.sizes()[a] / cell)) + 1;
+    std::vector<double> values;
+    for (int k = 0; k < grid.size[2]; ++k)
+        for (int j = 0; j < grid.size[1]; ++j)
+            for (int i = 0; i < grid.size[0]; ++i)
+                values.push_back(shape(box.min() + cell * Vec3(i, j, k)));
+    GridSurface found = flying_edges(values, grid);
+    Positions points;
+    for (const auto& [x, y, z] : found.points) points.emplace_back(x, y, z);
+    return make_surface(std::move(points), std::move(found.triangles));
 }
 
 double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double radius) {

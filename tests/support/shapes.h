@@ -16,7 +16,8 @@ namespace vesselbench::test {
 [[nodiscard]] Surface closed_tube(double radius, double length, int around, int along);
 
 /// The closed tube with almost equilateral triangles on wall and caps: staggered rows, concentric
-/// rings. \param around vertices around, a multiple of 6; the edge length is 2 pi radius / around
+/// rings.
+/// \param around vertices around, a multiple of 6; the edge length is 2 pi radius / around
 [[nodiscard]] Surface fine_tube(double radius, double length, int around);
 
 /// Axis-parallel cube from 0 to `edge`, 12 triangles, outward.

@@ -72,21 +72,31 @@ Json json_of(const Operation& operation) {
     return json;
 }
 
-std::string range_text(const Parameter& parameter) {
-    if (!parameter.choices.empty()) return joined(parameter.choices, "|");
+/// "0 ... 1", ">= 1"; nothing without bounds.
+std::string bounds_text(const Parameter& parameter) {
     const bool below = std::isfinite(parameter.minimum), above = std::isfinite(parameter.maximum);
     const std::string from = to_text(Value(parameter.minimum));
     const std::string to = to_text(Value(parameter.maximum));
     if (below && above) return (parameter.above_minimum ? "> " : "") + from + " ... " + to;
     if (below) return (parameter.above_minimum ? "> " : ">= ") + from;
-    if (above) return "<= " + to;
+    return above ? "<= " + to : "";
+}
+
+std::string range_text(const Parameter& parameter) {
+    const std::string bounds = bounds_text(parameter);
+    const std::string bounded = bounds.empty() ? "" : ", " + bounds;
     switch (parameter.type) {
+        case ParameterType::Choice:
+            return joined(parameter.choices, "|");
         case ParameterType::Flag:
             return "true|false";
         case ParameterType::Point:
-            return "x,y,z";
+            return "x,y,z" + bounded;
         case ParameterType::List:
-            return "a,b,...";
+            return "a,b,..." + bounded;
+        case ParameterType::Integer:
+        case ParameterType::Real:
+            return bounds.empty() ? "number" : bounds;
         default:
             return to_string(parameter.type);
     }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 #include "workbench/argument_texts.h"
 #include "workbench/commands/commands.h"
 #include "workbench/console.h"
@@ -43,7 +44,7 @@ void print_report(const std::string& text) {
 
 void print_state(const Session& session) {
     const std::vector<LogEntry> log = session.log();
-    std::cout << "the case now holds " << log.size() << (log.size() == 1 ? " edit" : " edits");
+    std::cout << "the case now holds " << counted(log.size(), "edit");
     if (!log.empty())
         std::cout << ", the last is " << log.back().edit.edit.id << " "
                   << log.back().edit.operation;

@@ -8,6 +8,7 @@
 #include "geometry/openings/opening_axis.h"
 #include "geometry/openings/openings.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -83,10 +84,6 @@ struct Resolved {
     ordered_json openings = ordered_json::array();
 };
 
-ordered_json as_json(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
 Resolved describe(const Surface& surface, const OpeningPlan& plan) {
     Resolved resolved;
     for (const auto& opening : plan.openings) {
@@ -102,8 +99,8 @@ Resolved describe(const Surface& surface, const OpeningPlan& plan) {
         const auto axis = axis_at_patch(surface, p);
         resolved.openings.push_back({{"name", patch.name},
                                      {"kind", to_string(patch.kind)},
-                                     {"centre_mm", as_json(shape.plane.point)},
-                                     {"normal", as_json(shape.plane.normal)},
+                                     {"centre_mm", point_json(shape.plane.point)},
+                                     {"normal", point_json(shape.plane.normal)},
                                      {"area_mm2", shape.area},
                                      {"diameter_mm", shape.diameter()},
                                      {"flatness_mm", shape.flatness},

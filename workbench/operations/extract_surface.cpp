@@ -7,6 +7,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -132,16 +133,16 @@ std::vector<std::string> warnings_of(const Extraction& extraction) {
     }
     if (extraction.before && !(*extraction.before == *extraction.after)) {
         const auto text_of = [](const VoxelTopology& t) {
-            return std::to_string(t.components) + " pieces, " + std::to_string(t.tunnels()) +
-                   " tunnels, " + std::to_string(t.cavities) + " cavities";
+            return counted(t.components, "piece") + ", " + counted(t.tunnels(), "tunnel") + ", " +
+                   counted(t.cavities, "cavity", "cavities");
         };
         warnings.push_back("cleaning changed the topology: " + text_of(*extraction.before) +
                            " became " + text_of(*extraction.after));
     }
     if (extraction.surface.patches.size() > 1)
         warnings.push_back("the vessel leaves the image in " +
-                           std::to_string(extraction.surface.patches.size() - 1) +
-                           " places; it is closed flat there (patches cut_1 ...)");
+                           counted(extraction.surface.patches.size() - 1, "place") +
+                           "; it is closed flat there (patches cut_1 ...)");
     return warnings;
 }
 

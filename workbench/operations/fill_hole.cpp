@@ -5,6 +5,7 @@
 #include "geometry/errors.h"
 #include "geometry/openings/hole_filling.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -45,7 +46,7 @@ Outcome fill(const Scene& scene, const Arguments& arguments, Progress& progress)
         const FilledHole filled =
             fill_hole(surface, loop, static_cast<int>(arguments.integer("continuity")));
         surface = filled.surface;
-        report.push_back({{"centre_mm", {centre.x(), centre.y(), centre.z()}},
+        report.push_back({{"centre_mm", point_json(centre)},
                           {"edges", loop.size()},
                           {"new_triangles", surface.triangle_count() - filled.first_new_triangle}});
     }

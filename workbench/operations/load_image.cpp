@@ -8,6 +8,7 @@
 #include "geometry/image/threshold.h"
 #include "geometry/io/image_file.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -111,17 +112,13 @@ std::string axis_letters(const Image& image) {
     return letters;
 }
 
-nlohmann::ordered_json list(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
 nlohmann::ordered_json report_of(const ImageFile& file, const Image& image) {
     const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
     const Eigen::Matrix3d axes = image.index_to_patient.topLeftCorner<3, 3>();
     return {{"format", file.format},
             {"size_voxels", image.size},
-            {"spacing_mm", list(image.spacing())},
-            {"first_voxel_mm", list(image.index_to_patient.topRightCorner<3, 1>())},
+            {"spacing_mm", point_json(image.spacing())},
+            {"first_voxel_mm", point_json(image.index_to_patient.topRightCorner<3, 1>())},
             {"axes_point_to", axis_letters(image)},
             {"left_handed", axes.determinant() < 0.0},
             {"values", {*least, *most}},

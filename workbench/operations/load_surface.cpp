@@ -6,6 +6,7 @@
 #include "geometry/io/surface_file.h"
 #include "geometry/measure.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -23,7 +24,7 @@ ordered_json report_of(const SurfaceFile& file, const std::string& name) {
             {"triangles", surface.triangle_count()},
             {"components", connected_components(*surface.topology).count()},
             {"boundary_loops", surface.topology->boundary_loops().size()},
-            {"size_mm", {size.x(), size.y(), size.z()}},
+            {"size_mm", point_json(size)},
             {"notes", file.notes}};
 }
 

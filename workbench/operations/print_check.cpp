@@ -4,17 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json point_json(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
-}
 
 Json facing_json(const std::optional<FacingPlaces>& places) {
     if (!places) return nullptr;
@@ -39,10 +37,9 @@ Json problems_json(const PrintCheck& check) {
 void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const std::string& what,
                    Outcome& outcome) {
     if (!places || places->distance >= limit) return;
-    char text[200];
-    std::snprintf(text, sizeof text, " is %.3g mm at (%.4g, %.4g, %.4g) mm, below %.3g mm",
-                  places->distance, places->from.x(), places->from.y(), places->from.z(), limit);
-    outcome.warnings.push_back(what + text);
+    char text[64];
+    std::snprintf(text, sizeof text, " is %.3g mm, below %.3g mm, at ", places->distance, limit);
+    outcome.warnings.push_back(what + text + place_text(places->from));
 }
 
 Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress& progress) {

@@ -7,8 +7,9 @@
 #include "geometry/centerlines.h"
 #include "geometry/centerlines/branch_queries.h"
 #include "geometry/errors.h"
-#include "geometry/openings/opening_place.h"
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -53,9 +54,8 @@ Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progres
                        .continuity = static_cast<int>(arguments.integer("continuity"))});
     Outcome outcome;
     outcome.resolved = arguments;
-    const Vec3& at = removal.mouth;
     outcome.report = std::make_shared<ordered_json>(
-        ordered_json{{"mouth_mm", {at.x(), at.y(), at.z()}},
+        ordered_json{{"mouth_mm", point_json(removal.mouth)},
                      {"removed_area_mm2", removal.removed_area},
                      {"new_triangles", removal.new_triangles},
                      {"follows_parent", removal.follows_parent},

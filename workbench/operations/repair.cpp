@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
+#include "workbench/point_json.h"
 
 namespace vesselbench {
 
@@ -17,10 +19,6 @@ constexpr std::size_t kMostPlaces = 50;
 
 /// A removed piece of more than this part of the triangles [-] is worth a warning.
 constexpr double kWorthAWarning = 0.01;
-
-ordered_json point_json(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
-}
 
 ordered_json places_json(const std::vector<RepairPlace>& places) {
     ordered_json by_kind = ordered_json::object();
@@ -67,10 +65,10 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
     std::vector<std::string> warnings;
     if (static_cast<double>(report.removed_component_triangles) >
         kWorthAWarning * static_cast<double>(before.triangle_count()))
-        warnings.push_back("repair removed " + std::to_string(report.removed_components) +
-                           " unconnected pieces with " +
-                           std::to_string(report.removed_component_triangles) +
-                           " triangles; keep_components= keeps more of them");
+        warnings.push_back("repair removed " +
+                           counted(report.removed_components, "unconnected piece") + " with " +
+                           counted(report.removed_component_triangles, "triangle") +
+                           "; keep_components= keeps more of them");
     if (report.turned_inside_out)
         warnings.push_back("the surface was inside out and has been turned over");
     return warnings;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "workbench/near_names.h"
 #include "workbench/phantoms/builtin.h"
 
 namespace vesselbench {
@@ -201,9 +202,9 @@ PhantomDescription builtin_phantom(const std::string& name) {
     const auto& texts = builtin_phantom_texts();
     if (const auto found = texts.find(name); found != texts.end())
         return phantom_from_json(found->second);
-    std::string known;
-    for (const std::string& one : phantom_names()) known += (known.empty() ? "" : ", ") + one;
-    throw UsageError("there is no phantom '" + name + "' (there are: " + known + ")");
+    const std::vector<std::string> names = phantom_names();
+    throw UsageError("there is no phantom '" + name + "'" + did_you_mean(name, names) +
+                     " (the phantoms are " + joined(names) + ")");
 }
 
 }  // namespace vesselbench

@@ -15,8 +15,9 @@ namespace vesselbench {
 [[nodiscard]] CfdParameters take_flow_parameters(std::vector<std::string>& texts);
 
 /// Writes surface.vtp, surface.stl and the product's files: for "cfd" volume.vtu, volume.msh and
-/// openfoam/, for "rp" print.stl and print.3mf. \return their names
-/// \throw InvalidInput if the scene has no volume mesh for cfd, IoError
+/// openfoam/, for "rp" print.stl and print.3mf.
+/// \return their names
+/// \throw AlgorithmFailure if the scene has no volume mesh for cfd, IoError
 [[nodiscard]] std::vector<std::string> write_products(PendingFiles& files,
                                                       const std::filesystem::path& folder,
                                                       const Scene& scene,
@@ -27,7 +28,8 @@ namespace vesselbench {
 void check_export_name(const std::filesystem::path& file);
 
 /// Writes one file by its suffix (.stl .ply .obj .off .vtp .vtu .msh .3mf), or, without a suffix,
-/// an OpenFOAM case. \throw UsageError that lists the suffixes for another one
+/// an OpenFOAM case.
+/// \throw UsageError that lists the suffixes for another one
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
                   const CfdParameters& flow);
 

@@ -36,7 +36,8 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 [[nodiscard]] Recipe default_recipe(const RecipeUse& use);
 
 /// Replaces arguments by those of "operation.parameter=value" texts, in every entry of that
-/// operation. \throw UsageError if a text is not of that form, or the recipe has no such operation
+/// operation.
+/// \throw UsageError if a text is not of that form, or the recipe has no such operation
 void set_arguments(Recipe& recipe, std::span<const std::string> texts);
 
 /// \throw UsageError that lists the steps if there is none of this name

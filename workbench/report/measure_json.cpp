@@ -5,15 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/point_json.h"
+
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json point_json(const Vec3& p) {
-    return Json::array({p.x(), p.y(), p.z()});
-}
 
 Json patch_json(const PatchMeasures& patch) {
     return {{"name", patch.name},

@@ -1,0 +1,22 @@
+#include "geometry/wording.h"
+
+#include <cstdio>
+
+namespace vesselbench {
+
+std::string coordinates_text(const Vec3& point) {
+    char text[80];
+    std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g)", point.x(), point.y(), point.z());
+    return text;
+}
+
+std::string place_text(const Vec3& point) {
+    return coordinates_text(point) + " mm";
+}
+
+std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+    const std::string& many = plural.empty() ? noun + "s" : plural;
+    return std::to_string(count) + " " + (count == 1 ? noun : many);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "geometry/vec3.h"
+
+namespace vesselbench {
+
+/// A place [mm] as error texts and warnings name it: "(12.346, -5.1, 1234.5) mm".
+[[nodiscard]] std::string place_text(const Vec3& point);
+
+/// The same without the unit, for lists of places: "(12.346, -5.1, 1234.5)".
+[[nodiscard]] std::string coordinates_text(const Vec3& point);
+
+/// A number with its noun: "1 place", "3 places".
+/// \param plural where it is not the noun with an s
+[[nodiscard]] std::string counted(std::size_t count, const std::string& noun,
+                                  const std::string& plural = "");
+
+}  // namespace vesselbench
