@@ -22,15 +22,13 @@ constexpr int kRounds = 12;  // of split, collapse, flip, relax
 /// forgets the pattern of a coarse source.
 constexpr double kFirstSplit = 0.8;
 
-/// Edges come out this much longer than the remesher is told [-] (seen on tubes and vessels).
-constexpr double kStretch = 1.07;
-
 /// While the mesh still finds its pattern, edges are split sooner than later on [-].
 constexpr double kEarlySplit = 1.2;
 constexpr int kEarlyRounds = 4;
 
-constexpr int kFinalRounds = 5;   // of flip and relax: sizes have settled, angles follow
-constexpr int kMostAttempts = 3;  // at a result without self-intersections, finer each time
+constexpr int kFinalRounds = 5;         // of flip and relax: sizes have settled, angles follow
+constexpr int kMostAttempts = 3;        // at a result without bad places, finer there each time
+constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
 
 constexpr double kEdgePerRadius = 0.35;              // 18 triangles around
@@ -81,18 +79,12 @@ void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
     }
 }
 
-Surface remesh_graded(const Surface& surface, std::vector<double> sizes, const Progress& progress) {
-    for (double& size : sizes) size /= kStretch;
-    Remesher remesher(surface, sizes, surface);
+/// One attempt, which begins with the mesh `start`.
+Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Surface& start,
+                      const Progress& progress) {
+    for (double& size : sizes) size /= Remesher::kStretch;
+    Remesher remesher(surface, sizes, start);
     run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
-    return finished(remesher, progress.part(0.8, 1.0));
-}
-
-Surface remesh_uniformly(const Surface& surface, double edge, const Progress& progress) {
-    progress.report(0.0, "remeshing");
-    const Surface even = remesh_uniform(surface, edge);
-    Remesher remesher(surface, std::vector<double>(surface.vertex_count(), edge / kStretch), even);
-    run_rounds(remesher, kRounds / 2, progress.part(0.4, 0.8));  // repairs the slivers at the rims
     return finished(remesher, progress.part(0.8, 1.0));
 }
 
@@ -138,22 +130,36 @@ void measure_quality(const Surface& surface, RemeshReport& report) {
     report.caps_skewness_mean /= std::max(caps, 1.0);
 }
 
-/// Where the result crosses itself, the source's wanted edges within two edges become shorter.
-/// \return true if it crosses itself
-bool refine_crossings(const Surface& source, const Surface& result, std::vector<double>& sizes) {
-    const auto crossings = self_intersections(result);
+/// Where the result crosses itself, or a triangle could not be made well-shaped.
+Positions bad_places(const Surface& result) {
+    const Positions& points = result.points();
     Positions places;
-    for (const auto& [s, t] : crossings)
-        for (const TriangleId crossing : {s, t}) {
-            const auto& [a, b, c] = result.triangles()[crossing];
-            places.push_back((result.points()[a] + result.points()[b] + result.points()[c]) / 3.0);
-        }
+    const auto add = [&](TriangleId t) {
+        const auto& [a, b, c] = result.triangles()[t];
+        places.push_back((points[a] + points[b] + points[c]) / 3.0);
+    };
+    for (const auto& [s, t] : self_intersections(result)) {
+        add(s);
+        add(t);
+    }
+    for (TriangleId t = 0; t < result.triangle_count(); ++t) {
+        const auto& [a, b, c] = result.triangles()[t];
+        if (1.0 - equiangle_skewness(points[a], points[b], points[c]) < kLeastQuality ||
+            radius_ratio(points[a], points[b], points[c]) < kLeastQuality)
+            add(t);
+    }
+    return places;
+}
+
+/// Shortens the wanted edges of the source within two edges of the places.
+void refine(const Surface& source, const Positions& places, double gradation,
+            std::vector<double>& sizes) {
     for (std::size_t v = 0; v < sizes.size(); ++v)
         if (std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
                 return (place - source.points()[v]).norm() < 2.0 * sizes[v];
             }))
             sizes[v] *= kFiner;
-    return !crossings.empty();
+    limit_slope(source, slope_of(gradation), sizes);
 }
 
 [[noreturn]] void refuse_crossing(const Surface& source, const Surface& result) {
@@ -168,14 +174,17 @@ bool refine_crossings(const Surface& source, const Surface& result, std::vector<
                            "; use a smaller edge, or separate the walls that touch there");
 }
 
-Surface remesh_graded_until_sound(const Surface& surface, std::vector<double> sizes,
-                                  double gradation, const Progress& progress) {
-    Surface result = remesh_graded(surface, sizes, progress);
-    for (int attempt = 0; refine_crossings(surface, result, sizes); ++attempt) {
-        if (attempt == kMostAttempts) refuse_crossing(surface, result);
-        limit_slope(surface, slope_of(gradation), sizes);
-        result = remesh_graded(surface, sizes, progress);
+Surface remeshed_until_sound(const Surface& surface, const Surface& start,
+                             std::vector<double> sizes, double gradation,
+                             const Progress& progress) {
+    Surface result = remeshed_once(surface, sizes, start, progress);
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        const Positions places = bad_places(result);
+        if (places.empty()) return result;
+        refine(surface, places, gradation, sizes);
+        result = remeshed_once(surface, sizes, surface, progress);
     }
+    if (!self_intersections(result).empty()) refuse_crossing(surface, result);
     return result;
 }
 
@@ -198,13 +207,17 @@ Surface graded(const Surface& surface, const std::vector<double>& radii, const R
                                               .max_edge = report.max_edge,
                                               .gradation = gradation},
                                              progress.part(0.0, 0.2));
-    return remesh_graded_until_sound(surface, std::move(sizes), gradation, progress.part(0.2, 1.0));
+    return remeshed_until_sound(surface, surface, std::move(sizes), gradation,
+                                progress.part(0.2, 1.0));
 }
 
-Surface uniform(const Surface& surface, const RemeshReport& report, const Progress& progress) {
-    Surface result = remesh_uniformly(surface, report.edge, progress);
-    if (!self_intersections(result).empty()) refuse_crossing(surface, result);
-    return result;
+/// CGAL knows one edge length only, and leaves slivers at rims; its mesh is where the rounds start.
+Surface uniform(const Surface& surface, const RemeshReport& report, double gradation,
+                const Progress& progress) {
+    progress.report(0.0, "remeshing");
+    const Surface even = remesh_uniform(surface, report.edge);
+    const std::vector<double> sizes(surface.vertex_count(), report.edge);
+    return remeshed_until_sound(surface, even, sizes, gradation, progress.part(0.3, 1.0));
 }
 
 }  // namespace
@@ -218,7 +231,7 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
     RemeshReport report = decided(surface, parameters, radii);
     Surface result =
         parameters.mode == RemeshMode::Uniform
-            ? uniform(surface, report, progress.part(0.1, 1.0))
+            ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
             : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
     result = with_attributes(std::move(result), surface);
     report.triangles_after = result.triangle_count();

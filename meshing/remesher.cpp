@@ -29,6 +29,35 @@ constexpr double kCoarse = 8.0, kCoarseStep = 1.3;
 /// Cosine of the largest turn of a triangle's normal that an edit may make.
 constexpr double kTurn = 0.3;
 
+/// Vertices around which the last pass changed something: the next one looks at those only.
+class Touched {
+public:
+    explicit Touched(std::size_t vertices) : now_(vertices, 1), next_(vertices, 1) {}
+
+    void begin_pass() {
+        now_.swap(next_);
+        std::fill(next_.begin(), next_.end(), std::uint8_t{0});
+        any_ = false;
+        ++passes_;
+    }
+
+    void add(VertexId v) {
+        now_[v] = next_[v] = 1;
+        any_ = true;
+    }
+
+    [[nodiscard]] bool operator[](VertexId v) const { return now_[v] != 0; }
+
+    [[nodiscard]] bool any() const { return any_; }
+
+    [[nodiscard]] int passes() const { return passes_; }
+
+private:
+    std::vector<std::uint8_t> now_, next_;
+    bool any_ = false;
+    int passes_ = 0;
+};
+
 bool turns_too_far(const Vec3& before, const Vec3& after) {
     const double scale = before.norm() * after.norm();
     return before.dot(after) <= kTurn * scale;
@@ -145,45 +174,52 @@ bool Remesher::may_collapse(HalfEdge h, double limit) {
 
 void Remesher::collapse_short_edges() {
     const std::uint64_t count = mesh_.half_edge_count();
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-        bool changed = false;
+    Touched touched(mesh_.vertex_count());
+    do {
+        touched.begin_pass();
         for (std::uint64_t i = 0; i < count; ++i) {
             const auto h = static_cast<HalfEdge>(i * kScatter % count);
             if (mesh_.origin(h) == EditMesh::kNone) continue;
             const VertexId a = mesh_.origin(h), b = mesh_.target(h);
-            if (a > b || is_hub(a) || is_hub(b)) continue;
-            if (length(h) >= kShort * wanted(a, b)) continue;
+            if (a > b || !(touched[a] || touched[b])) continue;
+            if (is_hub(a) || is_hub(b) || length(h) >= kShort * wanted(a, b)) continue;
             const HalfEdge g = mesh_.twin(h);
-            if (may_collapse(h, kLong))
-                mesh_.collapse(h);
-            else if (may_collapse(g, kLong))
-                mesh_.collapse(g);
-            else
-                continue;
-            changed = true;
+            const bool to_b = may_collapse(h, kLong);
+            if (!to_b && !may_collapse(g, kLong)) continue;
+            mesh_.collapse(to_b ? h : g);
+            mesh_.for_each_leaving(to_b ? b : a, [&](HalfEdge k) { touched.add(mesh_.target(k)); });
         }
-        if (!changed) break;
-    }
+    } while (touched.any() && touched.passes() < kMostPasses);
     mesh_.compact();
+}
+
+void Remesher::count_valences() {
+    valence_.assign(mesh_.vertex_count(), 0);
+    for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h)
+        if (mesh_.origin(h) != EditMesh::kNone) ++valence_[mesh_.origin(h)];
 }
 
 int Remesher::collapse_valence_excess(HalfEdge h) const {
     const auto square = [](int off) { return off * off; };
-    const int a = mesh_.valence(mesh_.origin(h)) - 6, b = mesh_.valence(mesh_.target(h)) - 6,
-              c = mesh_.valence(mesh_.apex(h)) - 6,
-              d = mesh_.valence(mesh_.apex(mesh_.twin(h))) - 6;
+    const int a = valence_[mesh_.origin(h)] - 6, b = valence_[mesh_.target(h)] - 6,
+              c = valence_[mesh_.apex(h)] - 6, d = valence_[mesh_.apex(mesh_.twin(h))] - 6;
     return square(a + b + 2) + square(c - 1) + square(d - 1) - square(a) - square(b) - square(c) -
            square(d);
 }
 
 void Remesher::collapse_defects() {
+    count_valences();
     const std::uint64_t count = mesh_.half_edge_count();
     for (std::uint64_t i = 0; i < count; ++i) {
         const auto h = static_cast<HalfEdge>(i * kScatter % count);
         if (mesh_.origin(h) == EditMesh::kNone) continue;
         const VertexId a = mesh_.origin(h), b = mesh_.target(h);
         if (is_hub(a) || is_hub(b) || length(h) > kDefect * wanted(a, b)) continue;
-        if (collapse_valence_excess(h) <= 0 && may_collapse(h, kAfterDefect)) mesh_.collapse(h);
+        if (collapse_valence_excess(h) > 0 || !may_collapse(h, kAfterDefect)) continue;
+        --valence_[mesh_.apex(h)];
+        --valence_[mesh_.apex(mesh_.twin(h))];
+        valence_[b] += valence_[a] - 4;
+        mesh_.collapse(h);
     }
     mesh_.compact();
 }
@@ -198,10 +234,10 @@ bool Remesher::flip_keeps_shape(HalfEdge h) const {
            first.dot(second) > kTurn * first.norm() * second.norm();
 }
 
-int Remesher::ideal_valence_excess(HalfEdge h) const {
+int Remesher::flip_valence_excess(HalfEdge h) const {
     // Rims count like any vertex: three triangles on either side are six.
     const auto gap = [&](VertexId v, int change) {
-        const int off = mesh_.valence(v) - 6;
+        const int off = valence_[v] - 6;
         return (off + change) * (off + change) - off * off;
     };
     return gap(mesh_.origin(h), -1) + gap(mesh_.target(h), -1) + gap(mesh_.apex(h), 1) +
@@ -212,21 +248,26 @@ bool Remesher::flip_helps(HalfEdge h, FlipRule rule) const {
     const Vec3 &a = mesh_.points[mesh_.origin(h)], &b = mesh_.points[mesh_.target(h)],
                &c = mesh_.points[mesh_.apex(h)], &d = mesh_.points[mesh_.apex(mesh_.twin(h))];
     if (rule == FlipRule::Angle) return cotangent(c, a, b) + cotangent(d, a, b) < -1e-9;
-    return ideal_valence_excess(h) < 0;
+    return flip_valence_excess(h) < 0;
 }
 
 void Remesher::flip_edges(FlipRule rule) {
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-        bool changed = false;
+    count_valences();
+    Touched touched(mesh_.vertex_count());
+    do {
+        touched.begin_pass();
         for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h) {
             if (mesh_.origin(h) == EditMesh::kNone || h > mesh_.twin(h)) continue;
+            const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+            if (!(touched[a] || touched[b])) continue;
             if (mesh_.is_feature(h) || mesh_.is_hole(mesh_.patch_at(h))) continue;
             if (!flip_helps(h, rule) || !mesh_.can_flip(h) || !flip_keeps_shape(h)) continue;
+            const VertexId c = mesh_.apex(h), d = mesh_.apex(mesh_.twin(h));
             mesh_.flip(h);
-            changed = true;
+            --valence_[a], --valence_[b], ++valence_[c], ++valence_[d];
+            for (const VertexId v : {a, b, c, d}) touched.add(v);
         }
-        if (!changed) return;
-    }
+    } while (touched.any() && touched.passes() < kMostPasses);
 }
 
 Vec3 Remesher::normal_at(VertexId v) const {

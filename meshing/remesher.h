@@ -20,6 +20,9 @@ public:
 
     static constexpr double kLong = 4.0 / 3.0;
 
+    /// Edges come out this much longer than `sizes` say [-] (seen on tubes and vessels).
+    static constexpr double kStretch = 1.07;
+
     /// Splits edges that are longer than `limit` wanted lengths, until there are none.
     void split_long_edges(double limit = kLong);
 
@@ -47,7 +50,8 @@ public:
     void polish();
 
     /// Works on the triangles that are worse than `quality` (the smaller of 1 - equiangle skewness
-    /// and radius ratio): flips, moves of single vertices, collapses.
+    /// and radius ratio) or of another size than a neighbour: flips, moves of single vertices,
+    /// collapses.
     /// \return the worst that is left
     double improve_worst(double quality);
 
@@ -86,10 +90,11 @@ private:
     [[nodiscard]] bool may_collapse(HalfEdge h, double limit);
     [[nodiscard]] double longest_share() const;  ///< of all edges, in wanted lengths
     void split_edges_above(double limit);
+    void count_valences();
     [[nodiscard]] int collapse_valence_excess(HalfEdge h) const;
     [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
     [[nodiscard]] bool flip_helps(HalfEdge h, FlipRule rule) const;
-    [[nodiscard]] int ideal_valence_excess(HalfEdge h) const;
+    [[nodiscard]] int flip_valence_excess(HalfEdge h) const;
     [[nodiscard]] Vec3 normal_at(VertexId v) const;
     [[nodiscard]] Vec3 relaxed_position(VertexId v, const VertexKind& kind, RelaxRule rule) const;
     [[nodiscard]] Vec3 middle_on_rim(VertexId v) const;
@@ -103,6 +108,11 @@ private:
     template <class Score>
     bool try_places(VertexId v, double first_step, double last_step, const Score& score);
 
+    /// Sum of the edge lengths of triangle t if v were at x [mm].
+    [[nodiscard]] double edges_around(TriangleId t, VertexId v, const Vec3& x) const;
+    /// Below 0.5 where the triangles on both sides of h differ too much in size, if v were at x.
+    [[nodiscard]] double evenness_across(HalfEdge h, VertexId v, const Vec3& x) const;
+    /// At most 1; below 0.5 if t is ill-shaped or of another size than a neighbour.
     [[nodiscard]] double quality_of(TriangleId t) const;
     [[nodiscard]] double shape_around(VertexId v, const Vec3& x) const;
     [[nodiscard]] double worst_around(VertexId v, const Vec3& x) const;
@@ -115,6 +125,7 @@ private:
     std::vector<Patch> patches_;
     std::vector<double> size_;      ///< by vertex [mm]
     std::vector<TriangleId> near_;  ///< by vertex
+    std::vector<int> valence_;      ///< by vertex, where a step counts them
 };
 
 }  // namespace vesselbench

@@ -13,6 +13,11 @@ namespace vesselbench {
 namespace {
 
 RemeshParameters parameters_from(const Arguments& arguments) {
+    const auto least = arguments.optional_real("min_edge"),
+               most = arguments.optional_real("max_edge");
+    if (least && most && *least > *most)
+        throw UsageError("remesh: min_edge = " + to_text(*least) +
+                         " mm is above max_edge = " + to_text(*most) + " mm");
     return {.mode = arguments.text("mode") == "uniform" ? RemeshMode::Uniform : RemeshMode::Graded,
             .edge = arguments.optional_real("edge"),
             .min_edge = arguments.optional_real("min_edge"),
