@@ -6,6 +6,7 @@
 #include "geometry/errors.h"
 #include "smoothing/laplace.h"
 #include "smoothing/laplace_hc.h"
+#include "smoothing/new_crossings.h"
 #include "smoothing/taubin.h"
 #include "workbench/operations/table.h"
 
@@ -110,6 +111,20 @@ Report report_of(const Surface& before, const Surface& after, const Request& req
         {"cap_vertices_kept", std::count(request.fixed.begin(), request.fixed.end(), 1)}});
 }
 
+/// No filter may make the surface pass through itself; what was held back is told.
+void keep_walls_apart(const Surface& surface, Positions& moved, Outcome& outcome,
+                      const Progress& progress) {
+    const TakenBack taken = take_back_crossings(surface, moved, progress);
+    if (taken.vertices == 0) return;
+    std::ostringstream text;
+    text << taken.vertices << " vertices moved less than the filter wanted, first near ("
+         << taken.place.transpose() << ") mm: walls would have passed through each other";
+    if (taken.crossings_left > 0)
+        text << "; " << taken.crossings_left
+             << " pairs of triangles still do: use fewer iterations, or repair";
+    outcome.warnings.push_back(text.str());
+}
+
 Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     const Request request = request_from(surface, arguments);
@@ -119,6 +134,7 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     Positions moved = filter == "laplace"  ? run_laplace(surface, request, progress)
                       : filter == "taubin" ? run_taubin(surface, request, outcome, progress)
                                            : run_laplace_hc(surface, request, outcome, progress);
+    keep_walls_apart(surface, moved, outcome, progress);
     Surface smoothed = surface.with_positions(std::move(moved));
     outcome.report = report_of(surface, smoothed, request);
     outcome.scene = with_surface(scene, std::move(smoothed));
