@@ -394,7 +394,11 @@ ImageFile read_dicom_folder(const std::string& folder) {
     const std::string name = file_name(folder);
     std::vector<std::string> paths;
     for (const std::string& path : files_in(folder))
-        if (is_dicom(path)) paths.push_back(path);
+        if (is_dicom(path))
+            paths.push_back(path);
+        else if (fs::path(path).extension() == ".dcm")  // a slice left out would shift the others
+            bad_file(file_name(path), "it is no readable DICOM file (empty or damaged)",
+                     "copy it again, or remove it");
     if (paths.empty())
         bad_file(name, "the folder holds no DICOM slices", "give the folder that holds the slices");
     if (paths.size() == 1) return read_dicom_file(paths.front());
