@@ -25,6 +25,10 @@ constexpr int kPatienceMilliseconds = 10000;
         case SQLITE_FULL:
             throw IoError("cannot write " + name +
                           ": the disk is full. The project is as it was; make room, try again");
+        case SQLITE_IOERR:
+            throw IoError("cannot read or write " + name + " (" + why +
+                          "): the disk or your quota is full, or it fails. The project is as it "
+                          "was; make room, try again");
         case SQLITE_READONLY:
         case SQLITE_PERM:
             throw IoError("cannot write " + name + ": no permission");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 #include "smoothing/laplace.h"
 #include "smoothing/laplace_hc.h"
 #include "smoothing/new_crossings.h"
@@ -117,8 +118,8 @@ void keep_walls_apart(const Surface& surface, Positions& moved, Outcome& outcome
     const TakenBack taken = take_back_crossings(surface, moved, progress);
     if (taken.vertices == 0) return;
     std::ostringstream text;
-    text << taken.vertices << " vertices moved less than the filter wanted, first near ("
-         << taken.place.transpose() << ") mm: walls would have passed through each other";
+    text << taken.vertices << " vertices moved less than the filter wanted, first near "
+         << place_text(taken.place) << ": walls would have passed through each other";
     if (taken.crossings_left > 0)
         text << "; " << taken.crossings_left
              << " pairs of triangles still do: use fewer iterations, or repair";
