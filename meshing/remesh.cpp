@@ -31,7 +31,7 @@ constexpr int kMostAttempts = 3;        // at a result without bad places, finer
 constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
 
-constexpr double kEdgePerRadius = 0.35;              // 18 triangles around
+constexpr double kEdgePerRadius = 0.28;              // 22 triangles around
 constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
 
 /// Polishing visits so many triangles in all, but twice each at least: small meshes, in which rims

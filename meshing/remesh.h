@@ -13,7 +13,7 @@ enum class RemeshMode { Graded, Uniform };
 struct RemeshParameters {
     RemeshMode mode = RemeshMode::Graded;
     /// Edge length where the vessel has its usual radius (the median over the wall's area), of all
-    /// edges in uniform mode [mm]; default 0.35 of that radius: 18 triangles around.
+    /// edges in uniform mode [mm]; default 0.28 of that radius: 22 triangles around.
     std::optional<double> edge = {};
     std::optional<double> min_edge = {};  ///< graded: no edge shorter [mm]; default edge / 5
     std::optional<double> max_edge = {};  ///< graded: no edge longer [mm]; default 2 edge

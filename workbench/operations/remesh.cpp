@@ -96,7 +96,7 @@ Operation remesh_operation() {
              {.name = "edge",
               .unit = "mm",
               .help = "edge length where the vessel has its usual radius (the median over the "
-                      "wall); 0.35 of that radius when left out, which puts 18 triangles around",
+                      "wall); 0.28 of that radius when left out, which puts 22 triangles around",
               .minimum = 0.0,
               .above_minimum = true},
              {.name = "min_edge",
