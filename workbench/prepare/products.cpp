@@ -34,7 +34,7 @@ std::string lower_suffix(const fs::path& file) {
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
-        throw AlgorithmFailure("there is no volume mesh in this variant: use tetrahedralize");
+        throw InvalidInput("there is no volume mesh in this variant: use tetrahedralize");
     return *scene.volume_mesh;
 }
 

@@ -17,7 +17,7 @@ namespace vesselbench {
 /// Writes surface.vtp, surface.stl and the product's files: for "cfd" volume.vtu, volume.msh and
 /// openfoam/, for "rp" print.stl and print.3mf.
 /// \return their names
-/// \throw AlgorithmFailure if the scene has no volume mesh for cfd, IoError
+/// \throw InvalidInput if the scene has no volume mesh for cfd, IoError
 [[nodiscard]] std::vector<std::string> write_products(PendingFiles& files,
                                                       const std::filesystem::path& folder,
                                                       const Scene& scene,
