@@ -48,7 +48,7 @@ SCENARIO("smooth warns of values that roughen and refuses a positive mu", "[work
 SCENARIO("remesh decides its edges once and replays them", "[workbench][remesh]") {
     const Surface tube = closed_tube(2.0, 20.0, 40, 60);
     const Outcome first = run("remesh", tube, {});
-    CHECK(first.resolved.real("edge") == Approx(0.7).epsilon(0.03));
+    CHECK(first.resolved.real("edge") == Approx(0.56).epsilon(0.03));
     CHECK(first.report->at("wall_equiangle_skewness_mean") <= 0.12);
     const Outcome again = run("remesh", tube, first.resolved);
     CHECK(again.scene.surface->points() == first.scene.surface->points());
