@@ -340,8 +340,10 @@ private:
 OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
     auto curve = cross_section_at(surface, plane);
     if (!curve)
-        throw AlgorithmFailure("the clipping plane at " + place_text(plane.point) +
-                               " does not meet the surface");
+        throw AlgorithmFailure(
+            "the clipping plane at " + place_text(plane.point) +
+            " does not meet the surface: give the distance from the tip, or open the "
+            "ends one by one (tip=x,y,z)");
     if (!curve->closed)
         throw AlgorithmFailure("the clipping plane at " + place_text(plane.point) +
                                " meets an open border: clip further away from the tip");

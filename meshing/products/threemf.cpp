@@ -2,6 +2,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "geometry/wording.h"
 #include "meshing/products/text_buffer.h"
 #include "meshing/products/zip.h"
 
@@ -48,17 +49,27 @@ std::string model(const Surface& surface) {
     return out.text();
 }
 
+/// \throw InvalidInput that names the first place and the remedy, unless the surface bounds a solid
+void require_solid(const Surface& surface) {
+    const Connectivity state = connectivity(*surface.topology);
+    if (!state.manifold || !state.oriented)
+        throw InvalidInput("3MF: the surface is not " +
+                           std::string(state.manifold ? "oriented" : "manifold") +
+                           "; run `repair` first");
+    if (state.closed) return;
+    const auto loops = surface.topology->boundary_loops();
+    throw InvalidInput(
+        "3MF: a print needs a closed surface, this one has " + counted(loops.size(), "hole") +
+        ", the first near " + place_text(surface.points()[loops.front().front()]) +
+        "; `clip-opening` caps a vessel end, `fill-hole` closes one hole, `repair` with "
+        "close_holes_up_to closes all up to a size");
+}
+
 }  // namespace
 
 void write_3mf(const Surface& surface, const std::filesystem::path& path) {
     if (surface.empty()) throw InvalidInput("3MF: the surface has no triangles");
-    const Connectivity state = connectivity(*surface.topology);
-    if (!state.closed || !state.manifold || !state.oriented)
-        throw InvalidInput("3MF: the surface is not " +
-                           std::string(!state.closed     ? "closed"
-                                       : !state.manifold ? "manifold"
-                                                         : "oriented") +
-                           "; run `repair` first");
+    require_solid(surface);
     write_text(path, zip_archive({{"[Content_Types].xml", content_types()},
                                   {"_rels/.rels", relationships()},
                                   {"3D/3dmodel.model", model(surface)}}));
