@@ -148,7 +148,7 @@ public:
             plan_tip(near_tip(*options_.tip));
         } else {
             plan_visible();
-            if (all_ends_are_cuts()) plan_blind();
+            if (all_ends_are_cuts() || plan_.openings.size() < 2) plan_blind();
         }
         if (plan_.openings.empty())
             throw AlgorithmFailure(
@@ -182,7 +182,7 @@ private:
     }
 
     /// Open rims and named caps say where the vessels end. Cuts at an image's border do not: other
-    /// vessels may end inside the image.
+    /// vessels may end inside the image. Nor does a single end: blood comes and goes.
     bool all_ends_are_cuts() const {
         return std::all_of(ends_.begin(), ends_.end(), [&](const End& end) {
             return end.patch && surface_.patches[*end.patch].kind == PatchKind::Cut;

@@ -27,8 +27,8 @@ struct OpeningPlanOptions {
 };
 
 /// Decides where the vessel ends are cut. All ends: the open borders and known caps that lie at a
-/// tip; on a closed surface without caps every tip, but not an aneurysm's sac (a branch no longer
-/// than its width, behind a neck).
+/// tip; where there are less than two of these, or only cuts at an image's border, every other tip
+/// as well, but not an aneurysm's sac (a branch no longer than its width, behind a neck).
 /// \throw AlgorithmFailure if there is no end, or no branch has its tip near `tip`
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {});

@@ -144,6 +144,17 @@ SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]")
             CHECK(enclosed_volume(clipped) > 0.8 * enclosed_volume(tube));
         }
     }
+    GIVEN("a tube open at one end and closed at the other") {
+        const Surface labelled = closed_tube(2.0, 30.0, 40, 90);
+        std::vector<Triangle> triangles;
+        for (TriangleId t = 0; t < labelled.triangle_count(); ++t)
+            if (labelled.patch_of(t).name != "inlet") triangles.push_back(labelled.triangles()[t]);
+        const Surface tube = make_surface(labelled.points(), triangles);
+        REQUIRE(tube.topology->boundary_loops().size() == 1);
+        THEN("the closed end is opened as well: blood comes and goes") {
+            check_caps(clip_openings(tube, plan_openings(tube, graph)), 2);
+        }
+    }
     GIVEN("a tube with known, perpendicular caps") {
         const Surface tube = closed_tube(2.0, 30.0, 40, 90);
         const auto plan = plan_openings(tube, graph);

@@ -4,9 +4,11 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/io/surface_file.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
+using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
 using Json = nlohmann::ordered_json;
@@ -92,6 +94,23 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     CHECK(names_in(out) == Names{"print.3mf", "print.stl", "project.vbench", "report.html",
                                  "report.json", "surface.stl", "surface.vtp"});
     CHECK(Json::parse(text_of(out + "/report.json"))["print"].is_object());
+}
+
+SCENARIO("A print model is closed where its end could not be opened", "[workbench][prepare]") {
+    const Surface ball = icosphere(5.0, 4);
+    std::vector<Triangle> bowl;
+    for (const Triangle& t : ball.triangles())
+        if (ball.points()[t[0]].z() < 0.5) bowl.push_back(t);
+    const std::string folder = temporary_folder();
+    write_surface(make_surface(ball.points(), bowl), folder + "/bowl.stl");
+    const std::string out = folder + "/rp";
+    const ProgramRun result =
+        run({"prepare", folder + "/bowl.stl", "--units", "mm", "--for", "rp", "--out", out});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(result.err, Contains("clip-opening was left out") && Contains("fill-hole"));
+    const ProgramRun measured = run({"measure", out + "/print.stl", "--json"});
+    CHECK(Json::parse(measured.out)["closed"] == true);
 }
 
 SCENARIO("A project is made and worked on by hand", "[workbench][prepare]") {

@@ -29,13 +29,17 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     const Json list = Json::parse(R"([
         {"operation": "smooth", "arguments": {"iterations": 5, "lambda": "0.25"}, "step": "source"},
         {"operation": "fill-hole", "when": "rp"},
-        {"operation": "extrude-opening", "when": ["surface", "no-mask"], "optional": true}])");
+        {"operation": "extrude-opening", "when": ["surface", "no-mask"], "optional": true},
+        {"operation": "fill-hole", "when": "surface", "unless_closed": true}])");
     const Recipe recipe = recipe_from_json(list, {"surface", "cfd"});
-    REQUIRE(operations_of(recipe) == std::vector<std::string>{"smooth", "extrude-opening"});
+    REQUIRE(operations_of(recipe) ==
+            std::vector<std::string>{"smooth", "extrude-opening", "fill-hole"});
     CHECK(recipe[0].given.integer("iterations") == 5);
     CHECK(recipe[0].given.real("lambda") == 0.25);
     CHECK(recipe[0].step == Step::Source);
     CHECK(recipe[1].optional);
+    CHECK_FALSE(recipe[1].unless_closed);
+    CHECK(recipe[2].unless_closed);
     CHECK_FALSE(recipe[1].step.has_value());
     CHECK(operations_of(recipe_from_json(list, {"image", "mask", "rp"})) ==
           std::vector<std::string>{"smooth", "fill-hole"});

@@ -138,12 +138,18 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
     }
 }
 
+bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
+    return entry.unless_closed &&
+           surface_of(session.scene(variant)).topology->boundary_loops().empty();
+}
+
 std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
                                       const std::string& variant, const Teller& tell,
                                       const Progress& progress) {
     std::vector<std::string> warnings;
     const double share = 1.0 / static_cast<double>(recipe.size());
     for (std::size_t i = 0; i < recipe.size(); ++i) {
+        if (is_left_out(session, recipe[i], variant)) continue;
         const double from = share * static_cast<double>(i);
         const std::string warning =
             apply_entry(session, recipe[i], variant, tell, progress.part(from, from + share));

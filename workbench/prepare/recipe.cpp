@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kKeys = {"operation", "arguments", "step", "optional", "when"};
+const std::vector<std::string> kKeys = {"operation", "arguments",     "step",
+                                        "optional",  "unless_closed", "when"};
 const std::vector<std::string> kWords = {"surface", "image", "mask", "cfd", "rp"};
 
 void refuse_unknown_keys(const Json& entry) {
@@ -47,7 +48,9 @@ bool is_used(const Json& entry, const RecipeUse& use) {
 RecipeEntry entry_from_json(const Json& json) {
     if (!json.contains("operation")) throw UsageError("it names no \"operation\"");
     const Operation& operation = find_operation(json["operation"].get<std::string>());
-    RecipeEntry entry{.operation = operation.name, .optional = json.value("optional", false)};
+    RecipeEntry entry{.operation = operation.name,
+                      .optional = json.value("optional", false),
+                      .unless_closed = json.value("unless_closed", false)};
     if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
     if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
     return entry;
@@ -75,9 +78,10 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
         } catch (const UsageError& error) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
         } catch (const nlohmann::json::exception&) {
-            throw UsageError("recipe, entry " + std::to_string(i + 1) +
-                             ": \"operation\" and \"step\" are texts, \"optional\" is true or "
-                             "false, \"when\" is a text or a list of texts");
+            throw UsageError(
+                "recipe, entry " + std::to_string(i + 1) +
+                ": \"operation\" and \"step\" are texts, \"optional\" and "
+                "\"unless_closed\" are true or false, \"when\" is a text or a list of texts");
         }
     return recipe;
 }

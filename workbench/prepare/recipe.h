@@ -15,8 +15,9 @@ namespace vesselbench {
 struct RecipeEntry {
     std::string operation;
     Arguments given;
-    std::optional<Step> step;  ///< none: the operation's usual step
-    bool optional = false;     ///< what cannot be done becomes a warning instead of the end
+    std::optional<Step> step;    ///< none: the operation's usual step
+    bool optional = false;       ///< what cannot be done becomes a warning instead of the end
+    bool unless_closed = false;  ///< left out where the surface has no border by then
 };
 
 using Recipe = std::vector<RecipeEntry>;
@@ -26,7 +27,7 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 
 /// Reads a recipe, a JSON list of
 ///   {"operation": name, "arguments": {parameter: value}, "step": name, "optional": true|false,
-///    "when": word or list of words}
+///    "unless_closed": true|false, "when": word or list of words}
 /// where everything but "operation" may be left out. An entry is used if each word of its "when" is
 /// in `use`; a word with "no-" before it must not be.
 /// \throw UsageError that names the entry and what is wrong with it
