@@ -25,6 +25,7 @@ constexpr double kSteady = 1.0;
 /// At most this share of a branch is given up; of a vessel without furcations, at each end.
 constexpr double kMostOfBranch = 0.6;
 constexpr double kMostOfVessel = 0.2;
+constexpr double kMostOfObliqueVessel = 0.65;  // where its end is cut very obliquely
 /// A place whose axis cannot be measured counts as this much bent [deg].
 constexpr double kUnmeasuredCost = 60.0;
 /// One radius of vessel given up weighs as much as this much of bend [deg].
@@ -63,6 +64,15 @@ public:
         if (graph_.nodes[other].is_tip()) return kMostOfVessel * length;
         const double own = length - furcation_zone_end(graph_, branch_, other);
         return std::min(std::max(own, 0.5 * length), kMostOfBranch * length);
+    }
+
+    /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
+    /// middle. Too far and it meets the cut at the other end, which then says so.
+    double utmost_cut() const {
+        const auto& branch = graph_.branches[branch_];
+        const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
+        if (graph_.nodes[other].is_tip()) return kMostOfObliqueVessel * length;
+        return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
     }
 
     /// Neither an open border nor a known cap is at the tip: the end may be rounded.
@@ -141,13 +151,14 @@ private:
 
 OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
     const bool blind = branch.is_blind();
-    const double end = branch.reach_of_cut();
+    const double utmost = blind ? branch.reach_of_cut() : branch.utmost_cut();
     double first = 0.5 * kSearchStep * branch.radius;
-    while (first < end && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
+    while (first < utmost && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
+    const double end = first < branch.reach_of_cut() ? branch.reach_of_cut() : utmost;
     if (first >= end)
         fail(tip,
-             "has no whole section before its furcation: remove it (remove-branch), or give the "
-             "distance from its tip");
+             "has no whole section before its furcation or its other end: remove it "
+             "(remove-branch), or give the distance from its tip");
     first = std::min(first + (blind ? kBlindMargin : kMargin) * branch.radius, 0.5 * (first + end));
     std::optional<OpeningPlace> best;
     double least = 0.0;
@@ -163,6 +174,7 @@ OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
         least = cost;
     }
     if (!best) fail(tip, "has no closed section: give the distance from its tip");
+    best->share = best->distance / branch.length;
     return *best;
 }
 

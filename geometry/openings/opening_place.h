@@ -13,6 +13,7 @@ struct OpeningPlace {
     Vec3 tip = Vec3::Zero();  ///< the branch's tip on the centerline [mm]
     Plane plane;              ///< through the section's centroid; normal out of the vessel
     double distance = 0.0;    ///< from the tip along the centerline [mm]
+    double share = 0.0;       ///< of the branch's length given up where the distance was chosen
     double diameter = 0.0;    ///< of the circle with the section's area [mm]
     double tilt_deg = 0.0;    ///< left between the plane's normal and the vessel's axis
     double bend_deg = 0.0;    ///< turn of the vessel over one diameter inward

@@ -25,6 +25,8 @@ namespace {
 /// angle.
 constexpr double kKeptFlatness = 1e-5;
 constexpr double kKeptTiltDeg = 2.0;
+/// A larger share of a branch that is given up is told.
+constexpr double kNoticedShare = 0.4;
 /// A border or a cap belongs to a tip within this many of its diameters.
 constexpr double kTipReach = 1.5;
 /// A sac: wider than its neck or its neighbours by this factor, and no longer than this many radii.
@@ -232,7 +234,7 @@ private:
             opening.place = choose_opening_place(surface_, graph_, tip, distance(tip));
         if (capped && surface_.patches[*end->patch].kind != PatchKind::Cut)
             opening.patch = surface_.patches[*end->patch];
-        warn_of_bend(opening);
+        warn_of_place(opening);
         plan_.openings.push_back(std::move(opening));
     }
 
@@ -242,11 +244,16 @@ private:
         return std::nullopt;
     }
 
-    void warn_of_bend(const PlannedOpening& opening) {
+    void warn_of_place(const PlannedOpening& opening) {
         if (opening.place.bend_deg > kBendDeg)
             plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
                                      " lies in a bend: the vessel turns by " +
                                      degrees_text(opening.place.bend_deg) + " over one diameter");
+        if (opening.place.share > kNoticedShare)
+            plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
+                                     " gives up " +
+                                     std::to_string(std::lround(100.0 * opening.place.share)) +
+                                     " % of its branch: the end is oblique or ragged, or bent");
         if (!opening.place.measured)
             plan_.warnings.push_back("the vessel behind the opening at " +
                                      place_text(opening.place.plane.point) +

@@ -155,6 +155,17 @@ SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]")
             check_caps(clip_openings(tube, plan_openings(tube, graph)), 2);
         }
     }
+    GIVEN("a short tube whose end was cut so obliquely that half of it has no whole section") {
+        const Surface tube = mapped(open_tube(2.0, 8.0, 40, 40), [](const Vec3& p) {
+            return Vec3(p.x(), p.y(), p.z() + 2.0 * p.x() * p.z() / 8.0);
+        });
+        const auto plan = plan_openings(tube, line_graph(straight_line(), 8.0, 2.0));
+        THEN("it is opened beyond its middle, and what that costs is told") {
+            check_caps(clip_openings(tube, plan), 2);
+            REQUIRE_FALSE(plan.warnings.empty());
+            CHECK_THAT(plan.warnings[0], Catch::Matchers::Contains("of its branch"));
+        }
+    }
     GIVEN("a tube with known, perpendicular caps") {
         const Surface tube = closed_tube(2.0, 30.0, 40, 90);
         const auto plan = plan_openings(tube, graph);
