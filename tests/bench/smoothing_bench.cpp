@@ -1,0 +1,209 @@
+// Times the filters of smoothing/ beside other libraries' in the same run, and prints a row each.
+//   bench_smoothing [--large]     with --large also 7 million vertices (about 15 GB of memory)
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <malloc.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include "smoothing/laplace.h"
+#include "smoothing/laplace_hc.h"
+#include "smoothing/taubin.h"
+#include "tests/bench/organ.h"
+#include "tests/bench/reference_filters.h"
+#include "tests/bench/stopwatch.h"
+
+namespace vesselbench::bench {
+
+namespace {
+
+constexpr int kIterations = 20;
+constexpr int kRepeats = 7;
+
+/// Seconds of a filter of ours with its neighbour arrays, which a fresh topology makes each time.
+template <class Filter>
+Run ours(const Surface& surface, Filter filter) {
+    return [&surface, filter] {
+        std::vector<Triangle> triangles(surface.triangles().begin(), surface.triangles().end());
+        const Stopwatch watch;
+        const Topology topology(std::move(triangles), surface.vertex_count());
+        const Positions moved = filter(topology, surface.points());
+        return watch.seconds();
+    };
+}
+
+Positions twenty_laplace(const Topology& topology, const Positions& positions) {
+    return laplace(topology, positions, {}, LaplaceParameters{.iterations = kIterations});
+}
+
+Positions twenty_laplace_hc(const Topology& topology, const Positions& positions) {
+    return laplace_hc(topology, positions, {}, LaplaceHcParameters{.iterations = kIterations});
+}
+
+Positions twenty_taubin(const Topology& topology, const Positions& positions) {
+    return taubin(topology, positions, {}, TaubinParameters{.iterations = kIterations});
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+struct Pair {
+    double first = 0.0;   ///< median [s]
+    double second = 0.0;  ///< median [s]
+    double ratio = 0.0;   ///< median of first / second over the repeats [-]
+};
+
+/// Runs both in turn, so that a disturbance of the machine meets both; the first turn warms up.
+Pair in_turn(const Run& first, const Run& second) {
+    std::vector<double> a, b, ratios;
+    for (int repeat = -1; repeat < kRepeats; ++repeat) {
+        const double one = first(), other = second();
+        if (repeat < 0) continue;
+        a.push_back(one);
+        b.push_back(other);
+        ratios.push_back(one / other);
+    }
+    return {median(a), median(b), median(ratios)};
+}
+
+void row(const char* name, const Pair& times, double target, bool at_least) {
+    const bool met = at_least ? times.ratio >= target : times.ratio <= target;
+    std::printf("%-66s %8.4f s / %8.4f s = %6.2f  target %s %4.1f  %s\n", name, times.first,
+                times.second, times.ratio, at_least ? ">=" : "<=", target, met ? "met" : "NOT MET");
+    std::fflush(stdout);
+}
+
+template <class Work>
+auto on_threads(int count, const Work& work) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(count));
+    return work();
+}
+
+Run on(int threads, const Run& run) {
+    return [threads, run] { return on_threads(threads, run); };
+}
+
+void compare_filters(const Surface& surface) {
+    const Run our_laplace = ours(surface, twenty_laplace);
+    const auto both = [&](const char* name, const Run& first, const Run& second, int threads,
+                          double target, bool at_least = true) {
+        row(name, in_turn(on(threads, first), on(threads, second)), target, at_least);
+    };
+    const Run vtk = vtk_laplace(surface, kIterations);
+    both("vtkSmoothPolyDataFilter / laplace, 2 threads", vtk, our_laplace, 2, 15.0);
+    both("vtkSmoothPolyDataFilter / laplace, 1 thread", vtk, our_laplace, 1, 8.0);
+    both("OpenMesh JacobiLaplaceSmootherT C0 / laplace, 2 threads",
+         openmesh_laplace(surface, kIterations), our_laplace, 2, 7.0);
+    both("vtkWindowedSincPolyDataFilter / taubin of 20 pairs, 2 threads",
+         vtk_windowed_sinc(surface, kIterations), ours(surface, twenty_taubin), 2, 2.0);
+    both("laplace_hc / laplace, 2 threads", ours(surface, twenty_laplace_hc), our_laplace, 2, 2.5,
+         false);
+    row("laplace on 1 thread / on 2", in_turn(on(1, our_laplace), on(2, our_laplace)), 1.5, true);
+}
+
+/// STREAM's triad a = b + s c, 24 bytes an element, arrays of 256 MiB. [bytes/s]
+double triad_bandwidth(int threads) {
+    const std::size_t count = std::size_t{1} << 25;
+    std::vector<double> a(count, 0.0), b(count, 1.0), c(count, 2.0);
+    const Run triad = on(threads, [&] {
+        const Stopwatch watch;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::size_t{1} << 16),
+                          [&](const auto& part) {
+                              for (std::size_t i = part.begin(); i < part.end(); ++i)
+                                  a[i] = b[i] + 3.0 * c[i];
+                          });
+        return watch.seconds();
+    });
+    const Pair times = in_turn(triad, triad);
+    return 24.0 * static_cast<double>(count) / std::min(times.first, times.second);
+}
+
+/// Seconds of one Laplace iteration with everything built: the slope between 20 and 60 iterations.
+double iteration_seconds(const Surface& surface) {
+    const auto some = [&](int iterations) -> Run {
+        return [&surface, iterations] {
+            const Stopwatch watch;
+            const Positions moved = laplace(*surface.topology, surface.points(), {},
+                                            LaplaceParameters{.iterations = iterations});
+            return watch.seconds();
+        };
+    };
+    const Pair times = in_turn(some(60), some(20));
+    return (times.first - times.second) / 40.0;
+}
+
+/// What an iteration cannot do without: each position read once and written once, each offset and
+/// each neighbour index read once.
+double iteration_bytes(const Topology& topology) {
+    return static_cast<double>(topology.vertex_count() * 2 * sizeof(Vec3) +
+                               topology.rings().bytes());
+}
+
+/// A figure of /proc/self/status [bytes]; 0 where there is none.
+double process_bytes(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+        if (double kib = 0.0; word == key + ":" && status >> kib) return 1024.0 * kib;
+    return 0.0;
+}
+
+/// Memory that 20 iterations take at most beside their input, neighbour arrays and result included.
+double peak_bytes(const Surface& surface) {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+    const double before = process_bytes("VmRSS");
+    ours(surface, twenty_laplace)();
+    return process_bytes("VmHWM") - before;
+}
+
+void scale(const Surface& surface, double triad) {
+    const auto vertices = static_cast<double>(surface.vertex_count());
+    const double peak = peak_bytes(surface);
+    const Run run = ours(surface, twenty_laplace);
+    const double whole = in_turn(run, run).first;
+    const double iteration = iteration_seconds(surface);
+    const double rate = iteration_bytes(*surface.topology) / iteration;
+    std::printf(
+        "laplace of %9.0f vertices, 2 threads: %6.2f ns a vertex and iteration with its neighbour "
+        "arrays, %5.2f without;\n    %.0f bytes a vertex beside the input of 48; an iteration "
+        "reads and writes %.0f bytes a vertex (positions once in, once out; neighbour\n    lists "
+        "once): %.1f GB/s, triad %.1f GB/s\n",
+        vertices, 1e9 * whole / vertices / kIterations, 1e9 * iteration / vertices, peak / vertices,
+        iteration_bytes(*surface.topology) / vertices, rate / 1e9, triad / 1e9);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+}  // namespace vesselbench::bench
+
+int main(int count, char** words) {
+    using namespace vesselbench;
+    using namespace vesselbench::bench;
+    const bool large = count == 2 && std::strcmp(words[1], "--large") == 0;
+    if (count > 1 && !large) {
+        std::fprintf(stderr, "usage: bench_smoothing [--large]\n");
+        return 2;
+    }
+    const Surface surface = organ(250e3);
+    std::printf("raw surface of %zu vertices, %d iterations, medians of %d repeats\n",
+                surface.vertex_count(), kIterations, kRepeats);
+    compare_filters(surface);
+    on_threads(2, [&] {
+        const double triad = triad_bandwidth(2);
+        scale(surface, triad);
+        scale(organ(1e6), triad);
+        if (large) scale(organ(7e6), triad);
+    });
+    return 0;
+}
