@@ -1,11 +1,11 @@
 #include "geometry/topology.h"
 
-#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "geometry/errors.h"
+#include "geometry/one_rings.h"
 
 namespace vesselbench {
 
@@ -24,28 +24,9 @@ CompressedRows triangles_by_vertex(std::span<const Triangle> triangles, std::siz
     return rows;
 }
 
-/// Fills `around` with both other corners of every triangle at v, sorted: an inner edge's end
-/// stands there twice.
-void collect_corners(std::span<const Triangle> triangles, std::span<const TriangleId> at,
-                     VertexId v, std::vector<VertexId>& around) {
-    around.clear();
-    for (const TriangleId t : at)
-        for (const VertexId u : triangles[t])
-            if (u != v) around.push_back(u);
-    std::sort(around.begin(), around.end());
-}
-
-bool any_occurs_once(const std::vector<VertexId>& sorted) {
-    for (std::size_t i = 0; i < sorted.size();) {
-        std::size_t end = i + 1;
-        while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
-        if (end - i == 1) return true;
-        i = end;
-    }
-    return false;
-}
-
 }  // namespace
+
+Topology::~Topology() = default;
 
 Topology::Topology(std::vector<Triangle> triangles, std::size_t vertex_count)
     : triangles_(std::move(triangles)), vertex_count_(vertex_count) {
@@ -57,37 +38,28 @@ Topology::Topology(std::vector<Triangle> triangles, std::size_t vertex_count)
                                    std::to_string(vertex_count_));
 }
 
-const Topology::Neighbours& Topology::neighbours() const {
-    std::call_once(once_, [this] {
-        auto made = std::make_unique<Neighbours>();
-        made->triangles_at = triangles_by_vertex(triangles_, vertex_count_);
-        made->boundary.assign(vertex_count_, 0);
-        made->rings.offsets.assign(1, 0);
-        made->rings.offsets.reserve(vertex_count_ + 1);
-        made->rings.values.reserve(triangles_.size() * 3 + vertex_count_ / 8);
-        std::vector<VertexId> around;
-        for (VertexId v = 0; v < vertex_count_; ++v) {
-            collect_corners(triangles_, made->triangles_at.row(v), v, around);
-            made->boundary[v] = any_occurs_once(around) ? 1 : 0;
-            around.erase(std::unique(around.begin(), around.end()), around.end());
-            made->rings.values.insert(made->rings.values.end(), around.begin(), around.end());
-            made->rings.offsets.push_back(static_cast<std::uint32_t>(made->rings.values.size()));
-        }
-        neighbours_ = std::move(made);
+const OneRings& Topology::one_rings() const {
+    std::call_once(rings_once_, [this] {
+        one_rings_ =
+            std::make_unique<const OneRings>(vesselbench::one_rings(triangles_, vertex_count_));
     });
-    return *neighbours_;
+    return *one_rings_;
 }
 
 const CompressedRows& Topology::rings() const {
-    return neighbours().rings;
-}
-
-const CompressedRows& Topology::triangles_at() const {
-    return neighbours().triangles_at;
+    return one_rings().rows;
 }
 
 const std::vector<std::uint8_t>& Topology::boundary_vertices() const {
-    return neighbours().boundary;
+    return one_rings().boundary;
+}
+
+const CompressedRows& Topology::triangles_at() const {
+    std::call_once(triangles_once_, [this] {
+        triangles_at_ =
+            std::make_unique<const CompressedRows>(triangles_by_vertex(triangles_, vertex_count_));
+    });
+    return *triangles_at_;
 }
 
 std::vector<std::vector<VertexId>> Topology::boundary_loops() const {

@@ -29,6 +29,8 @@ struct CompressedRows {
     }
 };
 
+struct OneRings;
+
 /// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
 /// Neighbour arrays are made on first use, once, from any thread. Degenerate and non-manifold
 /// triangles are allowed here; what needs a manifold says so.
@@ -36,6 +38,7 @@ class Topology {
 public:
     /// \throw InvalidInput if a triangle names a vertex >= vertex_count
     Topology(std::vector<Triangle> triangles, std::size_t vertex_count);
+    ~Topology();
 
     [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
 
@@ -57,18 +60,13 @@ public:
     [[nodiscard]] std::vector<std::vector<VertexId>> boundary_loops() const;
 
 private:
-    struct Neighbours {
-        CompressedRows rings;
-        CompressedRows triangles_at;
-        std::vector<std::uint8_t> boundary;
-    };
-
-    const Neighbours& neighbours() const;
+    const OneRings& one_rings() const;
 
     std::vector<Triangle> triangles_;
     std::size_t vertex_count_ = 0;
-    mutable std::once_flag once_;
-    mutable std::unique_ptr<const Neighbours> neighbours_;
+    mutable std::once_flag rings_once_, triangles_once_;
+    mutable std::unique_ptr<const OneRings> one_rings_;
+    mutable std::unique_ptr<const CompressedRows> triangles_at_;
 };
 
 }  // namespace vesselbench

@@ -1,23 +1,39 @@
 #include "smoothing/filter_support.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "geometry/errors.h"
 
 namespace vesselbench::detail {
 
-FixedVertices fixed_vertices(const Topology& topology, std::span<const std::uint8_t> fixed,
-                             bool keep_boundary) {
-    const std::size_t count = topology.vertex_count();
-    if (!fixed.empty() && fixed.size() != count)
-        throw InvalidInput("got " + std::to_string(fixed.size()) + " fixed flags for " +
-                           std::to_string(count) + " vertices");
-    FixedVertices result{std::vector<std::uint8_t>(count, 0)};
-    if (!fixed.empty()) result.flags.assign(fixed.begin(), fixed.end());
-    if (keep_boundary)
-        for (std::size_t v = 0; v < count; ++v) result.flags[v] |= topology.boundary_vertices()[v];
-    return result;
+namespace {
+
+void require_length(const char* what, std::size_t length, std::size_t vertices) {
+    if (length == vertices) return;
+    throw InvalidInput("got " + std::to_string(length) + " " + what + " for " +
+                       std::to_string(vertices) + " vertices");
 }
+
+void require_fitting(const Topology& topology, const Positions& positions,
+                     const FilterSettings& settings) {
+    const std::size_t count = topology.vertex_count();
+    if (settings.iterations < 0)
+        throw InvalidInput("iterations = " + std::to_string(settings.iterations) +
+                           " must not be negative");
+    if (settings.rings != 1 && settings.rings != 2)
+        throw InvalidInput("rings = " + std::to_string(settings.rings) + " is neither 1 nor 2");
+    require_length("positions", positions.size(), count);
+    if (!settings.weights.empty()) require_length("weights", settings.weights.size(), count);
+    if (!settings.fixed.empty()) require_length("fixed flags", settings.fixed.size(), count);
+    for (const double weight : settings.weights) require_range("weight", weight, 0.0, 1.0);
+    for (std::size_t v = 0; v < count; ++v)
+        if (!positions[v].allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    if (settings.constraint) require_valid(*settings.constraint);
+}
+
+}  // namespace
 
 void require_range(const char* name, double value, double minimum, double maximum) {
     if (value >= minimum && value <= maximum) return;
@@ -26,17 +42,36 @@ void require_range(const char* name, double value, double minimum, double maximu
     throw InvalidInput(text.str());
 }
 
-void require_filter_input(const Topology& topology, const Positions& positions,
-                          std::span<const double> weights, int iterations) {
-    if (iterations < 0)
-        throw InvalidInput("iterations = " + std::to_string(iterations) + " must not be negative");
-    if (positions.size() != topology.vertex_count())
-        throw InvalidInput("got " + std::to_string(positions.size()) + " positions for " +
-                           std::to_string(topology.vertex_count()) + " vertices");
-    if (!weights.empty() && weights.size() != positions.size())
-        throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
-                           std::to_string(positions.size()) + " vertices");
-    for (const double weight : weights) require_range("weight", weight, 0.0, 1.0);
+std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
+                                                 const Positions& positions,
+                                                 const FilterSettings& settings) {
+    require_fitting(topology, positions, settings);
+    std::vector<std::uint8_t> fixed(topology.vertex_count(), 0);
+    if (!settings.fixed.empty()) fixed.assign(settings.fixed.begin(), settings.fixed.end());
+    if (settings.keep_boundary) {
+        const auto& boundary = topology.boundary_vertices();
+        for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] |= boundary[v];
+    }
+    return fixed;
+}
+
+CompressedRows two_rings(const Topology& topology) {
+    const CompressedRows& rings = topology.rings();
+    CompressedRows wide;
+    wide.offsets.assign(1, 0);
+    wide.offsets.reserve(topology.vertex_count() + 1);
+    std::vector<VertexId> around;
+    for (VertexId v = 0; v < topology.vertex_count(); ++v) {
+        around.assign(rings.row(v).begin(), rings.row(v).end());
+        for (const VertexId u : rings.row(v))
+            around.insert(around.end(), rings.row(u).begin(), rings.row(u).end());
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+        for (const VertexId u : around)
+            if (u != v) wide.values.push_back(u);
+        wide.offsets.push_back(static_cast<std::uint32_t>(wide.values.size()));
+    }
+    return wide;
 }
 
 }  // namespace vesselbench::detail

@@ -1,23 +1,18 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "geometry/progress.h"
 #include "geometry/topology.h"
 #include "geometry/vec3.h"
+#include "smoothing/filter_settings.h"
 
 namespace vesselbench {
 
 /// Parameters of the Laplace+HC filter. Tables and Chapter 6 of the thesis call alpha and beta
 /// "lambda" and "mu".
 struct LaplaceHcParameters {
-    double lambda = 0.5;        ///< Laplacian step [-], 0 <= lambda <= 1 (Eq. 3.3)
-    double alpha = 0.0;         ///< 1: pull to the original position, 0: to the last [-]
-    double beta = 0.5;          ///< own share of the back-correction [-], in [0, 1]
-    int iterations = 20;        ///< >= 0
-    bool keep_boundary = true;  ///< boundary vertices of an open surface stay
-    std::span<const std::uint8_t> fixed = {};  ///< 1 where a vertex stays, #V; empty: none
+    double lambda = 0.5;  ///< Laplacian step [-], 0 <= lambda <= 1 (Eq. 3.3)
+    double alpha = 0.0;   ///< 1: pull to the original position, 0: to the last [-]
+    double beta = 0.5;    ///< own share of the back-correction [-], in [0, 1]
 };
 
 /// Laplacian smoothing whose every step is pushed back towards the surface before it ("humphrey's
@@ -26,13 +21,12 @@ struct LaplaceHcParameters {
 /// The same bits on any number of threads.
 /// Source: Vollmer, Mencl, Mueller, "Improved Laplacian smoothing of noisy surface meshes",
 /// Eurographics 1999; thesis Eqs. 3.3-3.6.
-/// \param weights per-vertex factor in [0, 1] on each iteration's displacement after the
-///        back-correction (Eq. 5.1); empty means 1 everywhere
+/// Weights act on an iteration's displacement after the back-correction (Eq. 5.1).
 /// \return moved positions [mm], #V x 3, in the order of `positions`
-/// \throw InvalidInput if a parameter is out of its range, or weights is neither empty nor #V long
+/// \throw InvalidInput if a parameter is out of its range, or the settings do not fit the topology
 [[nodiscard]] Positions laplace_hc(const Topology& topology, const Positions& positions,
-                                   std::span<const double> weights,
                                    const LaplaceHcParameters& parameters = {},
+                                   const FilterSettings& settings = {},
                                    const Progress& progress = {});
 
 /// True where the filter enlarges some frequency instead of damping it: (1 - beta) lambda k^2 > 2

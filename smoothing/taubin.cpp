@@ -1,10 +1,12 @@
 #include "smoothing/taubin.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "geometry/errors.h"
 #include "smoothing/filter_support.h"
+#include "smoothing/linear_filter.h"
 
 namespace vesselbench {
 
@@ -23,27 +25,18 @@ void require_parameters(const TaubinParameters& parameters) {
 }  // namespace
 
 Positions taubin(const Topology& topology, const Positions& positions,
-                 std::span<const double> weights, const TaubinParameters& parameters,
+                 const TaubinParameters& parameters, const FilterSettings& settings,
                  const Progress& progress) {
     require_parameters(parameters);
-    detail::require_filter_input(topology, positions, weights, parameters.iterations);
-    const auto fixed = detail::fixed_vertices(topology, parameters.fixed, parameters.keep_boundary);
-    const CompressedRows& rings = topology.rings();
-    const double lambda = parameters.lambda, mu = parameters.used_mu();
-    Positions now = positions, shrunk = positions;
-    for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
-        progress.report(static_cast<double>(iteration) / parameters.iterations, "smoothing");
-        detail::for_each_vertex(now.size(), [&](std::size_t v) {
-            if (!fixed[v]) shrunk[v] = now[v] + lambda * detail::umbrella(rings, now, v);  // (3.7)
-        });
-        detail::for_each_vertex(now.size(), [&](std::size_t v) {
-            if (fixed[v]) return;
-            const Vec3 inflated = shrunk[v] + mu * detail::umbrella(rings, shrunk, v);  // (3.8)
-            const double weight = weights.empty() ? 1.0 : weights[v];
-            now[v] += weight * (inflated - now[v]);  // (5.1) on the pair's displacement
-        });
-    }
-    return now;
+    using detail::LinearStep;
+    const LinearStep shrink{.umbrella = parameters.lambda};  // (3.7)
+    // (3.8): s + mu U, which the weights bring in relation to the position before, t (5.1)
+    const LinearStep inflate{.onto = LinearStep::Onto::Target,
+                             .umbrella = parameters.used_mu(),
+                             .source = 1.0,
+                             .target = -1.0};
+    return detail::run_linear_filter(topology, positions, std::array{shrink, inflate}, settings,
+                                     progress);
 }
 
 bool amplifies(const TaubinParameters& parameters) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 
 #include "geometry/progress.h"
 #include "geometry/topology.h"
 #include "geometry/vec3.h"
+#include "smoothing/filter_settings.h"
 
 namespace vesselbench {
 
@@ -15,9 +14,6 @@ namespace vesselbench {
 struct TaubinParameters {
     double lambda = 0.5;            ///< shrinking step [-], 0 <= lambda <= 1
     std::optional<double> mu = {};  ///< inflating step [-], <= -lambda; default -1.02 lambda
-    int iterations = 20;            ///< number of lambda|mu pairs, >= 0
-    bool keep_boundary = true;      ///< boundary vertices of an open surface stay
-    std::span<const std::uint8_t> fixed = {};  ///< 1 where a vertex stays, #V; empty: none
 
     [[nodiscard]] double used_mu() const { return mu.value_or(-1.02 * lambda); }
 };
@@ -27,14 +23,13 @@ struct TaubinParameters {
 /// The same bits on any number of threads.
 /// Source: Taubin, "A signal processing approach to fair surface design", SIGGRAPH 1995; thesis
 /// Eqs. 3.7-3.8.
-/// \param weights per-vertex factor in [0, 1] on the displacement of each lambda|mu pair (Eq. 5.1:
-///        after the inflating step, not inside it); empty means 1 everywhere
+/// An iteration is a lambda|mu pair; weights act on the displacement of the pair (Eq. 5.1: after
+/// the inflating step, not inside it).
 /// \return moved positions [mm], #V x 3, in the order of `positions`
-/// \throw InvalidInput if a parameter is out of its range, or weights is neither empty nor #V long
+/// \throw InvalidInput if a parameter is out of its range, or the settings do not fit the topology
 [[nodiscard]] Positions taubin(const Topology& topology, const Positions& positions,
-                               std::span<const double> weights,
                                const TaubinParameters& parameters = {},
-                               const Progress& progress = {});
+                               const FilterSettings& settings = {}, const Progress& progress = {});
 
 /// True where the filter enlarges the highest frequencies instead of removing them: |f(2)| > 1.
 [[nodiscard]] bool amplifies(const TaubinParameters& parameters);

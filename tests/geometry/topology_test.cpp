@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <random>
+#include <set>
+
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
@@ -33,4 +37,33 @@ SCENARIO("An open tube has two boundary loops that follow its triangles", "[geom
 SCENARIO("A triangle that names a missing vertex is refused", "[geometry][topology]") {
     CHECK_THROWS_AS(make_surface({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 3}}),
                     InvalidInput);
+}
+
+SCENARIO("One-rings of any triangles are those of a plain search", "[topology]") {
+    std::mt19937 random(11);
+    for (const std::size_t vertices : {5U, 40U, 3000U}) {
+        std::uniform_int_distribution<VertexId> any(0, static_cast<VertexId>(vertices - 1));
+        std::vector<Triangle> triangles(2 * vertices);  // non-manifold, degenerate, repeated
+        for (Triangle& t : triangles) t = {any(random), any(random), any(random)};
+        const Surface sphere = icosphere(1.0, 2);
+        for (const auto& soup : {triangles, std::vector<Triangle>(sphere.triangles().begin(),
+                                                                  sphere.triangles().end())}) {
+            const std::size_t count = std::max<std::size_t>(vertices, 162);
+            std::vector<std::multiset<VertexId>> around(count);
+            for (const Triangle& t : soup)
+                for (int k = 0; k < 3; ++k)
+                    for (const VertexId u : {t[(k + 1) % 3], t[(k + 2) % 3]})
+                        if (u != t[k]) around[t[k]].insert(u);
+            const Topology topology(soup, count);
+            for (VertexId v = 0; v < count; ++v) {
+                const std::set<VertexId> ring(around[v].begin(), around[v].end());
+                const auto row = topology.rings().row(v);
+                REQUIRE(std::vector<VertexId>(row.begin(), row.end()) ==
+                        std::vector<VertexId>(ring.begin(), ring.end()));
+                const bool boundary = std::any_of(
+                    ring.begin(), ring.end(), [&](VertexId u) { return around[v].count(u) == 1; });
+                REQUIRE((topology.boundary_vertices()[v] != 0) == boundary);
+            }
+        }
+    }
 }

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
@@ -44,12 +47,16 @@ struct NamedFilter {
 };
 
 std::vector<NamedFilter> all_filters() {
-    return {{"laplace",
-             [](const Surface& s, auto w) { return laplace(*s.topology, s.points(), w, {}); }},
-            {"laplace-hc",
-             [](const Surface& s, auto w) { return laplace_hc(*s.topology, s.points(), w, {}); }},
-            {"taubin",
-             [](const Surface& s, auto w) { return taubin(*s.topology, s.points(), w, {}); }}};
+    return {
+        {"laplace", [](const Surface& s,
+                       auto w) { return laplace(*s.topology, s.points(), {}, {.weights = w}); }},
+        {"laplace-hc",
+         [](const Surface& s, auto w) {
+             return laplace_hc(*s.topology, s.points(), {}, {.weights = w});
+         }},
+        {"taubin", [](const Surface& s, auto w) {
+             return taubin(*s.topology, s.points(), {}, {.weights = w});
+         }}};
 }
 
 double largest_difference(const Positions& a, const Positions& b) {
@@ -86,17 +93,17 @@ SCENARIO("A filter damps a known frequency by its transfer function", "[smoothin
         };
         THEN("Laplace scales by (1 - lambda k)^n") {
             const auto moved =
-                laplace(*sphere.topology, sphere.points(), {}, {.lambda = 0.3, .iterations = 4});
+                laplace(*sphere.topology, sphere.points(), {.lambda = 0.3}, {.iterations = 4});
             CHECK(scale(moved) == Approx(std::pow(1.0 - 0.3 * k, 4)));
         }
         THEN("Taubin scales by ((1 - lambda k)(1 - mu k))^n") {
-            const auto moved = taubin(*sphere.topology, sphere.points(), {},
-                                      {.lambda = 0.3, .mu = -0.34, .iterations = 4});
+            const auto moved = taubin(*sphere.topology, sphere.points(),
+                                      {.lambda = 0.3, .mu = -0.34}, {.iterations = 4});
             CHECK(scale(moved) == Approx(std::pow((1.0 - 0.3 * k) * (1.0 + 0.34 * k), 4)));
         }
         THEN("Laplace+HC scales by (1 - (1 - beta) lambda k^2)^n") {
-            const auto moved = laplace_hc(*sphere.topology, sphere.points(), {},
-                                          {.lambda = 0.3, .beta = 0.6, .iterations = 4});
+            const auto moved = laplace_hc(*sphere.topology, sphere.points(),
+                                          {.lambda = 0.3, .beta = 0.6}, {.iterations = 4});
             CHECK(scale(moved) == Approx(std::pow(1.0 - 0.4 * 0.3 * k * k, 4)));
         }
     }
@@ -104,10 +111,6 @@ SCENARIO("A filter damps a known frequency by its transfer function", "[smoothin
 
 SCENARIO("Weights scale the final displacement of an iteration", "[smoothing][weights]") {
     const Surface noisy = noisy_icosphere(10.0, 0.2, 2);
-    const auto one = [](auto parameters) {
-        parameters.iterations = 1;
-        return parameters;
-    };
     const std::vector<double> half(noisy.vertex_count(), 0.5);
     const auto middle = [&](const Positions& full) {
         Positions result = full;
@@ -116,11 +119,13 @@ SCENARIO("Weights scale the final displacement of an iteration", "[smoothing][we
         return result;
     };
     const Topology& topology = *noisy.topology;
-    const auto taubin_full = taubin(topology, noisy.points(), {}, one(TaubinParameters{}));
-    const auto taubin_half = taubin(topology, noisy.points(), half, one(TaubinParameters{}));
+    const auto taubin_full = taubin(topology, noisy.points(), {}, {.iterations = 1});
+    const auto taubin_half =
+        taubin(topology, noisy.points(), {}, {.iterations = 1, .weights = half});
     CHECK(largest_difference(taubin_half, middle(taubin_full)) < 1e-12);
-    const auto hc_full = laplace_hc(topology, noisy.points(), {}, one(LaplaceHcParameters{}));
-    const auto hc_half = laplace_hc(topology, noisy.points(), half, one(LaplaceHcParameters{}));
+    const auto hc_full = laplace_hc(topology, noisy.points(), {}, {.iterations = 1});
+    const auto hc_half =
+        laplace_hc(topology, noisy.points(), {}, {.iterations = 1, .weights = half});
     CHECK(largest_difference(hc_half, middle(hc_full)) < 1e-12);
 }
 
@@ -160,12 +165,17 @@ SCENARIO("Parameters out of range are refused by name", "[smoothing]") {
     const Surface sphere = icosphere(1.0, 1);
     const Topology& topology = *sphere.topology;
     const Positions& points = sphere.points();
-    CHECK_THROWS_WITH(laplace(topology, points, {}, {.lambda = 1.5}), Catch::Contains("lambda"));
-    CHECK_THROWS_WITH(taubin(topology, points, {}, {.mu = 0.52}), Catch::Contains("mu = 0.52"));
-    CHECK_THROWS_WITH(laplace_hc(topology, points, {}, {.beta = -0.1}), Catch::Contains("beta"));
+    CHECK_THROWS_WITH(laplace(topology, points, {.lambda = 1.5}), Catch::Contains("lambda"));
+    CHECK_THROWS_WITH(taubin(topology, points, {.mu = 0.52}), Catch::Contains("mu = 0.52"));
+    CHECK_THROWS_WITH(laplace_hc(topology, points, {.beta = -0.1}), Catch::Contains("beta"));
     CHECK_THROWS_AS(laplace(topology, points, {}, {.iterations = -1}), InvalidInput);
-    CHECK_THROWS_AS(laplace(topology, points, std::vector<double>(3, 1.0)), InvalidInput);
-    CHECK_THROWS_AS(laplace(topology, points, std::vector<double>(42, 2.0)), InvalidInput);
+    CHECK_THROWS_AS(laplace(topology, points, {}, {.rings = 3}), InvalidInput);
+    const std::vector<double> few(3, 1.0), large(42, 2.0);
+    CHECK_THROWS_AS(laplace(topology, points, {}, {.weights = few}), InvalidInput);
+    CHECK_THROWS_AS(laplace(topology, points, {}, {.weights = large}), InvalidInput);
+    Positions broken = points;
+    broken[5].y() = std::nan("");
+    CHECK_THROWS_WITH(laplace(topology, broken), Catch::Contains("vertex 5"));
 }
 
 SCENARIO("Parameter sets that amplify are recognised", "[smoothing]") {
@@ -173,4 +183,137 @@ SCENARIO("Parameter sets that amplify are recognised", "[smoothing]") {
     CHECK(amplifies(LaplaceHcParameters{.lambda = 1.0, .beta = 0.0}));
     CHECK_FALSE(amplifies(TaubinParameters{}));
     CHECK(amplifies(TaubinParameters{.lambda = 1.0}));
+}
+
+namespace {
+
+/// Eq. 3.1 as printed, on any neighbourhood.
+Positions laplace_as_printed(const CompressedRows& rows, Positions x, double lambda,
+                             int iterations) {
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+        Positions next = x;
+        for (std::size_t v = 0; v < x.size(); ++v) {
+            Vec3 sum = Vec3::Zero();
+            for (const VertexId u : rows.row(v)) sum += x[u] - x[v];
+            if (!rows.row(v).empty())
+                next[v] += lambda * sum / static_cast<double>(rows.row(v).size());
+        }
+        x = next;
+    }
+    return x;
+}
+
+/// The same surface with its vertices numbered at random; `numbers`: old to new.
+Surface shuffled(const Surface& surface, std::vector<VertexId>& numbers) {
+    numbers.resize(surface.vertex_count());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    std::shuffle(numbers.begin(), numbers.end(), std::mt19937(3));
+    Positions points(numbers.size());
+    for (std::size_t v = 0; v < numbers.size(); ++v) points[numbers[v]] = surface.points()[v];
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : surface.triangles())
+        triangles.push_back({numbers[a], numbers[b], numbers[c]});
+    return make_surface(std::move(points), std::move(triangles));
+}
+
+}  // namespace
+
+SCENARIO("Laplace is Eq. 3.1 on surfaces of every size and numbering", "[smoothing][laplace]") {
+    for (const int levels : {1, 4, 6, 7}) {
+        CAPTURE(levels);
+        const Surface noisy = noisy_icosphere(10.0, 0.05, levels);
+        const Positions expected =
+            laplace_as_printed(noisy.topology->rings(), noisy.points(), 0.7, 7);
+        const Positions smooth =
+            laplace(*noisy.topology, noisy.points(), {.lambda = 0.7}, {.iterations = 7});
+        CHECK(largest_difference(smooth, expected) < 1e-12);
+        std::vector<VertexId> numbers;
+        const Surface mixed = shuffled(noisy, numbers);
+        const Positions other =
+            laplace(*mixed.topology, mixed.points(), {.lambda = 0.7}, {.iterations = 7});
+        double largest = 0.0;
+        for (std::size_t v = 0; v < numbers.size(); ++v)
+            largest = std::max(largest, (other[numbers[v]] - expected[v]).norm());
+        CHECK(largest < 1e-12);
+    }
+}
+
+SCENARIO("Two rings smooth more than one", "[smoothing]") {
+    const Surface noisy = noisy_icosphere(10.0, 0.2, 3);
+    CompressedRows wide;
+    wide.offsets.push_back(0);
+    for (VertexId v = 0; v < noisy.vertex_count(); ++v) {
+        std::set<VertexId> around;
+        for (const VertexId u : noisy.topology->rings().row(v)) {
+            around.insert(u);
+            for (const VertexId w : noisy.topology->rings().row(u)) around.insert(w);
+        }
+        around.erase(v);
+        wide.values.insert(wide.values.end(), around.begin(), around.end());
+        wide.offsets.push_back(static_cast<std::uint32_t>(wide.values.size()));
+    }
+    const Positions smooth =
+        laplace(*noisy.topology, noisy.points(), {}, {.iterations = 3, .rings = 2});
+    const Positions expected = laplace_as_printed(wide, noisy.points(), 0.5, 3);
+    CHECK(largest_difference(smooth, expected) < 1e-12);
+}
+
+SCENARIO("Weights of a filter on several threads give the same bits", "[smoothing][weights]") {
+    const Surface noisy = noisy_icosphere(10.0, 0.1, 6);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    std::vector<double> weights(noisy.vertex_count());
+    for (double& weight : weights) weight = any(random);
+    for (const auto& [name, run] : all_filters()) {
+        CAPTURE(name);
+        const Positions smooth = run(noisy, weights);
+        for (const int threads : {1, 3}) {
+            const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(threads));
+            CHECK(run(noisy, weights) == smooth);
+        }
+    }
+}
+
+SCENARIO("No vertex leaves the cell of a position constraint", "[smoothing][constraint]") {
+    const Surface noisy = noisy_icosphere(10.0, 0.5, 3);
+    const Eigen::Matrix3d axes = skew_rotation();
+    const Vec3 size(0.3, 0.2, 0.6);
+    for (const auto cell : {PositionConstraint::Cell::Voxel, PositionConstraint::Cell::Diamond}) {
+        const Positions smooth =
+            laplace(*noisy.topology, noisy.points(), {.lambda = 1.0},
+                    {.iterations = 30, .constraint = PositionConstraint{cell, axes, size}});
+        double largest = 0.0;
+        for (std::size_t v = 0; v < smooth.size(); ++v) {
+            const Vec3 inside = (axes.transpose() * (smooth[v] - noisy.points()[v]))
+                                    .cwiseAbs()
+                                    .cwiseQuotient(0.5 * size);
+            largest = std::max(largest, cell == PositionConstraint::Cell::Voxel ? inside.maxCoeff()
+                                                                                : inside.sum());
+        }
+        CHECK(largest == Approx(1.0));  // reached, and not left
+    }
+    GIVEN("a cell that no vertex wants to leave") {
+        const PositionConstraint wide{.size = Vec3(50.0, 50.0, 50.0)};
+        THEN("the filter does what it does without") {
+            const auto free = taubin(*noisy.topology, noisy.points());
+            CHECK(taubin(*noisy.topology, noisy.points(), {}, {.constraint = wide}) == free);
+        }
+    }
+    const PositionConstraint flat{.size = Vec3(1.0, 0.0, 1.0)};
+    CHECK_THROWS_AS(laplace(*noisy.topology, noisy.points(), {}, {.constraint = flat}),
+                    InvalidInput);
+}
+
+SCENARIO("Triangles that are degenerate, alone or not manifold do no harm", "[smoothing]") {
+    Positions points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {9, 9, 9}};
+    const Surface odd = make_surface(
+        points, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 2, 3}, {1, 1, 1}});  // 5 is alone
+    for (const auto& [name, run] : all_filters()) {
+        CAPTURE(name);
+        const Positions moved = run(odd, {});
+        for (const Vec3& p : moved) CHECK(p.allFinite());
+        CHECK(moved[5] == points[5]);
+        CHECK(run(make_surface({}, {}), {}).empty());
+    }
 }

@@ -30,7 +30,7 @@ SCENARIO("Smoothing does not move walls through each other", "[smoothing][new-cr
     const Surface far = icosphere(5.0, 2, Vec3(30, 0, 0));
     const Surface surface = together({icosphere(5.6, 2), icosphere(4.9, 3), far});
     const Positions wanted =
-        laplace(*surface.topology, surface.points(), {}, {.lambda = 0.5, .iterations = 8});
+        laplace(*surface.topology, surface.points(), {.lambda = 0.5}, {.iterations = 8});
     REQUIRE_FALSE(self_intersections(wanted, surface.triangles()).empty());
     Positions moved = wanted;
     const TakenBack taken = take_back_crossings(surface, moved);
@@ -49,7 +49,7 @@ SCENARIO("Without new crossings the filter's result stays bit for bit",
     const Surface crossing = together({apart, icosphere(5.0, 2, Vec3(3, 0, 0))});
     for (const Surface& surface : {apart, crossing}) {
         const Positions wanted =
-            laplace(*surface.topology, surface.points(), {}, {.lambda = 0.5, .iterations = 5});
+            laplace(*surface.topology, surface.points(), {.lambda = 0.5}, {.iterations = 5});
         Positions moved = wanted;
         CHECK(take_back_crossings(surface, moved).vertices == 0);
         CHECK(moved == wanted);

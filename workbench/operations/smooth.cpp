@@ -53,32 +53,27 @@ Request request_from(const Surface& surface, const Arguments& arguments) {
 }
 
 Positions run_laplace(const Surface& surface, const Request& request, const Progress& progress) {
-    return laplace(
-        *surface.topology, surface.points(), {},
-        {.lambda = request.lambda, .iterations = request.iterations, .fixed = request.fixed},
-        progress);
+    return laplace(*surface.topology, surface.points(), {.lambda = request.lambda},
+                   {.iterations = request.iterations, .fixed = request.fixed}, progress);
 }
 
 Positions run_laplace_hc(const Surface& surface, const Request& request, Outcome& outcome,
                          const Progress& progress) {
     const LaplaceHcParameters parameters{.lambda = request.lambda,
                                          .alpha = outcome.resolved.real("alpha"),
-                                         .beta = outcome.resolved.real("beta"),
-                                         .iterations = request.iterations,
-                                         .fixed = request.fixed};
+                                         .beta = outcome.resolved.real("beta")};
     if (amplifies(parameters))
         outcome.warnings.push_back(
             "Laplace+HC with these values roughens the surface instead of smoothing it: keep "
             "(1 - beta) * lambda at or below 0.5");
-    return laplace_hc(*surface.topology, surface.points(), {}, parameters, progress);
+    return laplace_hc(*surface.topology, surface.points(), parameters,
+                      {.iterations = request.iterations, .fixed = request.fixed}, progress);
 }
 
 Positions run_taubin(const Surface& surface, const Request& request, Outcome& outcome,
                      const Progress& progress) {
     TaubinParameters parameters{.lambda = request.lambda,
-                                .mu = outcome.resolved.optional_real("mu"),
-                                .iterations = request.iterations,
-                                .fixed = request.fixed};
+                                .mu = outcome.resolved.optional_real("mu")};
     if (parameters.used_mu() > -parameters.lambda) {
         std::ostringstream text;
         text << "smooth: mu = " << parameters.used_mu()
@@ -91,7 +86,8 @@ Positions run_taubin(const Surface& surface, const Request& request, Outcome& ou
         outcome.warnings.push_back(
             "Taubin with these values enlarges the finest bumps: use a smaller lambda (0.5 is "
             "safe)");
-    return taubin(*surface.topology, surface.points(), {}, parameters, progress);
+    return taubin(*surface.topology, surface.points(), parameters,
+                  {.iterations = request.iterations, .fixed = request.fixed}, progress);
 }
 
 Report report_of(const Surface& before, const Surface& after, const Request& request) {
