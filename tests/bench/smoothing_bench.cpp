@@ -40,15 +40,15 @@ Run ours(const Surface& surface, Filter filter) {
 }
 
 Positions twenty_laplace(const Topology& topology, const Positions& positions) {
-    return laplace(topology, positions, {}, LaplaceParameters{.iterations = kIterations});
+    return laplace(topology, positions, {}, FilterSettings{.iterations = kIterations});
 }
 
 Positions twenty_laplace_hc(const Topology& topology, const Positions& positions) {
-    return laplace_hc(topology, positions, {}, LaplaceHcParameters{.iterations = kIterations});
+    return laplace_hc(topology, positions, {}, FilterSettings{.iterations = kIterations});
 }
 
 Positions twenty_taubin(const Topology& topology, const Positions& positions) {
-    return taubin(topology, positions, {}, TaubinParameters{.iterations = kIterations});
+    return taubin(topology, positions, {}, FilterSettings{.iterations = kIterations});
 }
 
 double median(std::vector<double> values) {
@@ -134,7 +134,7 @@ double iteration_seconds(const Surface& surface) {
         return [&surface, iterations] {
             const Stopwatch watch;
             const Positions moved = laplace(*surface.topology, surface.points(), {},
-                                            LaplaceParameters{.iterations = iterations});
+                                            FilterSettings{.iterations = iterations});
             return watch.seconds();
         };
     };
@@ -142,8 +142,9 @@ double iteration_seconds(const Surface& surface) {
     return (times.first - times.second) / 40.0;
 }
 
-/// What an iteration cannot do without: each position read once and written once, each offset and
-/// each neighbour index read once.
+/// What an iteration by itself cannot do without: each position read once and written once, each
+/// offset and each neighbour index read once. Iterations that share a pass through the memory move
+/// less, so the rate may exceed the triad's.
 double iteration_bytes(const Topology& topology) {
     return static_cast<double>(topology.vertex_count() * 2 * sizeof(Vec3) +
                                topology.rings().bytes());
@@ -176,8 +177,9 @@ void scale(const Surface& surface, double triad) {
     std::printf(
         "laplace of %9.0f vertices, 2 threads: %6.2f ns a vertex and iteration with its neighbour "
         "arrays, %5.2f without;\n    %.0f bytes a vertex beside the input of 48; an iteration "
-        "reads and writes %.0f bytes a vertex (positions once in, once out; neighbour\n    lists "
-        "once): %.1f GB/s, triad %.1f GB/s\n",
+        "by itself reads and writes %.0f bytes a vertex (positions in and out,\n    neighbour "
+        "lists in"
+        "): %.1f GB/s, triad %.1f GB/s\n",
         vertices, 1e9 * whole / vertices / kIterations, 1e9 * iteration / vertices, peak / vertices,
         iteration_bytes(*surface.topology) / vertices, rate / 1e9, triad / 1e9);
     std::fflush(stdout);
