@@ -1,6 +1,7 @@
 #include "smoothing/filter_support.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "geometry/errors.h"
@@ -42,6 +43,19 @@ void require_range(const char* name, double value, double minimum, double maximu
     throw InvalidInput(text.str());
 }
 
+void require_positive(const char* name, double value) {
+    if (value > 0.0 && std::isfinite(value)) return;
+    std::ostringstream text;
+    text << name << " = " << value << " must be positive and finite";
+    throw InvalidInput(text.str());
+}
+
+void require_one_ring(const char* filter, const FilterSettings& settings) {
+    if (settings.rings > 1)
+        throw InvalidInput("rings = " + std::to_string(settings.rings) + ": " + filter +
+                           " works on one ring only, as its weights belong to edges");
+}
+
 std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
                                                  const Positions& positions,
                                                  const FilterSettings& settings) {
@@ -53,6 +67,18 @@ std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
         for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] |= boundary[v];
     }
     return fixed;
+}
+
+VertexMover::VertexMover(const Topology& topology, const Positions& positions,
+                         const FilterSettings& settings)
+    : start_(positions),
+      settings_(settings),
+      fixed_(checked_fixed_vertices(topology, positions, settings)) {}
+
+Vec3 VertexMover::moved(std::size_t v, const Vec3& now, const Vec3& displacement) const {
+    const double weight = settings_.weights.empty() ? 1.0 : settings_.weights[v];
+    const Vec3 wanted = now + weight * displacement;
+    return settings_.constraint ? settings_.constraint->clamped(start_[v], wanted) : wanted;
 }
 
 CompressedRows two_rings(const Topology& topology) {

@@ -15,6 +15,12 @@ namespace vesselbench::detail {
 /// \throw InvalidInput unless minimum <= value <= maximum; the text names the parameter
 void require_range(const char* name, double value, double minimum, double maximum);
 
+/// \throw InvalidInput unless the value is positive and finite; the text names the parameter
+void require_positive(const char* name, double value);
+
+/// \throw InvalidInput if the settings ask for more than one ring
+void require_one_ring(const char* filter, const FilterSettings& settings);
+
 /// 1 where a filter leaves a vertex alone: the fixed ones and, with keep_boundary, those on the
 /// boundary of an open surface; #V.
 /// \throw InvalidInput if the settings do not fit the topology, or a position is not finite
@@ -24,6 +30,28 @@ void require_range(const char* name, double value, double minimum, double maximu
 
 /// Neighbours of every vertex within two rings, without itself, each row ascending.
 [[nodiscard]] CompressedRows two_rings(const Topology& topology);
+
+/// What becomes of the displacement that a filter wants for a vertex: fixed vertices stay, weights
+/// scale it (Eq. 5.1), then the position constraint clamps it.
+class VertexMover {
+public:
+    /// Keeps references to its arguments. \throw InvalidInput as checked_fixed_vertices
+    VertexMover(const Topology& topology, const Positions& positions,
+                const FilterSettings& settings);
+
+    /// True where nothing can move the vertex.
+    [[nodiscard]] bool stays(std::size_t v) const {
+        return fixed_[v] != 0 || (!settings_.weights.empty() && settings_.weights[v] == 0.0);
+    }
+
+    /// Position after a displacement from `now`; not for vertices that stay.
+    [[nodiscard]] Vec3 moved(std::size_t v, const Vec3& now, const Vec3& displacement) const;
+
+private:
+    const Positions& start_;
+    const FilterSettings& settings_;
+    std::vector<std::uint8_t> fixed_;
+};
 
 /// Calls move(v) for every vertex, on all threads; move may write to element v only.
 template <class Move>
