@@ -1,0 +1,59 @@
+#include "smoothing/distance_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/errors.h"
+#include "geometry/surface_distance.h"
+#include "smoothing/filter_support.h"
+
+namespace vesselbench {
+
+std::vector<double> neighbour_distances(const Positions& positions,
+                                        std::span<const Surface> neighbours) {
+    if (neighbours.empty())
+        throw InvalidInput("distance awareness needs a neighbour: there is none");
+    std::vector<double> distances(positions.size(), std::numeric_limits<double>::infinity());
+    for (const Surface& neighbour : neighbours) {
+        if (neighbour.empty())
+            throw InvalidInput("distance awareness needs neighbours with triangles: one has none");
+        const SurfaceDistance surface(neighbour);
+        const bool closed = std::none_of(neighbour.topology->boundary_vertices().begin(),
+                                         neighbour.topology->boundary_vertices().end(),
+                                         [](std::uint8_t boundary) { return boundary != 0; });
+        detail::for_each_vertex(positions.size(), [&](std::size_t v) {
+            const double distance = closed ? std::max(0.0, surface.signed_distance(positions[v]))
+                                           : surface.closest_point(positions[v]).distance;
+            distances[v] = std::min(distances[v], distance);
+        });
+    }
+    return distances;
+}
+
+std::vector<double> distance_weights(std::span<const double> distances,
+                                     const DistanceParameters& parameters) {
+    if (!(parameters.margin >= 0.0) || !std::isfinite(parameters.margin))
+        throw InvalidInput("margin must be 0 mm or more");
+    detail::require_positive("omega", parameters.omega);
+    for (const double d : distances)
+        if (!(d >= 0.0) || !std::isfinite(d))
+            throw InvalidInput("distances to neighbours must be finite and not negative");
+    std::vector<double> weights(distances.size(), 0.0);
+    if (distances.empty()) return weights;
+    const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
+    const bool margin = parameters.scaling == DistanceScaling::Margin;
+    const double from = margin ? parameters.margin : *least, range = *most - from;
+    if (!(range > 0.0)) return weights;
+    const double omega = parameters.omega;
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        const double beyond = std::max(0.0, distances[v] - from);
+        // Eq. 5.2 divided by e^(omega max(D)), so that nothing overflows.
+        weights[v] = parameters.scaling == DistanceScaling::Exponential
+                         ? std::exp(omega * (beyond - range)) * -std::expm1(-omega * beyond) /
+                               -std::expm1(-omega * range)
+                         : beyond / range;
+    }
+    return weights;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,65 @@
+#include "smoothing/staircases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/errors.h"
+#include "geometry/surface.h"
+#include "smoothing/filter_support.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kDegenerate = -1.0;
+
+Vec3 unit_axis(const Vec3& stack_axis) {
+    const double length = stack_axis.norm();
+    if (!(length > 0.0) || !std::isfinite(length))
+        throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
+    return stack_axis / length;
+}
+
+/// Eq. 5.3; kDegenerate where a face has no normal.
+std::vector<double> raw_orientations(const Topology& topology, const Positions& positions,
+                                     const Vec3& stack_axis) {
+    const Vec3 axis = unit_axis(stack_axis);
+    const auto triangles = topology.triangles();
+    std::vector<double> theta(triangles.size());
+    detail::for_each_vertex(triangles.size(), [&](std::size_t t) {
+        const Vec3 normal = area_normal(positions, triangles[t]);
+        const double length = normal.norm();
+        const bool valid = length > 0.0 && std::isfinite(length);
+        theta[t] = valid ? std::max(0.0, 1.0 - std::abs(normal.dot(axis)) / length) : kDegenerate;
+    });
+    return theta;
+}
+
+}  // namespace
+
+std::vector<double> face_orientations(const Topology& topology, const Positions& positions,
+                                      const Vec3& stack_axis) {
+    std::vector<double> theta = raw_orientations(topology, positions, stack_axis);
+    for (double& value : theta) value = std::max(0.0, value);
+    return theta;
+}
+
+std::vector<double> orientation_change(const Topology& topology, const Positions& positions,
+                                       const Vec3& stack_axis) {
+    const std::vector<double> theta = raw_orientations(topology, positions, stack_axis);
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    std::vector<double> smallest(positions.size(), kNone), change(positions.size(), -kNone);
+    for (TriangleId t = 0; t < theta.size(); ++t) {
+        if (theta[t] == kDegenerate) continue;
+        for (const VertexId v : topology.triangles()[t]) {
+            smallest[v] = std::min(smallest[v], theta[t]);
+            change[v] = std::max(change[v], theta[t]);
+        }
+    }
+    for (std::size_t v = 0; v < change.size(); ++v)
+        change[v] = smallest[v] == kNone ? 0.0 : change[v] - smallest[v];
+    return change;
+}
+
+}  // namespace vesselbench
