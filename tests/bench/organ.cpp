@@ -31,7 +31,7 @@ float grey(double cells_deep) {
 
 }  // namespace
 
-Surface organ(double vertices) {
+Surface organ(double vertices, int slice) {
     constexpr double kVerticesByArea = 1.5;  // marching cubes, per cell face: E(|nx| + |ny| + |nz|)
     constexpr double kArea = 31000.0;        // [mm^2]
     GridFrame grid{.spacing = std::sqrt(kVerticesByArea * kArea / vertices)};
@@ -46,10 +46,11 @@ Surface organ(double vertices) {
     tbb::parallel_for(0, nk, [&, ni = ni, nj = nj](int k) {
         auto at = static_cast<std::size_t>(k) * static_cast<std::size_t>(ni) *
                   static_cast<std::size_t>(nj);
+        const double z = k / slice * slice + 0.5 * (slice - 1);
         for (int j = 0; j < nj; ++j)
             for (int i = 0; i < ni; ++i)
                 values[at++] =
-                    grey(depth(grid.origin + grid.spacing * Vec3(i, j, k)) / grid.spacing);
+                    grey(depth(grid.origin + grid.spacing * Vec3(i, j, z)) / grid.spacing);
     });
     GridSurface found = flying_edges(values, grid);
     Positions points;

@@ -15,6 +15,8 @@
 
 #include "smoothing/laplace.h"
 #include "smoothing/laplace_hc.h"
+#include "smoothing/staircase_weights.h"
+#include "smoothing/staircases.h"
 #include "smoothing/taubin.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/reference_filters.h"
@@ -26,6 +28,7 @@ namespace {
 
 constexpr int kIterations = 20;
 constexpr int kRepeats = 7;
+const Vec3 kStackAxis(0, 0, 1);
 
 /// Seconds of a filter of ours with its neighbour arrays, which a fresh topology makes each time.
 template <class Filter>
@@ -34,7 +37,7 @@ Run ours(const Surface& surface, Filter filter) {
         std::vector<Triangle> triangles(surface.triangles().begin(), surface.triangles().end());
         const Stopwatch watch;
         const Topology topology(std::move(triangles), surface.vertex_count());
-        const Positions moved = filter(topology, surface.points());
+        [[maybe_unused]] const auto result = filter(topology, surface.points());
         return watch.seconds();
     };
 }
@@ -56,16 +59,14 @@ std::vector<double> sorted(std::vector<double> values) {
     return values;
 }
 
-double median(const std::vector<double>& values) {
-    return sorted(values)[values.size() / 2];
+double median(const std::vector<double>& ascending) {
+    return ascending[ascending.size() / 2];
 }
 
+/// What the repeats of two runs gave, each ascending.
 struct Pair {
-    double first = 0.0;          ///< median [s]
-    double second = 0.0;         ///< median [s]
-    std::vector<double> ratios;  ///< first / second of every repeat, ascending [-]
-
-    [[nodiscard]] double ratio() const { return median(ratios); }
+    std::vector<double> first, second;  ///< [s]
+    std::vector<double> ratios;         ///< first / second of each repeat [-]
 };
 
 /// Runs both in turn, so that a disturbance of the machine meets both; the first turn warms up.
@@ -78,14 +79,15 @@ Pair in_turn(const Run& first, const Run& second) {
         b.push_back(other);
         ratios.push_back(one / other);
     }
-    return {median(a), median(b), sorted(ratios)};
+    return {sorted(a), sorted(b), sorted(ratios)};
 }
 
 void row(const char* name, const Pair& times, double target, bool at_least) {
-    const bool met = at_least ? times.ratio() >= target : times.ratio() <= target;
+    const bool met = at_least ? median(times.ratios) >= target : median(times.ratios) <= target;
     std::printf("%-62s %7.4f s / %7.4f s = %5.2f (%.2f to %.2f), target %s %.1f: %s\n", name,
-                times.first, times.second, times.ratio(), times.ratios.front(), times.ratios.back(),
-                at_least ? ">=" : "<=", target, met ? "met" : "not met");
+                median(times.first), median(times.second), median(times.ratios),
+                times.ratios.front(), times.ratios.back(), at_least ? ">=" : "<=", target,
+                met ? "met" : "not met");
     std::fflush(stdout);
 }
 
@@ -118,6 +120,47 @@ void compare_filters(const Surface& surface) {
     row("laplace on 1 thread / on 2", in_turn(on(1, our_laplace), on(2, our_laplace)), 1.5, true);
 }
 
+/// Orientation changes of which about the given share exceeds `threshold`; all of them for 1.
+std::vector<double> changes_of(const Surface& surface, double share, double& threshold) {
+    std::vector<double> change =
+        orientation_change(*surface.topology, surface.points(), kStackAxis);
+    if (share == 1.0) change.assign(change.size(), 1.0);
+    const auto place = static_cast<std::size_t>((1.0 - share) * static_cast<double>(change.size()));
+    threshold = share == 1.0 ? 0.0 : sorted(change)[place];
+    return change;
+}
+
+/// Detection and weights from nothing, and weights alone as after a change of a threshold, beside
+/// 40 Laplace iterations.
+void compare_staircases(const Surface& surface, double share) {
+    StaircaseParameters parameters;
+    const std::vector<double> change = changes_of(surface, share, parameters.tau_theta);
+    const auto found = std::count_if(change.begin(), change.end(),
+                                     [&](double c) { return c > parameters.tau_theta; });
+    std::printf("%zu vertices, %.1f %% at staircases, weights up to %.0f mm from them:\n",
+                surface.vertex_count(),
+                100.0 * static_cast<double>(found) / static_cast<double>(change.size()),
+                parameters.tau_max);
+    const Run whole =
+        on(2, ours(surface, [&](const Topology& topology, const Positions& x) {
+               const auto detected = orientation_change(topology, x, kStackAxis);
+               return staircase_weights(topology, x, share == 1.0 ? change : detected, parameters);
+           }));
+    const Run iterations = on(2, ours(surface, [](const Topology& topology, const Positions& x) {
+                                  return laplace(topology, x, {}, {.iterations = 40});
+                              }));
+    const Run again = on(2, [&] {
+        const Stopwatch watch;
+        const auto weights =
+            staircase_weights(*surface.topology, surface.points(), change, parameters);
+        return watch.seconds();
+    });
+    row("  detection and weights / 40 laplace iterations, 2 threads", in_turn(whole, iterations),
+        1.0, false);
+    row("  weights for another threshold / detection and weights", in_turn(again, whole), 0.5,
+        false);
+}
+
 /// STREAM's triad a = b + s c, 24 bytes an element, arrays of 256 MiB. [bytes/s]
 double triad_bandwidth(int threads) {
     const std::size_t count = std::size_t{1} << 25;
@@ -132,10 +175,11 @@ double triad_bandwidth(int threads) {
         return watch.seconds();
     });
     const Pair times = in_turn(triad, triad);
-    return 24.0 * static_cast<double>(count) / std::min(times.first, times.second);
+    return 24.0 * static_cast<double>(count) / std::min(times.first.front(), times.second.front());
 }
 
-/// Seconds of one Laplace iteration with everything built: the slope between 20 and 60 iterations.
+/// Seconds of one Laplace iteration with everything built: the slope between the fastest runs
+/// of 20 and of 60 iterations.
 double iteration_seconds(const Surface& surface) {
     const auto some = [&](int iterations) -> Run {
         return [&surface, iterations] {
@@ -146,7 +190,7 @@ double iteration_seconds(const Surface& surface) {
         };
     };
     const Pair times = in_turn(some(60), some(20));
-    return (times.first - times.second) / 40.0;
+    return (times.first.front() - times.second.front()) / 40.0;
 }
 
 /// What an iteration by itself cannot do without: each position read once and written once, each
@@ -160,8 +204,7 @@ double iteration_bytes(const Topology& topology) {
 /// Seconds until a fresh topology has its one-rings.
 Run one_rings(const Surface& surface) {
     return ours(surface, [](const Topology& topology, const Positions&) {
-        (void)topology.rings();
-        return Positions();
+        return topology.rings().offsets.size();
     });
 }
 
@@ -192,7 +235,8 @@ void scale(const Surface& surface, double triad) {
     const double by_step = 1e9 / vertices / kIterations;
     std::printf("laplace of %.0f vertices, 2 threads:\n", vertices);
     std::printf("    %.2f ns a vertex and iteration, %.2f of them iterating, %.2f for one-rings\n",
-                by_step * times.first, 1e9 * iteration / vertices, by_step * times.second);
+                by_step * median(times.first), 1e9 * iteration / vertices,
+                by_step * median(times.second));
     std::printf("    %.0f bytes of memory a vertex at the peak, beside the input's 48\n",
                 peak / vertices);
     std::printf(
@@ -218,6 +262,8 @@ int main(int count, char** words) {
     std::printf("raw surface of %zu vertices, %d iterations, medians of %d repeats\n",
                 surface.vertex_count(), kIterations, kRepeats);
     compare_filters(surface);
+    const Surface stack = organ(94e3, 4);
+    for (const double share : {0.1, 1.0}) compare_staircases(stack, share);
     on_threads(2, [&] {
         const double triad = triad_bandwidth(2);
         scale(surface, triad);
