@@ -28,8 +28,9 @@ struct StaircaseParameters {
 /// Distance of every vertex to the nearest staircase vertex [mm] that can be reached along edges
 /// whose vertices all lie within tau_max of that staircase vertex; infinite if there is none. So a
 /// part of the surface that only passes a staircase in space is not affected. Exact.
-/// Linear in vertices for a tau_max of some edges; where separate sheets lie within tau_max of each
-/// other, the vertices within tau_max of each staircase vertex between them are visited.
+/// Costs n log n; where parts of the surface come within tau_max of each other, a search around
+/// each staircase vertex between them is added. Vertices at positions that are not finite are no
+/// staircases and have no distance.
 /// \param change orientation change of every vertex, as orientation_change gives it
 /// \throw InvalidInput if a parameter is out of range or an array has another length than #V
 [[nodiscard]] std::vector<double> staircase_distances(const Topology& topology,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "geometry/errors.h"
 #include "geometry/surface.h"
@@ -25,6 +26,9 @@ Vec3 unit_axis(const Vec3& stack_axis) {
 std::vector<double> raw_orientations(const Topology& topology, const Positions& positions,
                                      const Vec3& stack_axis) {
     const Vec3 axis = unit_axis(stack_axis);
+    if (positions.size() != topology.vertex_count())
+        throw InvalidInput("got " + std::to_string(positions.size()) + " positions for " +
+                           std::to_string(topology.vertex_count()) + " vertices");
     const auto triangles = topology.triangles();
     std::vector<double> theta(triangles.size());
     detail::for_each_vertex(triangles.size(), [&](std::size_t t) {
