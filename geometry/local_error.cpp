@@ -60,17 +60,49 @@ struct Original {
     const Positions& points;
 };
 
-/// Infinite without a triangle whose corners are numbers.
-double distance_to_triangles(const Original& original, const Vec3& p, VertexId reference) {
-    double closest = kInfinity;
-    for (const TriangleId t : original.triangles_at.row(reference)) {
-        const auto [a, b, c] = original.triangles[t];
+/// The place of a ring that is closest to a point.
+struct RingPlace {
+    double squared = kInfinity;  ///< distance [mm^2]; infinite without triangles of numbers
+    bool outer = false;          ///< on the ring's outer edge
+    VertexId ends[2] = {0, 0};   ///< of that edge
+};
+
+RingPlace closest_in_ring(const Original& original, const Vec3& p, VertexId centre) {
+    constexpr double kOnEdge = 1e-9;  // height over the outer edge by the triangle's height [-]
+    RingPlace place;
+    for (const TriangleId t : original.triangles_at.row(centre)) {
+        const Triangle& corners = original.triangles[t];
+        const auto [a, b, c] = corners;
         const Vec3 q = closest_point_on_triangle(p, original.points[a], original.points[b],
                                                  original.points[c]);
         const double squared = (p - q).squaredNorm();
-        if (squared < closest) closest = squared;
+        if (!(squared < place.squared)) continue;
+        const int at = b == centre ? 1 : c == centre ? 2 : 0;
+        const VertexId u = corners[(at + 1) % 3], w = corners[(at + 2) % 3];
+        const Vec3 edge = original.points[w] - original.points[u];
+        const double height = edge.cross(q - original.points[u]).norm();
+        const double full = edge.cross(original.points[centre] - original.points[u]).norm();
+        place = {squared, height <= kOnEdge * full, {u, w}};
     }
-    return std::sqrt(closest);
+    return place;
+}
+
+/// Infinite without a triangle whose corners are numbers. Where the closest place is on the ring's
+/// outer edge, the surface beyond may be closer: then the ring moves there. Every step comes
+/// strictly closer, so it ends.
+double distance_to_triangles(const Original& original, const Vec3& p, VertexId reference) {
+    RingPlace best = closest_in_ring(original, p, reference);
+    for (bool closer = best.outer; closer;) {
+        closer = false;
+        const RingPlace from = best;
+        for (const VertexId end : from.ends) {
+            const RingPlace next = closest_in_ring(original, p, end);
+            if (!(next.squared < best.squared)) continue;
+            best = next;
+            closer = best.outer;
+        }
+    }
+    return std::sqrt(best.squared);
 }
 
 /// Eq. 6.2: the third component of Eq. 6.1 is the distance from the triangle's plane, as its third

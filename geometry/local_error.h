@@ -10,7 +10,7 @@ namespace vesselbench {
 
 /// What counts as a vertex' distance from the triangles around its reference vertex.
 enum class LocalErrorForm : std::uint8_t {
-    ClosestPoint,  ///< distance to the closest point of the triangles
+    ClosestPoint,  ///< distance to their closest point
     Thesis,        ///< `local-error-thesis`, Eq. 6.2 as printed: largest distance to their planes
 };
 
@@ -33,11 +33,14 @@ struct LocalError {
 void follow_drift(const Topology& topology, const Positions& original, const Positions& moved,
                   std::vector<VertexId>& references);
 
-/// Distance of each moved vertex from the triangles of the original around its reference vertex:
-/// nothing for a vertex that slid along the surface, and close to the distance from the whole
-/// original (never below it) while the surface moved by less than its features. The same bits on
-/// any number of threads. A vertex whose reference has no triangle (of some area, in the thesis'
-/// form) gets the distance from the reference itself; one whose place is not a number gets 0.
+/// Distance of each moved vertex from the triangles of the original around its reference vertex.
+/// Where the closest point of these lies on their outer edge and the triangles beyond are closer,
+/// those count (slivers hide the surface from the vertex-to-vertex drift). So it is nothing for a
+/// vertex that slid along the surface, and close to the distance from the whole original (never
+/// below it) while the surface moved by less than its features. The same bits on any number of
+/// threads.
+/// A vertex whose reference has no triangle (of some area, in the thesis' form) gets the distance
+/// from the reference itself; one whose place is not a number gets 0.
 /// Source: Moench, thesis 6.4.1, Eqs. 6.1-6.2.
 /// \param references from follow_drift
 /// \throw InvalidInput unless original, moved and references are #V long and in range

@@ -117,6 +117,25 @@ SCENARIO("The local error is the distance from the original where little moved",
         CHECK(most < 1e-12);
         CHECK(error.mean == Approx(mean));
     }
+    GIVEN("a raw surface with slivers, every vertex at the mean of its neighbours") {
+        const Surface raw = iso_surface(
+            [](const Vec3& p) { return capsule(p, Vec3(-4, -1, 0), Vec3(4, 2, 1), 3.0); },
+            {Vec3(-8, -8, -8), Vec3(8, 8, 8)}, 0.4);
+        Positions moved(raw.vertex_count(), Vec3::Zero());
+        for (std::size_t v = 0; v < moved.size(); ++v) {
+            const auto ring = raw.topology->rings().row(v);
+            for (const VertexId u : ring)
+                moved[v] += raw.points()[u] / static_cast<double>(ring.size());
+        }
+        const LocalError error = error_of(raw, moved);
+        const SurfaceDistance from_raw(raw);
+        double most = 0.0;
+        for (std::size_t v = 0; v < moved.size(); ++v)
+            most = std::max(most,
+                            std::abs(error.values[v] - from_raw.closest_point(moved[v]).distance));
+        CHECK(error.largest > 0.01);
+        CHECK(most < 1e-12);
+    }
     GIVEN("two edges of noise") {
         const Positions moved = with_noise(sphere, 2.0).points();
         const LocalError error = error_of(sphere, moved);
