@@ -305,6 +305,18 @@ SCENARIO("No vertex leaves the cell of a position constraint", "[smoothing][cons
                     InvalidInput);
 }
 
+SCENARIO("No filter reads memory that it has not written", "[smoothing]") {
+    const Surface sphere = icosphere(1.0, 4);
+    {  // leaves memory behind that is no number
+        std::vector<std::vector<double>> rubbish;
+        for (int i = 0; i < 40; ++i) rubbish.emplace_back(4 * 2562 + 8 * i, std::nan(""));
+    }
+    for (const auto& [name, run] : all_filters()) {
+        CAPTURE(name);
+        for (const Vec3& p : run(sphere, {})) REQUIRE(p.allFinite());
+    }
+}
+
 SCENARIO("Triangles that are degenerate, alone or not manifold do no harm", "[smoothing]") {
     Positions points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {9, 9, 9}};
     const Surface odd = make_surface(

@@ -46,6 +46,24 @@ void check_bad_input(const ProgramRun& result) {
 
 }  // namespace
 
+SCENARIO("A phantom becomes a model for planning and one for surgery simulation",
+         "[workbench][prepare]") {
+    for (const std::string purpose : {"planning", "simulation"}) {
+        CAPTURE(purpose);
+        const std::string out = temporary_folder() + "/" + purpose;
+        const ProgramRun result = run({"prepare", tube(), "--for", purpose, "--out", out});
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        CHECK(names_in(out) ==
+              Names{"project.vbench", "report.html", "report.json", "surface.stl", "surface.vtp"});
+        const Json report = Json::parse(text_of(out + "/report.json"));
+        CHECK(report["purpose"] == purpose);
+        const double skewness = report["quality"]["after"]["equiangle_skewness"]["mean"];
+        CHECK((purpose == "planning") == (skewness > 0.2));  // only simulation asks for good ones
+        CHECK_THAT(text_of(out + "/report.html"), Contains("Model for"));
+    }
+}
+
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     const std::string out = temporary_folder() + "/cfd";
     const ProgramRun result = run({"prepare", tube(), "--for", "cfd", "--out", out});
@@ -155,8 +173,8 @@ SCENARIO("What prepare is not told right is refused before anything is written",
         CHECK_THAT(result.err, Contains(why));
         CHECK(names_in(folder).empty());
     };
-    refused({tube(), "--for", "planning"}, "comes with context-aware smoothing");
-    refused({tube(), "--for", "printing"}, "cfd or rp");
+    refused({tube(), "--for", "planing"}, "planning");
+    refused({tube(), "--for", "printing"}, "cfd, rp, planning");
     refused({tube()}, "--for");
     refused({tube(), "--for", "cfd", "--set", "smooth.lamda=1"}, "did you mean 'lambda'");
     refused({tube(), "--for", "cfd", "--set", "openfoam.flow=-1"}, "'flow'");

@@ -1,10 +1,12 @@
 #include "workbench/prepare/prepare.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "geometry/errors.h"
 #include "workbench/commands/commands.h"
 #include "workbench/console.h"
+#include "workbench/near_names.h"
 #include "workbench/prepare/products.h"
 
 namespace vesselbench {
@@ -12,12 +14,10 @@ namespace vesselbench {
 namespace {
 
 void check_purpose(const std::string& purpose) {
-    if (purpose == "planning" || purpose == "simulation")
-        throw UsageError("--for " + purpose +
-                         " is not part of this version: it comes with context-aware smoothing; "
-                         "use cfd or rp");
-    if (purpose != "cfd" && purpose != "rp")
-        throw UsageError("--for '" + purpose + "' is not known: it is cfd or rp");
+    static const std::vector<std::string> purposes = {"cfd", "rp", "planning", "simulation"};
+    if (std::ranges::count(purposes, purpose) == 0)
+        throw UsageError("--for '" + purpose + "' is not known" + did_you_mean(purpose, purposes) +
+                         " (it is " + joined(purposes) + ")");
 }
 
 InputOptions input_options(const InputArguments& arguments) {
@@ -35,8 +35,11 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
              .out = arguments.out},
             remark, progress);
     const std::filesystem::path out = arguments.out;
-    std::cout << (arguments.purpose == "cfd" ? "CFD case:    " : "print model: ")
-              << (out / (arguments.purpose == "cfd" ? "openfoam" : "print.stl")).string()
+    const auto [what, file] = arguments.purpose == "cfd" ? std::pair("CFD case:    ", "openfoam")
+                              : arguments.purpose == "rp"
+                                  ? std::pair("print model: ", "print.stl")
+                                  : std::pair("surface:     ", "surface.vtp");
+    std::cout << what << (out / file).string()
               << "\nreport:      " << (out / "report.html").string()
               << "\nproject:     " << (out / "project.vbench").string() << "\n";
 }

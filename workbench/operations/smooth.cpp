@@ -3,109 +3,41 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/measure.h"
 #include "geometry/wording.h"
-#include "smoothing/laplace.h"
-#include "smoothing/laplace_hc.h"
+#include "smoothing/distance_weights.h"
 #include "smoothing/new_crossings.h"
-#include "smoothing/taubin.h"
+#include "workbench/operations/smooth/context.h"
+#include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 namespace {
 
-std::vector<std::uint8_t> cap_vertices(const Surface& surface) {
-    std::vector<std::uint8_t> flags(surface.vertex_count(), 0);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (surface.patch_of(t).kind != PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
-    return flags;
-}
+using Json = nlohmann::ordered_json;
 
-/// Volume [mm^3] with every opening closed by a fan around its centroid.
-double enclosed_volume(const Surface& surface, const Positions& points) {
-    const Vec3 origin = points.front();
-    const auto six_fold = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return (a - origin).dot((b - origin).cross(c - origin));
-    };
+double mean(const std::vector<double>& values) {
     double sum = 0.0;
-    for (const auto& [a, b, c] : surface.triangles())
-        sum += six_fold(points[a], points[b], points[c]);
-    for (const auto& loop : surface.topology->boundary_loops()) {
-        Vec3 centroid = Vec3::Zero();
-        for (const VertexId v : loop) centroid += points[v] / static_cast<double>(loop.size());
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            sum += six_fold(points[loop[(i + 1) % loop.size()]], points[loop[i]], centroid);
-    }
-    return sum / 6.0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-struct Request {
-    double lambda = 0.5;
-    int iterations = 20;
-    std::vector<std::uint8_t> fixed;
-};
-
-Request request_from(const Surface& surface, const Arguments& arguments) {
-    return {arguments.real("lambda"), static_cast<int>(arguments.integer("iterations")),
-            cap_vertices(surface)};
-}
-
-Positions run_laplace(const Surface& surface, const Request& request, const Progress& progress) {
-    return laplace(*surface.topology, surface.points(), {.lambda = request.lambda},
-                   {.iterations = request.iterations, .fixed = request.fixed}, progress);
-}
-
-Positions run_laplace_hc(const Surface& surface, const Request& request, Outcome& outcome,
-                         const Progress& progress) {
-    const LaplaceHcParameters parameters{.lambda = request.lambda,
-                                         .alpha = outcome.resolved.real("alpha"),
-                                         .beta = outcome.resolved.real("beta")};
-    if (amplifies(parameters))
-        outcome.warnings.push_back(
-            "Laplace+HC with these values roughens the surface instead of smoothing it: keep "
-            "(1 - beta) * lambda at or below 0.5");
-    return laplace_hc(*surface.topology, surface.points(), parameters,
-                      {.iterations = request.iterations, .fixed = request.fixed}, progress);
-}
-
-Positions run_taubin(const Surface& surface, const Request& request, Outcome& outcome,
-                     const Progress& progress) {
-    TaubinParameters parameters{.lambda = request.lambda,
-                                .mu = outcome.resolved.optional_real("mu")};
-    if (parameters.used_mu() > -parameters.lambda) {
-        std::ostringstream text;
-        text << "smooth: mu = " << parameters.used_mu()
-             << " must be at most -lambda = " << -parameters.lambda
-             << "; mu is negative, -1.02 * lambda when it is left out";
-        throw UsageError(text.str());
-    }
-    outcome.resolved.set("mu", parameters.used_mu());
-    if (amplifies(parameters))
-        outcome.warnings.push_back(
-            "Taubin with these values enlarges the finest bumps: use a smaller lambda (0.5 is "
-            "safe)");
-    return taubin(*surface.topology, surface.points(), parameters,
-                  {.iterations = request.iterations, .fixed = request.fixed}, progress);
-}
-
-Report report_of(const Surface& before, const Surface& after, const Request& request) {
-    double largest = 0.0, sum = 0.0;
-    for (std::size_t v = 0; v < before.vertex_count(); ++v) {
-        const double moved = (after.points()[v] - before.points()[v]).norm();
-        largest = std::max(largest, moved);
-        sum += moved;
-    }
-    const double volume_before = enclosed_volume(before, before.points());
-    const double volume_after = enclosed_volume(after, after.points());
-    return std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{
-        {"volume_before_mm3", volume_before},
-        {"volume_after_mm3", volume_after},
-        {"volume_change_percent", 100.0 * (volume_after - volume_before) / volume_before},
-        {"largest_displacement_mm", largest},
-        {"mean_displacement_mm", sum / static_cast<double>(before.vertex_count())},
-        {"cap_vertices_kept", std::count(request.fixed.begin(), request.fixed.end(), 1)}});
+/// What the run changed.
+void add_changes(Json& report, const Surface& before, const Surface& after) {
+    std::vector<double> moved(before.vertex_count());
+    for (std::size_t v = 0; v < moved.size(); ++v)
+        moved[v] = (after.points()[v] - before.points()[v]).norm();
+    const double volume_before = volume(before), volume_after = volume(after);
+    report["volume_before_mm3"] = volume_before;
+    report["volume_after_mm3"] = volume_after;
+    report["volume_change_percent"] =
+        volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
+    report["vertices_moved"] = std::ranges::count_if(moved, [](double d) { return d > 0.0; });
+    report["largest_displacement_mm"] = moved.empty() ? 0.0 : std::ranges::max(moved);
+    report["mean_displacement_mm"] = mean(moved);
+    report["normal_curvature_before_deg"] = mean(normal_curvature(before));
+    report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }
 
 /// No filter may make the surface pass through itself; what was held back is told.
@@ -124,76 +56,49 @@ void keep_walls_apart(const Surface& surface, Positions& moved, Outcome& outcome
 
 Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
-    const Request request = request_from(surface, arguments);
     Outcome outcome;
     outcome.resolved = arguments;
-    const std::string& filter = arguments.text("filter");
-    Positions moved = filter == "laplace"  ? run_laplace(surface, request, progress)
-                      : filter == "taubin" ? run_taubin(surface, request, outcome, progress)
-                                           : run_laplace_hc(surface, request, outcome, progress);
+    resolve_filter(surface, outcome.resolved);
+    const FilterParameters filter = filter_from(outcome.resolved);
+    if (const std::string warning = filter_warning(filter); !warning.empty())
+        outcome.warnings.push_back(warning);
+    Json report;
+    progress.report(0.0, "looking at the context");
+    const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
+    Positions moved =
+        apply_filter(*surface.topology, context.start, filter,
+                     {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
+                      .weights = context.weights,
+                      .fixed = context.fixed,
+                      .rings = static_cast<int>(outcome.resolved.integer("rings")),
+                      .constraint = context.constraint},
+                     progress.part(0.1, 0.8));
     keep_walls_apart(surface, moved, outcome, progress);
     Surface smoothed = surface.with_positions(std::move(moved));
-    outcome.report = report_of(surface, smoothed, request);
+    if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
+    add_changes(report, surface, smoothed);
+    outcome.report = std::make_shared<Json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(smoothed));
     return outcome;
+}
+
+std::vector<Parameter> parameter_table() {
+    std::vector<Parameter> table = filter_parameter_table();
+    for (Parameter& parameter : context_parameter_table()) table.push_back(std::move(parameter));
+    return table;
 }
 
 }  // namespace
 
 Operation smooth_operation() {
-    using enum ParameterType;
-    return {
-        .name = "smooth",
-        .usual_step = Step::Smoothing,
-        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
-                    Step::Smoothing, Step::Deformation, Step::Remeshing},
-        .summary = "smooth the whole surface; caps, their rims and open boundaries stay",
-        .parameters =
-            {{.name = "filter",
-              .type = Choice,
-              .default_value = "laplace-hc",
-              .help = "laplace shrinks the vessel, laplace-hc hardly does, taubin keeps the "
-                      "volume and smooths most",
-              .choices = {"laplace", "laplace-hc", "taubin"}},
-             {.name = "iterations",
-              .type = Integer,
-              .default_value = std::int64_t{20},
-              .help = "number of passes; more is smoother",
-              .minimum = 0,
-              .maximum = 10000},
-             {.name = "lambda",
-              .unit = "-",
-              .default_value = 0.5,
-              .help = "share of the way to the neighbours' mean that a vertex goes in one pass",
-              .minimum = 0.0,
-              .maximum = 1.0},
-             {.name = "mu",
-              .unit = "-",
-              .help = "taubin only: the inflating step, negative, at most -lambda; -1.02 lambda "
-                      "when left out",
-              .minimum = -2.0,
-              .maximum = 0.0},
-             {.name = "alpha",
-              .unit = "-",
-              .default_value = 0.0,
-              .help = "laplace-hc only: 1 pulls back to the original positions, 0 to those of "
-                      "the last pass",
-              .minimum = 0.0,
-              .maximum = 1.0},
-             {.name = "beta",
-              .unit = "-",
-              .default_value = 0.5,
-              .help = "laplace-hc only: a vertex' own share of the back-correction; the rest "
-                      "comes from its neighbours",
-              .minimum = 0.0,
-              .maximum = 1.0},
-             {.name = "caps",
-              .type = Choice,
-              .default_value = "keep",
-              .help = "keep: vertices of caps and their rims stay bit for bit",
-              .choices = {"keep"}}},
-        .run = &smooth,
-        .thesis = "3.3.4"};
+    return {.name = "smooth",
+            .usual_step = Step::Smoothing,
+            .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                        Step::Smoothing, Step::Deformation, Step::Remeshing},
+            .summary = "smooth the surface, aware of staircases, neighbours and caps",
+            .parameters = parameter_table(),
+            .run = &smooth,
+            .thesis = "3.3.4, 5"};
 }
 
 }  // namespace vesselbench

@@ -10,6 +10,7 @@ std::span<const Operation> operation_table() {
     static const std::vector<Operation> table = {
         load_surface_operation(),
         load_image_operation(),
+        load_neighbour_operation(),
         extract_surface_operation(),
         crop_operation(),
         keep_component_operation(),

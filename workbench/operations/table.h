@@ -14,6 +14,7 @@ namespace vesselbench {
 [[nodiscard]] Operation fill_hole_operation();
 [[nodiscard]] Operation keep_component_operation();
 [[nodiscard]] Operation load_image_operation();
+[[nodiscard]] Operation load_neighbour_operation();
 [[nodiscard]] Operation load_surface_operation();
 [[nodiscard]] Operation print_check_operation();
 [[nodiscard]] Operation remesh_operation();

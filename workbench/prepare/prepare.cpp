@@ -131,6 +131,20 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         throw AlgorithmFailure(error.what());
     } catch (const AlgorithmFailure& error) {
         if (entry.operation == "repair") throw UnusableSource(error.what());
+        if (!entry.otherwise.values().empty()) {
+            RecipeEntry second = entry;
+            second.otherwise = {};
+            std::string changed;
+            for (const auto& [name, value] : entry.otherwise.values()) {
+                second.given.set(name, value);
+                changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
+            }
+            const std::string warning =
+                entry.operation + " with " + changed + " instead: " + error.what();
+            tell("warning: " + warning);
+            const std::string more = apply_entry(session, second, variant, tell, progress);
+            return more.empty() ? warning : warning + "; " + more;
+        }
         if (!entry.optional) throw;
         const std::string warning = entry.operation + " was left out: " + error.what();
         tell("warning: " + warning);

@@ -95,10 +95,8 @@ std::vector<std::string> write_products(PendingFiles& files, const fs::path& fol
                                         const Scene& scene, const std::string& purpose,
                                         const CfdParameters& flow) {
     std::vector<std::string> names = {"surface.vtp", "surface.stl"};
-    if (purpose == "cfd")
-        names.insert(names.end(), {"volume.vtu", "volume.msh", "openfoam"});
-    else
-        names.insert(names.end(), {"print.stl", "print.3mf"});
+    if (purpose == "cfd") names.insert(names.end(), {"volume.vtu", "volume.msh", "openfoam"});
+    if (purpose == "rp") names.insert(names.end(), {"print.stl", "print.3mf"});
     for (const std::string& name : names) export_scene(files, folder / name, scene, flow);
     return names;
 }

@@ -17,9 +17,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kKeys = {"operation", "arguments",     "step",
-                                        "optional",  "unless_closed", "when"};
-const std::vector<std::string> kWords = {"surface", "image", "mask", "cfd", "rp"};
+const std::vector<std::string> kKeys = {"operation",     "arguments", "step", "optional",
+                                        "unless_closed", "otherwise", "when"};
+const std::vector<std::string> kWords = {"surface", "image",    "mask",      "cfd",
+                                         "rp",      "planning", "simulation"};
 
 void refuse_unknown_keys(const Json& entry) {
     for (const auto& [key, value] : entry.items())
@@ -52,6 +53,8 @@ RecipeEntry entry_from_json(const Json& json) {
                       .optional = json.value("optional", false),
                       .unless_closed = json.value("unless_closed", false)};
     if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
+    if (json.contains("otherwise"))
+        entry.otherwise = arguments_from_json(operation, json["otherwise"]);
     if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
     return entry;
 }

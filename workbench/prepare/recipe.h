@@ -18,16 +18,17 @@ struct RecipeEntry {
     std::optional<Step> step;    ///< none: the operation's usual step
     bool optional = false;       ///< what cannot be done becomes a warning instead of the end
     bool unless_closed = false;  ///< left out where the surface has no border by then
+    Arguments otherwise;         ///< replace some of the given ones if they cannot be done
 };
 
 using Recipe = std::vector<RecipeEntry>;
 
 /// What a recipe is used for: each is a word that an entry's "when" may name.
-using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", "cfd" or "rp"
+using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
 
 /// Reads a recipe, a JSON list of
 ///   {"operation": name, "arguments": {parameter: value}, "step": name, "optional": true|false,
-///    "unless_closed": true|false, "when": word or list of words}
+///    "unless_closed": true|false, "otherwise": {parameter: value}, "when": word or list of words}
 /// where everything but "operation" may be left out. An entry is used if each word of its "when" is
 /// in `use`; a word with "no-" before it must not be.
 /// \throw UsageError that names the entry and what is wrong with it

@@ -223,15 +223,19 @@ std::string products(const Json& report) {
     return html + "</ul>\n";
 }
 
+std::string title_of(const std::string& purpose) {
+    if (purpose == "cfd") return "Model for flow simulation";
+    if (purpose == "rp") return "Model for printing";
+    return purpose == "planning" ? "Model for treatment planning" : "Model for surgery simulation";
+}
+
 }  // namespace
 
 std::string report_html(const Json& report, std::span<const ReportPicture> pictures) {
     const std::string input = shown(part_of(part_of(report, "input"), "name"));
-    const bool cfd = report.value("purpose", "") == "cfd";
     std::string html = "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>" + input +
                        "</title><style>" + kStyle + "</style></head><body>\n";
-    html += "<h1>" + input + "</h1>\n<p class=about>" +
-            (cfd ? "Model for flow simulation" : "Model for printing") +
+    html += "<h1>" + input + "</h1>\n<p class=about>" + title_of(report.value("purpose", "")) +
             ", prepared by vesselbench " + shown(part_of(report, "program_version")) + ". " +
             shown(part_of(report, "units_text")) + "</p>\n";
     html += tiles(report) + warnings(report) + gallery(pictures) + steps(report) + quality(report) +

@@ -1,0 +1,185 @@
+#include <cmath>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "smoothing/distance_weights.h"
+#include "tests/support/iso_surface.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+#include "workbench/operation.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+Outcome smooth(const Scene& scene, const Arguments& arguments) {
+    Progress progress;
+    const Operation& operation = find_operation("smooth");
+    return operation.run(scene, checked_arguments(operation, arguments), progress);
+}
+
+Scene scene_of(const Surface& surface) {
+    Scene scene;
+    scene.surface = surface;
+    return scene;
+}
+
+/// A vessel in slices of 2 mm along z, and one that leans on them.
+Scene terraced_vessel() {
+    const auto shape = [](const Vec3& p) {
+        const double z = 2.0 * std::round(p.z() / 2.0);
+        return capsule(Vec3(p.x(), p.y(), z), Vec3(-8, 0, -6), Vec3(8, 0, 6), 4.0);
+    };
+    return scene_of(iso_surface(shape, {Vec3(-14, -6, -12), Vec3(14, 6, 12)}, 0.43));
+}
+
+Positions moved_points(const Scene& scene, const Arguments& arguments) {
+    return smooth(scene, arguments).scene.surface->points();
+}
+
+}  // namespace
+
+SCENARIO("smooth takes the stack axis from the image, or from the user", "[workbench][smooth]") {
+    Scene scene = terraced_vessel();
+    const Arguments given{
+        {"staircase", true}, {"stack_axis", Vec3(0, 0, 2)}, {"filter", "laplace"}};
+    const Outcome by_user = smooth(scene, given);
+    CHECK(by_user.report->at("stack_axis_from") == "argument");
+    CHECK(by_user.report->at("staircase_vertices") > 100);
+    scene.sampling = Sampling{.spacing = Vec3(0.4, 0.4, 2.0), .confidence = 1.0};
+    const Outcome by_image = smooth(scene, {{"staircase", true}, {"filter", "laplace"}});
+    CHECK(by_image.report->at("stack_axis_from") == "image");
+    CHECK(by_image.resolved.point("stack_axis") == Vec3(0, 0, 1));
+    CHECK(by_image.scene.surface->points() == by_user.scene.surface->points());
+    GIVEN("staircases are smoothed, the rest stays") {
+        const double moved = by_user.report->at("vertices_moved");
+        CHECK(moved > 100);
+        CHECK(by_user.report->at("normal_curvature_after_deg") <
+              by_user.report->at("normal_curvature_before_deg"));
+        const Outcome more = smooth(scene, {{"staircase", true}, {"tau_max", 0.5}});
+        CHECK(more.report->at("vertices_moved") < moved);
+    }
+}
+
+SCENARIO("smooth says when the stack axis is uncertain instead of guessing",
+         "[workbench][smooth]") {
+    const Scene sphere = scene_of(icosphere(5.0, 4));
+    CHECK_THROWS_AS(smooth(sphere, {{"staircase", true}}), AlgorithmFailure);
+    CHECK_THROWS_WITH(smooth(sphere, {{"staircase", true}}), Catch::Contains("stack_axis="));
+}
+
+SCENARIO("smooth keeps the distance to neighbours", "[workbench][smooth]") {
+    Scene scene = scene_of(icosphere(5.0, 4));
+    const Surface neighbour = icosphere(3.0, 3, Vec3(9.0, 0, 0));
+    CHECK_THROWS_WITH(smooth(scene, {{"distance", "linear"}}), Catch::Contains("load-neighbour"));
+    scene.neighbours["tumour"] = neighbour;
+    const std::vector<Surface> neighbours = {neighbour};
+    const auto gap = [&](const Positions& points) {
+        const auto distances = neighbour_distances(points, neighbours);
+        return *std::min_element(distances.begin(), distances.end());
+    };
+    const Arguments strong{
+        {"filter", "laplace"}, {"lambda", 1.0}, {"iterations", std::int64_t{30}}};
+    const double before = gap(scene.surface->points());
+    CHECK(gap(moved_points(scene, strong)) > before + 0.2);
+    for (const char* distance : {"linear", "margin", "exponential"}) {
+        Arguments aware = strong;
+        aware.set("distance", std::string(distance));
+        CHECK(gap(moved_points(scene, aware)) == Approx(before).margin(0.02));
+    }
+}
+
+SCENARIO("smooth weighs with a painted attribute, and weights multiply", "[workbench][smooth]") {
+    Scene scene = terraced_vessel();
+    Surface& surface = *scene.surface;
+    CHECK_THROWS_WITH(smooth(scene, {{"painted", "mine"}}), Catch::Contains("'mine'"));
+    std::vector<double> painted(surface.vertex_count());
+    for (std::size_t v = 0; v < painted.size(); ++v)
+        painted[v] = surface.points()[v].x() > 0.0 ? 1.0 : 0.0;
+    surface.attributes["mine"] = std::make_shared<std::vector<double>>(painted);
+    const Positions points = moved_points(
+        scene, {{"painted", "mine"}, {"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}});
+    const Positions all = moved_points(scene, {{"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}});
+    int here = 0, there = 0;
+    for (std::size_t v = 0; v < painted.size(); ++v) {
+        if (surface.points()[v].x() <= 0.0) CHECK(points[v] == surface.points()[v]);
+        if (surface.points()[v].x() > 1.0) here += points[v] != surface.points()[v] ? 1 : 0;
+        if (surface.points()[v].x() < -1.0) there += all[v] != surface.points()[v] ? 1 : 0;
+    }
+    CHECK(here > 50);
+    CHECK(there > 50);
+    painted[3] = 1.5;
+    surface.attributes["mine"] = std::make_shared<std::vector<double>>(painted);
+    CHECK_THROWS_AS(smooth(scene, {{"painted", "mine"}}), InvalidInput);
+}
+
+SCENARIO("smooth keeps, smooths or rounds caps", "[workbench][smooth]") {
+    const Surface tube = fine_tube(3.0, 12.0, 48);
+    const Surface plain =
+        make_surface(tube.points(), {tube.triangles().begin(), tube.triangles().end()});
+    const auto length_after = [&](const Surface& surface, const char* caps, bool find) {
+        const Outcome outcome =
+            smooth(scene_of(surface),
+                   {{"filter", "laplace"}, {"caps", std::string(caps)}, {"find_caps", find}});
+        const Bounds box = bounds(*outcome.scene.surface);
+        return box.max.z() - box.min.z();
+    };
+    CHECK(length_after(tube, "keep", false) == 12.0);  // patches are caps by definition
+    CHECK(length_after(plain, "keep", true) == 12.0);  // others are found
+    CHECK(length_after(tube, "round", true) > 16.0);
+    CHECK(length_after(plain, "round", true) > 16.0);
+    CHECK(length_after(tube, "smooth", true) < 12.5);
+    const Outcome kept = smooth(scene_of(plain), {{"filter", "laplace"}});
+    CHECK(kept.report->at("caps") == 2);
+}
+
+SCENARIO("smooth constrains vertices to the image's voxels", "[workbench][smooth]") {
+    Scene scene = terraced_vessel();
+    CHECK_THROWS_AS(smooth(scene, {{"constraint", "voxel"}}), UsageError);
+    CHECK_THROWS_WITH(smooth(scene, {{"constraint", "voxel"}, {"cell", Vec3(1, 0, 1)}}),
+                      Catch::Contains("cell="));
+    scene.sampling = Sampling{.spacing = Vec3(0.4, 0.4, 2.0), .confidence = 1.0};
+    const Outcome outcome =
+        smooth(scene, {{"constraint", "voxel"}, {"filter", "laplace"}, {"lambda", 1.0}});
+    CHECK(outcome.resolved.point("cell") == Vec3(0.4, 0.4, 2.0));
+    const Positions& before = scene.surface->points();
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const Vec3 moved = (outcome.scene.surface->points()[v] - before[v]).cwiseAbs();
+        CHECK((moved.x() <= 0.2 + 1e-9 && moved.y() <= 0.2 + 1e-9 && moved.z() <= 1.0 + 1e-9));
+    }
+}
+
+SCENARIO("Presets decide what is not given, and a replay decides nothing", "[workbench][smooth]") {
+    const Scene scene = terraced_vessel();
+    const Outcome elongated = smooth(scene, {{"preset", "elongated"}});
+    CHECK(elongated.resolved.text("filter") == "taubin");
+    CHECK(elongated.resolved.real("mu") == Approx(-0.51));
+    const Outcome own = smooth(scene, {{"preset", "elongated"}, {"filter", "laplace"}});
+    CHECK(own.resolved.text("filter") == "laplace");
+    for (const char* filter : {"anisotropic", "curvature-triggered", "mean-curvature-flow"}) {
+        const Outcome first = smooth(scene, {{"filter", std::string(filter)}});
+        const Outcome again = smooth(scene, first.resolved);
+        CHECK(again.resolved == first.resolved);
+        CHECK(again.scene.surface->points() == first.scene.surface->points());
+    }
+}
+
+SCENARIO("smooth refuses nonsense by name", "[workbench][smooth]") {
+    const Scene scene = terraced_vessel();
+    const auto refused = [&](const Arguments& arguments, const char* name) {
+        CHECK_THROWS_WITH(smooth(scene, arguments), Catch::Contains(name));
+    };
+    refused({{"lambda", 2.0}}, "lambda");
+    refused({{"lambda", std::nan("")}}, "lambda");
+    refused({{"iterations", std::int64_t{-1}}}, "iterations");
+    refused({{"tau_max", 0.0}}, "tau_max");
+    refused({{"beta_min", 1.5}}, "beta_min");
+    refused({{"staircase", true}, {"stack_axis", Vec3(0, 0, 0)}}, "stack_axis");
+    refused({{"staircase", true}, {"stack_axis", Vec3(0, std::nan(""), 0)}}, "stack_axis");
+    refused({{"filter", "mean-curvature-flow"}, {"rings", std::int64_t{2}}}, "rings");
+    refused({{"filter", "anisotropic"}, {"curvature", 0.0}}, "curvature");
+}

@@ -1,0 +1,87 @@
+#include <cmath>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/image/extract_surface.h"
+#include "geometry/io/surface_file.h"
+#include "geometry/measure.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+Surface surface_in_file(const Arguments& arguments, Outcome& outcome) {
+    const std::string path = arguments.text("file"), units = arguments.text("units");
+    SurfaceFile file =
+        read_surface(path, units == "auto" ? std::nullopt : std::optional(length_unit_from(units)));
+    outcome.resolved.set("units", to_string(file.unit));
+    if (!file.unit_certain)
+        outcome.warnings.push_back(std::filesystem::path(path).filename().string() +
+                                   ": the unit is not certain (" + file.unit_reason +
+                                   "); give units=mm, cm or m if this is wrong");
+    return std::move(file.surface);
+}
+
+Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
+                          const Progress& progress) {
+    if (!scene.image)
+        throw InvalidInput("load-neighbour: labels need a label map or a mask: use load-image");
+    ExtractionParameters parameters{.method = ExtractionMethod::Labels, .bodies = Bodies::All};
+    for (const double label : arguments.list("labels")) {
+        if (label != std::floor(label) || label < 1.0 || label > 1e6)
+            throw UsageError("load-neighbour: labels are whole numbers from 1 on");
+        parameters.labels.push_back(static_cast<int>(label));
+    }
+    return extract_surface(*scene.image, scene.mask, parameters, progress).surface;
+}
+
+Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    if (arguments.has("file") == arguments.has("labels"))
+        throw UsageError("load-neighbour: give either file= or labels=");
+    const std::string& name = arguments.text("name");
+    if (name.empty()) throw UsageError("load-neighbour: name must not be empty");
+    Outcome outcome{.scene = scene, .resolved = arguments};
+    Surface neighbour = arguments.has("file") ? surface_in_file(arguments, outcome)
+                                              : surface_of_labels(scene, arguments, progress);
+    if (neighbour.empty()) throw InvalidInput("load-neighbour: the surface has no triangles");
+    outcome.report = std::make_shared<nlohmann::ordered_json>(
+        nlohmann::ordered_json{{"name", name},
+                               {"vertices", neighbour.vertex_count()},
+                               {"triangles", neighbour.triangle_count()},
+                               {"volume_mm3", volume(neighbour)}});
+    outcome.scene.neighbours[name] = std::move(neighbour);
+    return outcome;
+}
+
+}  // namespace
+
+Operation load_neighbour_operation() {
+    using enum ParameterType;
+    return {.name = "load-neighbour",
+            .usual_step = Step::Source,
+            .allowed = {Step::Source},
+            .summary = "add a neighbouring structure, whose distance smoothing can keep",
+            .parameters = {{.name = "name",
+                            .type = Text,
+                            .help = "its name; a second one of the same name replaces the first",
+                            .required = true},
+                           {.name = "file", .type = File, .help = "a surface file"},
+                           {.name = "labels",
+                            .type = List,
+                            .help = "labels of the mask or label map instead, as 1,2,3",
+                            .minimum = 1},
+                           {.name = "units",
+                            .type = Choice,
+                            .default_value = std::string("auto"),
+                            .help = "unit of the file's coordinates; auto takes what the file "
+                                    "states, or the unit in which it has the size of a vessel",
+                            .choices = {"auto", "mm", "cm", "m"}}},
+            .run = &load,
+            .isolated = true,
+            .thesis = "5.2"};
+}
+
+}  // namespace vesselbench

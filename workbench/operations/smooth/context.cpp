@@ -1,0 +1,234 @@
+#include "workbench/operations/smooth/context.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "smoothing/cap_rounding.h"
+#include "smoothing/distance_weights.h"
+#include "smoothing/staircase_weights.h"
+#include "smoothing/staircases.h"
+#include "workbench/point_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void multiply(std::vector<double>& weights, const std::vector<double>& by) {
+    if (weights.empty())
+        weights = by;
+    else
+        for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
+}
+
+Vec3 direction_argument(const Arguments& arguments, const std::string& name) {
+    const Vec3 direction = arguments.point(name);
+    if (direction.allFinite() && direction.norm() > 0.0) return direction.normalized();
+    throw UsageError("smooth: " + name + " = " + to_text(direction) +
+                     " has no direction: give three numbers that are not all 0");
+}
+
+/// Where the stack axis comes from: the user, the image, or the surface itself.
+Vec3 stack_axis(const Scene& scene, Arguments& arguments, Json& report) {
+    if (arguments.has("stack_axis")) {
+        report["stack_axis_from"] = "argument";
+        return direction_argument(arguments, "stack_axis");
+    }
+    if (scene.sampling && scene.sampling->confidence > 0.0) {
+        const Vec3 axis = scene.sampling->axes.col(2);
+        report["stack_axis_from"] = "image";
+        arguments.set("stack_axis", axis);
+        return axis;
+    }
+    throw AlgorithmFailure(
+        "the direction of the image stack is uncertain: the surface comes from no image; give "
+        "stack_axis=x,y,z, or staircase=false");
+}
+
+std::vector<double> staircase_part(const Scene& scene, const Surface& surface,
+                                   const std::vector<std::uint8_t>& caps, Arguments& arguments,
+                                   Json& report) {
+    const Vec3 axis = stack_axis(scene, arguments, report);
+    const StaircaseParameters parameters{.tau_theta = arguments.real("tau_theta"),
+                                         .tau_max = arguments.real("tau_max"),
+                                         .beta_min = arguments.real("beta_min"),
+                                         .scaling = arguments.text("weight") == "thesis"
+                                                        ? StaircaseScaling::Thesis
+                                                        : StaircaseScaling::TauMax,
+                                         .caps = caps};
+    const auto change = orientation_change(*surface.topology, surface.points(), axis);
+    auto weights = staircase_weights(*surface.topology, surface.points(), change, parameters);
+    report["stack_axis"] = point_json(axis);
+    report["staircase_vertices"] =
+        std::ranges::count_if(change, [&](double value) { return value > parameters.tau_theta; });
+    return weights;
+}
+
+std::vector<Surface> neighbours_of(const Scene& scene) {
+    std::vector<Surface> neighbours;
+    for (const auto& [name, surface] : scene.neighbours) neighbours.push_back(surface);
+    if (neighbours.empty())
+        throw InvalidInput(
+            "smooth: distance awareness needs a neighbour, and there is none: use load-neighbour");
+    return neighbours;
+}
+
+std::vector<double> distance_part(const Scene& scene, const Surface& surface,
+                                  const Arguments& arguments, Json& report) {
+    const std::string& name = arguments.text("distance");
+    const DistanceParameters parameters{.scaling = name == "margin" ? DistanceScaling::Margin
+                                                   : name == "exponential"
+                                                       ? DistanceScaling::Exponential
+                                                       : DistanceScaling::Linear,
+                                        .margin = arguments.real("margin"),
+                                        .omega = arguments.real("omega")};
+    const auto distances = neighbour_distances(surface.points(), neighbours_of(scene));
+    report["smallest_neighbour_distance_mm"] = std::ranges::min(distances);
+    return distance_weights(distances, parameters);
+}
+
+std::vector<double> painted_part(const Surface& surface, const std::string& name) {
+    const auto attribute = surface.attributes.find(name);
+    if (attribute == surface.attributes.end())
+        throw InvalidInput("smooth: the surface has no attribute '" + name + "' to weigh with");
+    for (const double weight : *attribute->second)
+        if (!(weight >= 0.0 && weight <= 1.0))
+            throw InvalidInput("smooth: the attribute '" + name +
+                               "' holds values outside of [0, 1]");
+    return *attribute->second;
+}
+
+std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments& arguments) {
+    const std::string& cell = arguments.text("constraint");
+    if (cell == "none") return std::nullopt;
+    PositionConstraint constraint;
+    constraint.cell =
+        cell == "voxel" ? PositionConstraint::Cell::Voxel : PositionConstraint::Cell::Diamond;
+    if (scene.sampling) {
+        constraint.axes = scene.sampling->axes;
+        constraint.size = scene.sampling->spacing;
+    }
+    if (arguments.has("cell")) constraint.size = arguments.point("cell");
+    const bool positive = constraint.size.allFinite() && constraint.size.minCoeff() > 0.0;
+    if (!positive || (!scene.sampling && !arguments.has("cell")))
+        throw UsageError("smooth: constraint=" + cell +
+                         " needs the voxels' size: give cell=x,y,z in mm, each above 0");
+    arguments.set("cell", constraint.size);
+    return constraint;
+}
+
+/// Caps as far as the arguments ask for them.
+std::vector<Cap> caps_of(const Surface& surface, const Arguments& arguments) {
+    if (arguments.text("caps") == "smooth") return {};
+    std::vector<Cap> caps = find_caps(surface);
+    if (!arguments.flag("find_caps"))
+        std::erase_if(caps, [](const Cap& c) { return !c.from_patch; });
+    return caps;
+}
+
+}  // namespace
+
+std::vector<Parameter> context_parameter_table() {
+    using enum ParameterType;
+    return {{.name = "constraint",
+             .type = Choice,
+             .default_value = std::string("none"),
+             .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, around "
+                     "its place at the start",
+             .choices = {"none", "voxel", "diamond"}},
+            {.name = "cell",
+             .type = Point,
+             .unit = "mm",
+             .help = "size of the voxels of constraint along the image's axes; the image's own "
+                     "when left out"},
+            {.name = "staircase",
+             .type = Flag,
+             .default_value = false,
+             .help = "smooth staircases of the image's slices only, and fade out around them"},
+            {.name = "stack_axis",
+             .type = Point,
+             .help = "direction across the image's slices; known from the image, or estimated "
+                     "from the surface, when left out"},
+            {.name = "tau_theta",
+             .unit = "-",
+             .default_value = 0.7,
+             .help = "how sharply a surface must bend across the slices to be a staircase: 1 is a "
+                     "right angle; smaller finds smoother staircases",
+             .minimum = 0.0,
+             .maximum = 1.0},
+            {.name = "tau_max",
+             .unit = "mm",
+             .default_value = 3.0,
+             .help = "how far around staircases the smoothing fades out; about a slice distance",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "beta_min",
+             .unit = "-",
+             .help = "weight of everything that is no staircase; 0 without a preset",
+             .minimum = 0.0,
+             .maximum = 1.0},
+            {.name = "weight",
+             .type = Choice,
+             .default_value = std::string("tau-max"),
+             .help = "what distances to staircases are divided by: tau-max, or the largest of "
+                     "them as the thesis prints it",
+             .choices = {"tau-max", "thesis"}},
+            {.name = "distance",
+             .type = Choice,
+             .default_value = std::string("none"),
+             .help = "keep what is near neighbouring structures: weights grow with the distance, "
+                     "beyond a margin, or exponentially",
+             .choices = {"none", "linear", "margin", "exponential"}},
+            {.name = "margin",
+             .unit = "mm",
+             .default_value = 2.0,
+             .help = "distance=margin only: within it nothing moves",
+             .minimum = 0.0},
+            {.name = "omega",
+             .unit = "1/mm",
+             .default_value = 0.06,
+             .help = "distance=exponential only: larger keeps more",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "painted",
+             .type = Text,
+             .help = "name of a vertex attribute in [0, 1] that multiplies the weights"},
+            {.name = "caps",
+             .type = Choice,
+             .default_value = std::string("keep"),
+             .help = "keep: vertices of caps and their rims stay bit for bit; smooth: caps are "
+                     "wall; round: caps become domes",
+             .choices = {"keep", "smooth", "round"}},
+            {.name = "find_caps",
+             .type = Flag,
+             .default_value = true,
+             .help = "look for flat ends that are no openings yet, too; false: openings only"}};
+}
+
+SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Json& report) {
+    const Surface& surface = surface_of(scene);
+    SmoothingContext context;
+    context.constraint = constraint_part(scene, arguments);
+    const std::vector<Cap> caps = caps_of(surface, arguments);
+    const std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
+    const bool round = arguments.text("caps") == "round";
+    context.start = round ? rounded_caps(surface, caps) : surface.points();
+    context.fixed = round ? std::vector<std::uint8_t>() : on_caps;
+    report["caps"] = caps.size();
+    report["cap_vertices_kept"] = round ? 0 : std::ranges::count(on_caps, 1);
+    if (arguments.flag("staircase"))
+        multiply(context.weights, staircase_part(scene, surface, on_caps, arguments, report));
+    if (arguments.text("distance") != "none")
+        multiply(context.weights, distance_part(scene, surface, arguments, report));
+    if (const auto painted = arguments.optional_text("painted"))
+        multiply(context.weights, painted_part(surface, *painted));
+    if (round && !context.weights.empty())
+        for (std::size_t v = 0; v < on_caps.size(); ++v)
+            if (on_caps[v] != 0) context.weights[v] = 1.0;
+    return context;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "smoothing/caps.h"
+#include "smoothing/position_constraint.h"
+#include "workbench/operation.h"
+
+namespace vesselbench {
+
+/// Parameters of `smooth` that make it aware of its context.
+[[nodiscard]] std::vector<Parameter> context_parameter_table();
+
+/// What the context says about a surface before it is smoothed.
+struct SmoothingContext {
+    Positions start;                  ///< the surface's, or with domed caps (caps=round)
+    std::vector<double> weights;      ///< product of all weights, #V; empty: 1 everywhere
+    std::vector<std::uint8_t> fixed;  ///< caps that are kept, #V
+    std::optional<PositionConstraint> constraint;
+};
+
+/// Works out weights, fixed vertices and constraint, and fills in what it decided (stack_axis,
+/// cell).
+/// \param report what was found is added here
+/// \throw UsageError if arguments do not go together; InvalidInput if the scene lacks what they
+/// name; AlgorithmFailure if the stack orientation is uncertain
+[[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments,
+                                                 nlohmann::ordered_json& report);
+
+}  // namespace vesselbench

@@ -1,0 +1,162 @@
+#include "workbench/operations/smooth/filter_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "geometry/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// What stands for arguments that are not given.
+struct Preset {
+    const char* name;
+    const char* filter;
+    std::int64_t iterations;
+    double lambda;
+    double beta_min;  ///< with staircase awareness
+};
+
+/// Laplace+HC and LowPass (Taubin) are what Bade et al. found fit for anatomy, by shape (thesis
+/// 3.3.4); how much, follows from Table 2.1: small features and spatial relations ask for little,
+/// smoothness alone for much.
+constexpr std::array kPresets = {
+    Preset{"none", "laplace-hc", 20, 0.5, 0.0},     Preset{"compact", "laplace-hc", 30, 0.5, 0.1},
+    Preset{"flat", "laplace-hc", 10, 0.5, 0.1},     Preset{"elongated", "taubin", 20, 0.5, 0.1},
+    Preset{"planning", "laplace-hc", 20, 0.5, 0.1}, Preset{"simulation", "taubin", 40, 0.5, 0.5},
+    Preset{"cfd", "laplace-hc", 20, 0.5, 0.2},      Preset{"rp", "laplace-hc", 20, 0.5, 0.2},
+};
+
+const Preset& preset_of(const Arguments& arguments) {
+    const std::string& name = arguments.text("preset");
+    return *std::ranges::find_if(kPresets, [&](const Preset& p) { return name == p.name; });
+}
+
+void set_default(Arguments& arguments, const std::string& name, Value value) {
+    if (!arguments.has(name)) arguments.set(name, std::move(value));
+}
+
+void check_mu(const Arguments& arguments) {
+    const double lambda = arguments.real("lambda"), mu = arguments.real("mu");
+    if (mu <= -lambda) return;
+    std::ostringstream text;
+    text << "smooth: mu = " << mu << " must be at most -lambda = " << -lambda
+         << "; mu is negative, -1.02 * lambda when it is left out";
+    throw UsageError(text.str());
+}
+
+}  // namespace
+
+std::vector<Parameter> filter_parameter_table() {
+    using enum ParameterType;
+    std::vector<std::string> presets;
+    for (const Preset& preset : kPresets) presets.push_back(preset.name);
+    return {{.name = "preset",
+             .type = Choice,
+             .default_value = std::string("none"),
+             .help = "values for what is not given: by the shape (compact organs, flat muscles, "
+                     "elongated vessels) or by the use of the model",
+             .choices = presets},
+            {.name = "filter",
+             .type = Choice,
+             .help = "laplace shrinks the vessel, laplace-hc (the default without a preset) hardly "
+                     "does, taubin keeps the volume; mean-curvature-flow does not slide along the "
+                     "surface; anisotropic keeps sharp edges; curvature-triggered starts at them",
+             .choices = {"laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic",
+                         "curvature-triggered"}},
+            {.name = "iterations",
+             .type = Integer,
+             .help = "number of passes, 20 without a preset; more is smoother",
+             .minimum = 0,
+             .maximum = 10000},
+            {.name = "lambda",
+             .unit = "-",
+             .help = "share of the way to the neighbours' mean that a vertex goes in one pass; 0.5 "
+                     "when left out",
+             .minimum = 0.0,
+             .maximum = 1.0},
+            {.name = "mu",
+             .unit = "-",
+             .help = "taubin only: the inflating step, negative, at most -lambda; -1.02 lambda "
+                     "when left out",
+             .minimum = -2.0,
+             .maximum = 0.0},
+            {.name = "alpha",
+             .unit = "-",
+             .default_value = 0.0,
+             .help = "laplace-hc only: 1 pulls back to the original positions, 0 to those of "
+                     "the last pass",
+             .minimum = 0.0,
+             .maximum = 1.0},
+            {.name = "beta",
+             .unit = "-",
+             .default_value = 0.5,
+             .help = "laplace-hc only: a vertex' own share of the back-correction; the rest "
+                     "comes from its neighbours",
+             .minimum = 0.0,
+             .maximum = 1.0},
+            {.name = "curvature",
+             .unit = "1/mm",
+             .help = "anisotropic: from which principal curvature an edge is kept; "
+                     "curvature-triggered: from which mean curvature a vertex starts; a share of "
+                     "one over the mean edge when left out",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "rings",
+             .type = Integer,
+             .default_value = std::int64_t{1},
+             .help = "rings of neighbours that are averaged; 2 is less sensitive to small features",
+             .minimum = 1,
+             .maximum = 2}};
+}
+
+void resolve_filter(const Surface& surface, Arguments& arguments) {
+    const Preset& preset = preset_of(arguments);
+    set_default(arguments, "filter", std::string(preset.filter));
+    set_default(arguments, "iterations", preset.iterations);
+    set_default(arguments, "lambda", preset.lambda);
+    set_default(arguments, "beta_min", preset.beta_min);
+    const std::string& filter = arguments.text("filter");
+    if (filter == "taubin") {
+        set_default(arguments, "mu", -1.02 * arguments.real("lambda"));
+        check_mu(arguments);
+    }
+    if (filter == "anisotropic")
+        set_default(arguments, "curvature",
+                    default_feature_curvature(*surface.topology, surface.points()));
+    if (filter == "curvature-triggered")
+        set_default(arguments, "curvature",
+                    default_trigger_curvature(*surface.topology, surface.points()));
+    const bool by_edges = filter == "mean-curvature-flow" || filter == "anisotropic";
+    if (by_edges && arguments.integer("rings") != 1)
+        throw UsageError("smooth: rings = 2 does not go with filter=" + filter +
+                         ", whose weights belong to edges");
+}
+
+FilterParameters filter_from(const Arguments& resolved) {
+    const double lambda = resolved.real("lambda");
+    const std::string& filter = resolved.text("filter");
+    if (filter == "laplace") return LaplaceParameters{lambda};
+    if (filter == "taubin") return TaubinParameters{lambda, resolved.real("mu")};
+    if (filter == "mean-curvature-flow") return MeanCurvatureFlowParameters{lambda};
+    if (filter == "anisotropic") return AnisotropicParameters{lambda, resolved.real("curvature")};
+    if (filter == "curvature-triggered")
+        return CurvatureTriggeredParameters{lambda, resolved.real("curvature")};
+    return LaplaceHcParameters{lambda, resolved.real("alpha"), resolved.real("beta")};
+}
+
+std::string filter_warning(const FilterParameters& filter) {
+    const auto* hc = std::get_if<LaplaceHcParameters>(&filter);
+    if (hc != nullptr && amplifies(*hc))
+        return "Laplace+HC with these values roughens the surface instead of smoothing it: keep "
+               "(1 - beta) * lambda at or below 0.5";
+    const auto* taubin = std::get_if<TaubinParameters>(&filter);
+    if (taubin != nullptr && amplifies(*taubin))
+        return "Taubin with these values enlarges the finest bumps: use a smaller lambda (0.5 is "
+               "safe)";
+    return "";
+}
+
+}  // namespace vesselbench
