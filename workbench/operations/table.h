@@ -5,8 +5,12 @@
 namespace vesselbench {
 
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
-// ...). An operation is registered by its line here and its line in table.cpp.
+// ...; the brushes share brush.cpp). An operation is registered by its line here and its line in
+// table.cpp.
 
+[[nodiscard]] Operation brush_inflate_operation();
+[[nodiscard]] Operation brush_smooth_operation();
+[[nodiscard]] Operation brush_weight_operation();
 [[nodiscard]] Operation clip_opening_operation();
 [[nodiscard]] Operation crop_operation();
 [[nodiscard]] Operation extract_surface_operation();
