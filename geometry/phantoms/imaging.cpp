@@ -166,8 +166,11 @@ Image phantom_mask(const PhantomDescription& description, const PhantomField& fi
         const int drawn = std::min(k / step * step + step / 2, mask.size[2] - 1);
         if (deleted(imaging.deletions, i, j, drawn)) return 0.0F;
         const Vec3 p = mask.to_patient(Vec3(i, j, drawn));
-        const double offset = imaging.mask_jitter * normal_noise(description.seed ^ kContourSeed,
-                                                                 static_cast<std::uint64_t>(drawn));
+        const double offset =
+            imaging.mask_jitter > 0.0
+                ? imaging.mask_jitter * normal_noise(description.seed ^ kContourSeed,
+                                                     static_cast<std::uint64_t>(drawn))
+                : 0.0;
         if (field(p) > offset) return 0.0F;
         for (const KeptApart& apart : imaging.kept_apart)
             if (between(apart, description.parts, field, p)) return 0.0F;
