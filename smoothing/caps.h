@@ -11,8 +11,9 @@ namespace vesselbench {
 struct Cap {
     std::vector<TriangleId> triangles;  ///< ascending
     std::vector<VertexId> vertices;     ///< of the triangles, the rim's included, ascending
-    Vec3 normal = Vec3::Zero();         ///< unit mean normal, outward
-    bool from_patch = false;            ///< a patch other than the wall, and so a cap by definition
+    std::vector<VertexId> rim;   ///< vertices with a triangle beyond, or on a boundary, ascending
+    Vec3 normal = Vec3::Zero();  ///< unit mean normal, outward
+    bool from_patch = false;     ///< a patch other than the wall, and so a cap by definition
 };
 
 /// Parameters of the cap detection (thesis 5.3.4).
@@ -23,13 +24,16 @@ struct CapParameters {
 
 /// Finds the caps of a surface, whatever their orientation: flat areas, grown up to the edges
 /// around them, beyond which the surface goes to one side all around (thesis Algorithm 1); where it
-/// goes up in some places and down in others, the area is the tread of a staircase. Two conditions
-/// are added to the algorithm, which would otherwise take gentle swellings for caps: the area is
-/// plane, and the surface beyond turns away from it by 45 degrees or more within a few rings
-/// nearly all around.
-/// The plateau that a coarse segmentation leaves on top of a compact organ is a cap by this rule.
-/// Patches other than the wall are caps by definition.
-/// The same caps on any number of threads, in the order of their first triangles.
+/// goes up in some places and down in others, the area is the tread of a staircase. Patches other
+/// than the wall are caps by definition and are not searched.
+/// Three conditions are added to the algorithm, which would otherwise take gentle swellings and the
+/// facets of a voxel mask for caps: the area is plane; it is not much longer than wide; and nearly
+/// all around the surface drops by 45 degrees or more, seen from the rim, between a few rings and
+/// two inner radii of the area farther on, so that a single voxel's step does not count.
+/// A plane side of a box is a cap by this rule, and so is the topmost slice of a mask, where slices
+/// are thick or the part is round within a few voxels. Areas without a border, or with one that is
+/// all open, are no caps.
+/// \return the same caps on any number of threads, in the order of their first triangles
 /// \throw InvalidInput if a parameter is out of range
 [[nodiscard]] std::vector<Cap> find_caps(const Surface& surface,
                                          const CapParameters& parameters = {});
