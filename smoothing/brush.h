@@ -53,7 +53,8 @@ struct BrushSettings {
 class BrushStroke {
 public:
     /// \param places of the surface's start, when they are known already; made if null
-    /// \throw InvalidInput if the surface is empty, or the settings are out of their ranges
+    /// \throw InvalidInput if the surface is empty or a position is not finite, or the settings are
+    ///        out of their ranges
     BrushStroke(Surface surface, BrushSettings settings,
                 std::shared_ptr<const SurfaceDistance> places = nullptr);
 

@@ -51,7 +51,9 @@ double unfolded_distance(const Edge& edge, double ij, double ik) {
 GeodesicNeighbourhood::GeodesicNeighbourhood(const Topology& topology)
     : topology_(topology),
       distance_(topology.vertex_count(), 0.0),
-      stamp_(topology.vertex_count(), 0) {}
+      stamp_(topology.vertex_count(), 0) {
+    (void)topology.triangles_at();  // made here, lest the first search waits for it
+}
 
 void GeodesicNeighbourhood::begin() {
     if (++now_ == 0) {  // the counter went round
