@@ -13,17 +13,18 @@ namespace vesselbench::detail {
 
 namespace {
 
-constexpr double kFineRadius = 0.02;       // of the density that shows sharp peaks [-]
-constexpr std::size_t kPeaks = 32;         // a mask's surface has 13 normals, and some rare ones
-constexpr double kApart = 2.5;             // of two peaks [deg]; voxels 1:12 have some 5 apart
-constexpr double kPeakWidth = 1.0;         // [deg]
-constexpr double kRingFrom = 2.0;          // [deg]
-constexpr double kRingTo = 6.0;            // [deg]
-constexpr double kMedianWidth = 2.0;       // of the normals that the median is taken of [deg]
-constexpr double kRightAngle = 1.0;        // by which two lattice axes may miss 90 degrees [deg]
-constexpr double kFitsLattice = 2.0;       // of a face's normal from one of the lattice's [deg]
-constexpr double kShareOnLattice = 0.95;   // of the faces, at least; masks' surfaces have 0.99
-constexpr double kFewestFlatFaces = 30.0;  // along each lattice axis
+constexpr double kFineRadius = 0.02;      // of the density that shows sharp peaks [-]
+constexpr std::size_t kPeaks = 32;        // a mask's surface has 13 normals, and some rare ones
+constexpr double kApart = 2.5;            // of two peaks [deg]; voxels 1:12 have some 5 apart
+constexpr double kPeakWidth = 1.0;        // [deg]
+constexpr double kRingFrom = 2.0;         // [deg]
+constexpr double kRingTo = 6.0;           // [deg]
+constexpr double kMedianWidth = 2.0;      // of the normals that the median is taken of [deg]
+constexpr double kRightAngle = 1.0;       // by which two lattice axes may miss 90 degrees [deg]
+constexpr double kFitsLattice = 2.0;      // of a face's normal from one of the lattice's [deg]
+constexpr double kShareOnLattice = 0.95;  // of the faces, at least; masks' surfaces have 0.99
+constexpr double kFewestFlatFaces = 8.0;  // along each lattice axis
+constexpr double kShareOblique = 0.01;  // of the faces, oblique to the long edge; prisms have none
 
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
@@ -100,14 +101,24 @@ double share_along(const FaceNormals& faces, const std::vector<Vec3>& directions
     return static_cast<double>(fitting) / static_cast<double>(faces.normals.size());
 }
 
-VoxelLattice lattice_of(const FaceNormals& faces, const std::array<const NormalPeak*, 3>& peaks) {
+/// Nothing where no face is oblique to the long edge, as on prisms with few sides.
+std::optional<VoxelLattice> lattice_of(const FaceNormals& faces,
+                                       const std::array<const NormalPeak*, 3>& peaks) {
     // Flat faces have half the product of the other two edges: edges go as 1 / area.
     const std::array<Vec3, 3> axes = {peaks[0]->axis, peaks[1]->axis, peaks[2]->axis};
     const Vec3 edges(1.0 / peaks[0]->area, 1.0 / peaks[1]->area, 1.0 / peaks[2]->area);
     std::array<int, 3> order = {0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return edges[a] > edges[b]; });
-    return {axes[static_cast<std::size_t>(order[0])], edges[order[1]] / edges[order[0]],
-            share_along(faces, lattice_normals(axes, edges), kFitsLattice)};
+    const Vec3& long_axis = axes[static_cast<std::size_t>(order[0])];
+    const std::vector<Vec3> normals = lattice_normals(axes, edges);
+    std::vector<Vec3> oblique;
+    for (const Vec3& n : normals) {
+        const double along = std::abs(n.dot(long_axis));  // 0.71 at most, but for the axis itself
+        if (along > std::sin(radians(kRightAngle)) && along < 0.9) oblique.push_back(n);
+    }
+    if (share_along(faces, oblique, 0.5 * kFitsLattice) < kShareOblique) return {};
+    return VoxelLattice{long_axis, edges[order[1]] / edges[order[0]],
+                        share_along(faces, normals, kFitsLattice)};
 }
 
 bool orthogonal(const NormalPeak& a, const NormalPeak& b) {
@@ -182,8 +193,8 @@ std::optional<VoxelLattice> voxel_lattice(const FaceNormals& faces,
             if (!orthogonal(*flat[a], *flat[b])) continue;
             for (std::size_t c = b + 1; c < flat.size(); ++c) {
                 if (!orthogonal(*flat[a], *flat[c]) || !orthogonal(*flat[b], *flat[c])) continue;
-                const VoxelLattice lattice = lattice_of(faces, {flat[a], flat[b], flat[c]});
-                if (!best || lattice.share > best->share) best = lattice;
+                const auto lattice = lattice_of(faces, {flat[a], flat[b], flat[c]});
+                if (lattice && (!best || lattice->share > best->share)) best = lattice;
             }
         }
     return best && best->share >= kShareOnLattice ? best : std::nullopt;

@@ -277,6 +277,23 @@ SCENARIO("Masks tell the axis of their longest voxel edge, and none of cubic vox
     }
 }
 
+SCENARIO("A vessel along the slices' axis shows it by its two ends",
+         "[smoothing][stack orientation]") {
+    const std::vector<PhantomPart> tube = {
+        {"tube", VesselShape{{Vec3(0, 0, -18), Vec3(0, 0, 18)}, {2.2, 2.2}}, 0.0}};
+    const Surface surface = of_mask(described(tube, Vec3(0.7, 0.7, 1.4)));
+    REQUIRE(share_of_flat_faces(surface) < 0.05);
+    const auto found = estimate_stack_orientation(turned(surface, skew_rotation()));
+    CHECK(found.certain);
+    CHECK(degrees_between(found.direction, skew_rotation().col(2)) < 1e-3);
+    THEN("a prism, whose few normals could be those of voxels, does not") {
+        for (const double length : {2.0, 20.0}) {
+            const Surface prism = closed_tube(3.0, length, 8, 30);
+            CHECK_FALSE(estimate_stack_orientation(*prism.topology, prism.points()).certain);
+        }
+    }
+}
+
 SCENARIO("Flat closures are no trace of slices", "[smoothing][stack orientation]") {
     const Surface tube = fine_tube(3.0, 12.0, 96);
     // Without the patches they cannot be told from a removed slice.
