@@ -10,11 +10,9 @@
 #include "geometry/errors.h"
 #include "geometry/image/iso_surface.h"
 #include "geometry/phantoms/phantom.h"
-#include "smoothing/cap_rounding.h"
 #include "smoothing/laplace.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -223,24 +221,4 @@ SCENARIO("Cap detection takes any surface", "[smoothing][caps]") {
     CHECK(find_caps(odd, {.smallest_faces = 1}).size() < 5);
     CHECK_THROWS_WITH(find_caps(odd, {.smallest_faces = 0}), Catch::Contains("smallest_faces"));
     CHECK_THROWS_WITH(find_caps(odd, {.flat_angle_deg = -1.0}), Catch::Contains("flat_angle_deg"));
-}
-
-SCENARIO("Rounded caps are domes on the wall, which stays", "[smoothing][caps]") {
-    const Surface tube = fine_tube(3.0, 12.0, 48);
-    const auto caps = find_caps(tube);
-    const Surface domed = tube.with_positions(rounded_caps(tube, caps));
-    const auto flags = cap_vertices(caps, tube.vertex_count());
-    double highest = 0.0;
-    for (std::size_t v = 0; v < flags.size(); ++v) {
-        const Vec3 &before = tube.points()[v], &after = domed.points()[v];
-        if (flags[v] == 0) CHECK(after == before);
-        const double z = after.z() < 6.0 ? -after.z() : after.z() - 12.0;
-        if (flags[v] != 0)  // a half ball on each end
-            CHECK(std::hypot(std::hypot(after.x(), after.y()), z) == Approx(3.0).epsilon(0.02));
-        highest = std::max(highest, z);
-    }
-    CHECK(highest == Approx(3.0).epsilon(0.01));
-    CHECK(enclosed_volume(domed) ==
-          Approx(M_PI * 9.0 * 12.0 + 4.0 / 3.0 * M_PI * 27.0).epsilon(0.02));
-    CHECK(rounded_caps(tube, {}) == tube.points());
 }
