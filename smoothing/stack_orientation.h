@@ -21,17 +21,19 @@ struct StackOrientationParameters {
 /// Estimates the stack axis from the normals of the faces: staircases and plateaus make many of
 /// them parallel to it. Thesis 5.3.1 finds clusters of the normals (density within the radius,
 /// threshold midway between mean and maximum) and takes the one with the most flat faces around it.
-/// That alone always names some axis; here it must also stand out, and is uncertain if it does not:
+/// That names an axis on any surface, a sphere's too, and on masks often a wrong one. It is what an
+/// uncertain result has for its direction; a certain one needs evidence that it does not ask for:
 /// - Surfaces with interpolated vertices: the axis is a sharp peak of the normals, beyond what the
-///   shape around it gives, of some share of the faces, and no other peak comes near it. A single
-///   plane cut (a flat end that is no staircase) has such a peak too: leave such faces out.
+///   shape around it gives, of some share of the faces, and no other peak comes near it. Any single
+///   plane makes such a peak (a flat end that is no trace of slices): leave such faces out.
 /// - Surfaces of labels or masks have a few normals only, and flat faces along all voxel axes.
 /// Their
-///   faces tell the ratios of the voxel's edges; the stack axis is the one of the longest edge.
-/// Uncertain, too, are surfaces without staircases and those of cubic voxels, which have no stack
-/// axis to be found. The direction is the median of the peak's normals, each face counting once.
-/// Faces without a normal (degenerate, not finite) do not count; without any faces the result is
-/// uncertain and along z. The same bits on any number of threads.
+///   faces tell the ratios of the voxel's edges; the stack axis is the one of the longest edge, if
+///   it is a quarter longer than the others.
+/// Uncertain, too, are surfaces without staircases, smoothed or noisy ones of masks, and those of
+/// cubic voxels, which have no stack axis to be found. The direction is the median of the peak's
+/// normals, each face counting once. Faces without a normal (degenerate, not finite) do not count;
+/// without any faces the result is uncertain and along z. The same bits on any number of threads.
 /// \throw InvalidInput if radius is not in [0.02, 0.5] or theta_limit not in (0, 1]
 [[nodiscard]] StackOrientation estimate_stack_orientation(
     const Topology& topology, const Positions& positions,

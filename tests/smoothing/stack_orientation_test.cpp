@@ -13,112 +13,14 @@
 #include "geometry/errors.h"
 #include "geometry/image/extract_surface.h"
 #include "geometry/io/image_file.h"
-#include "geometry/phantoms/phantom.h"
-#include "geometry/phantoms/random.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stack_phantoms.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
-
-// ---- Phantoms of Table 5.6 and Table 5.7. Chosen before the estimator was tuned; not to be tuned
-// to it. Lengths [mm].
-
-constexpr double kSlices = 3.0;
-constexpr double kBlur = 0.6;
-
-/// A carotid artery: trunk 8 mm wide, branches of 6 and 4.4 mm.
-const std::vector<PhantomPart> kVessel = {
-    {"trunk", VesselShape{{Vec3(0, 0, -40), Vec3(2, 1, -15), Vec3(0, 0, 0)}, {4, 4, 4}}, 0.0},
-    {"wide", VesselShape{{Vec3(0, 0, 0), Vec3(-8, 3, 15), Vec3(-9, 5, 40)}, {3.5, 3, 3}}, 1.5},
-    {"narrow", VesselShape{{Vec3(0, 0, 0), Vec3(7, -4, 14), Vec3(11, -7, 38)}, {3, 2.2, 2.2}},
-     1.5}};
-
-/// A strap of muscle 25 x 8 mm and 130 mm long, oblique as the sternocleidomastoid is.
-const std::vector<PhantomPart> kMuscle = {
-    {"a", VesselShape{{Vec3(-24, -12, -55), Vec3(-4, 2, 0), Vec3(12, 20, 55)}, {3, 4, 3}}, 0.0},
-    {"b", VesselShape{{Vec3(-20, -9, -55), Vec3(1, 6, 0), Vec3(16, 23, 55)}, {3, 4.5, 3}}, 4.0},
-    {"c", VesselShape{{Vec3(-16, -6, -55), Vec3(6, 10, 0), Vec3(20, 26, 55)}, {3, 4.5, 3}}, 4.0},
-    {"d", VesselShape{{Vec3(-12, -3, -55), Vec3(11, 14, 0), Vec3(24, 29, 55)}, {3, 4, 3}}, 4.0}};
-
-/// A compact organ with two lobes.
-const std::vector<PhantomPart> kLiver = {{"right", SphereShape{Vec3(-22, 0, 0), 38}, 0.0},
-                                         {"below", SphereShape{Vec3(-30, 6, -25), 27}, 20.0},
-                                         {"middle", SphereShape{Vec3(14, -4, 12), 26}, 20.0},
-                                         {"left", SphereShape{Vec3(44, -9, 18), 17}, 20.0}};
-
-const Vec3 kVesselVoxel(0.7, 0.7, kSlices), kMuscleVoxel(0.9, 0.9, kSlices),
-    kLiverVoxel(1.6, 1.6, kSlices);
-
-/// Sphere number n of Table 5.7.
-struct CutSphere {
-    PhantomDescription description;
-    double share = 0.0;  ///< of the topmost slice that is removed
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-};
-
-constexpr std::array<double, 5> kRemovedShares = {1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0};
-
-Eigen::Matrix3d random_rotation(std::uint64_t seed) {
-    const Eigen::Vector4d q(normal_noise(seed, 0), normal_noise(seed, 1), normal_noise(seed, 2),
-                            normal_noise(seed, 3));
-    return Eigen::Quaterniond(q.normalized()).toRotationMatrix();
-}
-
-/// Ball of a random radius at a random place among the voxels. Grids are centred on the phantom's
-/// box: a speck that no voxel sees shifts the box.
-PhantomDescription random_sphere(std::uint64_t seed, const Vec3& spacing) {
-    const double radius = 13.0 + 11.0 * uniform_noise(seed, 10);
-    Vec3 speck(radius + 0.5, radius + 0.5, radius + 0.5);
-    for (int a = 0; a < 3; ++a)
-        speck[a] += 2.0 * spacing[a] * uniform_noise(seed, 11 + static_cast<std::uint64_t>(a));
-    PhantomDescription d;
-    d.parts = {{"sphere", SphereShape{Vec3::Zero(), radius}, 0.0},
-               {"speck", SphereShape{speck, 1e-3}, 0.0}};
-    d.imaging.spacing = spacing;
-    d.imaging.blur = 0.5 * std::floor(3.0 * uniform_noise(seed, 14));  // 0, 0.5 or 1 mm
-    return d;
-}
-
-CutSphere cut_sphere(std::uint64_t seed) {
-    CutSphere cut;
-    cut.description = random_sphere(seed, Vec3(1, 1, kSlices));
-    cut.share = kRemovedShares[static_cast<std::size_t>(5.0 * uniform_noise(seed, 20))];
-    cut.rotation = random_rotation(seed);
-    const PhantomField field(cut.description.parts);
-    const Image whole = phantom_mask(cut.description, field);
-    int top = 0;
-    for (int k = 0; k < whole.size[2]; ++k)
-        for (std::size_t i = 0, o = whole.offset(0, 0, k); i < whole.offset(0, 0, 1); ++i)
-            if ((*whole.voxels)[o + i] > 0.0F) top = k;
-    // The disc of the topmost slice, and a rectangle with about the share of it.
-    int count = 0;
-    for (std::size_t i = 0, o = whole.offset(0, 0, top); i < whole.offset(0, 0, 1); ++i)
-        count += (*whole.voxels)[o + i] > 0.0F ? 1 : 0;
-    const double disc = std::sqrt(count / std::numbers::pi);
-    const Vec3 centre = whole.to_index(Vec3::Zero());
-    const double width = cut.share >= 0.25 ? disc : disc * std::sqrt(cut.share * std::numbers::pi);
-    const int i0 = static_cast<int>(std::lround(cut.share == 1.0 ? 0.0 : centre.x())),
-              j0 = static_cast<int>(std::lround(cut.share >= 0.5 ? 0.0 : centre.y())),
-              reach = static_cast<int>(std::lround(width));
-    const auto last = [&](int from, int axis) {
-        const int end = whole.size[static_cast<std::size_t>(axis)] - 1;
-        return cut.share >= 0.5 ? end : std::min(from + std::max(reach, 1) - 1, end);
-    };
-    cut.description.imaging.deletions = {
-        {{i0, j0, top}, {last(i0, 0), last(j0, 1), whole.size[2] - 1}}};
-    return cut;
-}
-
-Surface imaged(const PhantomDescription& d) {
-    const Image image = phantom_image(d, PhantomField(d.parts));
-    ExtractionParameters p;
-    p.method = ExtractionMethod::Threshold;
-    p.threshold = 500.0;
-    return extract_surface(image, {}, p).surface;
-}
 
 Surface turned(const Surface& s, const Eigen::Matrix3d& r) {
     return mapped(s, [&](const Vec3& p) { return Vec3(r * p); });
@@ -140,30 +42,6 @@ double share_of_flat_faces(const Surface& surface) {
     return static_cast<double>(flat) / static_cast<double>(surface.triangle_count());
 }
 
-PhantomDescription described(const std::vector<PhantomPart>& parts, const Vec3& voxel) {
-    PhantomDescription d;
-    d.parts = parts;
-    d.imaging.spacing = voxel;
-    d.imaging.blur = kBlur;
-    return d;
-}
-
-/// Extracted from the mask that an expert draws slice by slice.
-Surface of_mask(const PhantomDescription& d) {
-    ExtractionParameters p;
-    p.method = ExtractionMethod::Labels;
-    return extract_surface(phantom_mask(d, PhantomField(d.parts)), {}, p).surface;
-}
-
-/// Thesis 5.4.2: intensities inside the dilated mask.
-Surface of_masked_intensities(const PhantomDescription& d) {
-    const PhantomField field(d.parts);
-    ExtractionParameters p;
-    p.method = ExtractionMethod::Masked;
-    p.threshold = 500.0;
-    return extract_surface(phantom_image(d, field), phantom_mask(d, field), p).surface;
-}
-
 Surface of_labels(const Image& image) {
     ExtractionParameters p;
     p.method = ExtractionMethod::Labels;
@@ -174,9 +52,8 @@ Surface of_labels(const Image& image) {
 
 SCENARIO("The stack axis of three organs is found however they are turned (thesis Table 5.6)",
          "[smoothing][stack orientation]") {
-    const std::array<PhantomDescription, 3> organs = {described(kVessel, kVesselVoxel),
-                                                      described(kMuscle, kMuscleVoxel),
-                                                      described(kLiver, kLiverVoxel)};
+    const std::array<PhantomDescription, 3> organs = {vessel_in_slices(), muscle_in_slices(),
+                                                      organ_in_slices()};
     const double hand = GENERATE(0.0, 0.4);  // [mm] by which an expert's contours differ
     for (PhantomDescription organ : organs) {
         organ.imaging.mask_jitter = hand;
@@ -198,11 +75,10 @@ SCENARIO("The stack axis of three organs is found however they are turned (thesi
 SCENARIO("Intensities inside a mask show the axis of an organ with a plateau, and else none",
          "[smoothing][stack orientation]") {
     // Partial volumes leave a vessel no face across the stack axis at all.
-    const Surface vessel = of_masked_intensities(described(kVessel, kVesselVoxel));
+    const Surface vessel = of_masked_intensities(vessel_in_slices());
     REQUIRE(share_of_flat_faces(vessel) == 0.0);
     CHECK_FALSE(estimate_stack_orientation(vessel).certain);
-    const auto liver =
-        estimate_stack_orientation(of_masked_intensities(described(kLiver, kLiverVoxel)));
+    const auto liver = estimate_stack_orientation(of_masked_intensities(organ_in_slices()));
     CHECK(liver.certain);
     CHECK(degrees_between(liver.direction, Vec3::UnitZ()) < 1.0);
 }
@@ -266,12 +142,13 @@ SCENARIO("Smooth shapes have no stack axis, whatever the lattice of their surfac
 
 SCENARIO("Masks tell the axis of their longest voxel edge, and none of cubic voxels",
          "[smoothing][stack orientation]") {
-    const Surface cubic = of_mask(described(kLiver, Vec3(2, 2, 2)));
-    CHECK_FALSE(estimate_stack_orientation(cubic).certain);
+    PhantomDescription organ = organ_in_slices();
+    organ.imaging.spacing = Vec3(2, 2, 2);
+    CHECK_FALSE(estimate_stack_orientation(of_mask(organ)).certain);
     for (const double slices : {3.0, 8.0, 22.0}) {
         CAPTURE(slices);
-        const Surface surface = of_mask(described(kLiver, Vec3(2, 1.8, slices)));
-        const auto found = estimate_stack_orientation(turned(surface, skew_rotation()));
+        organ.imaging.spacing = Vec3(2, 1.8, slices);
+        const auto found = estimate_stack_orientation(turned(of_mask(organ), skew_rotation()));
         CHECK(found.certain);
         CHECK(degrees_between(found.direction, skew_rotation().col(2)) < 1e-3);
     }
@@ -279,9 +156,10 @@ SCENARIO("Masks tell the axis of their longest voxel edge, and none of cubic vox
 
 SCENARIO("A vessel along the slices' axis shows it by its two ends",
          "[smoothing][stack orientation]") {
-    const std::vector<PhantomPart> tube = {
-        {"tube", VesselShape{{Vec3(0, 0, -18), Vec3(0, 0, 18)}, {2.2, 2.2}}, 0.0}};
-    const Surface surface = of_mask(described(tube, Vec3(0.7, 0.7, 1.4)));
+    PhantomDescription tube;
+    tube.parts = {{"tube", VesselShape{{Vec3(0, 0, -18), Vec3(0, 0, 18)}, {2.2, 2.2}}, 0.0}};
+    tube.imaging.spacing = Vec3(0.7, 0.7, 1.4);
+    const Surface surface = of_mask(tube);
     REQUIRE(share_of_flat_faces(surface) < 0.05);
     const auto found = estimate_stack_orientation(turned(surface, skew_rotation()));
     CHECK(found.certain);
