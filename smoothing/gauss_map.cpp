@@ -10,7 +10,7 @@ namespace vesselbench::detail {
 
 namespace {
 
-constexpr double kBinsPerRadius = 4.0;
+constexpr double kBinsPerRadius = 3.0;
 constexpr double kMostBins = 1024.0;  // along a side of the cube: 0.09 degrees
 
 int largest_component(const Vec3& axis) {

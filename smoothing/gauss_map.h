@@ -9,7 +9,7 @@
 namespace vesselbench::detail {
 
 /// Unit face normals as axes (n and -n are one) on a half sphere, gathered in bins whose width is a
-/// quarter of the radius within which they are counted: linear in the number of normals.
+/// third of the radius within which they are counted: linear in the number of normals.
 class GaussMap {
 public:
     /// \param normals unit vectors, the sign does not matter

@@ -21,8 +21,8 @@ struct StackOrientationParameters {
 /// Estimates the stack axis from the normals of the faces: staircases and plateaus make many of
 /// them parallel to it. Thesis 5.3.1 finds clusters of the normals (density within the radius,
 /// threshold midway between mean and maximum) and takes the one with the most flat faces around it.
-/// That names an axis on any surface, a sphere's too, and on masks often a wrong one. It is what an
-/// uncertain result has for its direction; a certain one needs evidence that it does not ask for:
+/// That names an axis on any surface, a sphere's too. It is what an uncertain result has for its
+/// direction; a certain one needs evidence that it does not ask for:
 /// - Surfaces with interpolated vertices: the axis is a sharp peak of the normals, beyond what the
 ///   shape around it gives, of some share of the faces, and no other peak comes near it. Any single
 ///   plane makes such a peak (a flat end that is no trace of slices): leave such faces out.
