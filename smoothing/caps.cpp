@@ -105,14 +105,16 @@ private:
         at_vertices_.resize(surface_.vertex_count());
         flat_.resize(surface_.vertex_count());
         detail::for_each_vertex(flat_.size(), [&](std::size_t v) {
+            const auto row = rows_.row(v);
             Vec3 sum = Vec3::Zero();
-            for (const TriangleId t : rows_.row(v)) sum += weighted_[t];
+            for (const TriangleId t : row) sum += weighted_[t];
             const double least = flat_cosine_ * sum.norm();
-            bool flat = !sum.isZero();
-            for (const TriangleId t : rows_.row(v))
-                flat = flat && weighted_[t].dot(sum) >= least * lengths_[t];
-            at_vertices_[v] = sum.normalized();
+            const bool flat =
+                !sum.isZero() && std::all_of(row.begin(), row.end(), [&](TriangleId t) {
+                    return weighted_[t].dot(sum) >= least * lengths_[t];
+                });
             flat_[v] = flat ? 1 : 0;
+            if (flat) at_vertices_[v] = sum.normalized();
         });
     }
 
@@ -212,7 +214,7 @@ private:
     detail::CapBorder border_;
     std::vector<Vec3> weighted_;     ///< #T normals as long as twice the area [mm^2]
     std::vector<double> lengths_;    ///< #T of them; 0: degenerate
-    std::vector<Vec3> at_vertices_;  ///< #V unit
+    std::vector<Vec3> at_vertices_;  ///< #V unit, at flat vertices
     std::vector<std::uint8_t> flat_;
     detail::AreaNumbers areas_;
     std::vector<std::uint32_t> in_part_;  ///< #V: the latest part a vertex was in
