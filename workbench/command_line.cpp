@@ -230,6 +230,7 @@ void add_phantom(CommandLine& line) {
     CLI::App& command =
         add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
                     [options, &line] { return write_phantom(*options, line.progress), 0; });
+    command.add_option("--seed", options->seed, "Seed of its noise; its own by default");
     command.add_option("NAME", options->name, "One of " + joined(phantom_names()))
         ->required()
         ->type_name("");

@@ -75,6 +75,7 @@ struct CenterlineOptions {
 void find_centerlines(const CenterlineOptions& options, const Progress& progress);
 
 struct PhantomOptions {
+    std::optional<std::uint64_t> seed;  ///< none: the description's own
     std::string name;
     std::string out;
 };
