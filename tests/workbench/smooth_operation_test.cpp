@@ -4,12 +4,15 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/image/extract_surface.h"
 #include "geometry/measure.h"
+#include "geometry/phantoms/phantom.h"
 #include "smoothing/distance_weights.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "workbench/operation.h"
+#include "workbench/phantoms/phantom_json.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -62,6 +65,25 @@ SCENARIO("smooth takes the stack axis from the image, or from the user", "[workb
               by_user.report->at("normal_curvature_before_deg"));
         const Outcome more = smooth(scene, {{"staircase", true}, {"tau_max", 0.5}});
         CHECK(more.report->at("vertices_moved") < moved);
+    }
+}
+
+SCENARIO("smooth estimates the stack axis of a surface that lost its image",
+         "[workbench][smooth]") {
+    const Vec3 axis = skew_rotation() * Vec3(0, 0, 1);
+    const Image mask = make_phantom(builtin_phantom("tumour")).mask;  // slices of 3 mm
+    const Surface drawn =
+        extract_surface(mask, std::nullopt, {.method = ExtractionMethod::Labels}).surface;
+    const Scene scene =
+        scene_of(mapped(drawn, [](const Vec3& p) { return Vec3(skew_rotation() * p); }));
+    const Outcome outcome = smooth(scene, {{"staircase", true}});
+    CHECK(outcome.report->at("stack_axis_from") == "estimate");
+    CHECK(std::abs(outcome.resolved.point("stack_axis").dot(axis)) > std::cos(M_PI / 180.0));
+    GIVEN("a tube whose flat ends are its only flat parts") {
+        const Surface tube = fine_tube(3.0, 12.0, 96);
+        const Surface plain =
+            make_surface(tube.points(), {tube.triangles().begin(), tube.triangles().end()});
+        CHECK_THROWS_AS(smooth(scene_of(plain), {{"staircase", true}}), AlgorithmFailure);
     }
 }
 

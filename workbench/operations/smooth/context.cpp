@@ -7,6 +7,7 @@
 #include "geometry/errors.h"
 #include "smoothing/cap_rounding.h"
 #include "smoothing/distance_weights.h"
+#include "smoothing/stack_orientation.h"
 #include "smoothing/staircase_weights.h"
 #include "smoothing/staircases.h"
 #include "workbench/point_json.h"
@@ -31,6 +32,17 @@ Vec3 direction_argument(const Arguments& arguments, const std::string& name) {
                      " has no direction: give three numbers that are not all 0");
 }
 
+/// A flat end has a normal that many faces share, but is no staircase.
+Surface without_caps(const Surface& surface) {
+    std::vector<std::uint8_t> on_cap(surface.triangle_count(), 0);
+    for (const Cap& cap : find_caps(surface))
+        for (const TriangleId t : cap.triangles) on_cap[t] = 1;
+    std::vector<Triangle> wall;
+    for (TriangleId t = 0; t < on_cap.size(); ++t)
+        if (on_cap[t] == 0) wall.push_back(surface.triangles()[t]);
+    return make_surface(surface.points(), std::move(wall));
+}
+
 /// Where the stack axis comes from: the user, the image, or the surface itself.
 Vec3 stack_axis(const Scene& scene, Arguments& arguments, Json& report) {
     if (arguments.has("stack_axis")) {
@@ -43,9 +55,15 @@ Vec3 stack_axis(const Scene& scene, Arguments& arguments, Json& report) {
         arguments.set("stack_axis", axis);
         return axis;
     }
-    throw AlgorithmFailure(
-        "the direction of the image stack is uncertain: the surface comes from no image; give "
-        "stack_axis=x,y,z, or staircase=false");
+    const StackOrientation estimate = estimate_stack_orientation(without_caps(surface_of(scene)));
+    report["stack_axis_confidence"] = estimate.confidence;
+    if (!estimate.certain)
+        throw AlgorithmFailure(
+            "the direction of the image stack is uncertain: the surface comes from no image and "
+            "shows too few staircases; give stack_axis=x,y,z, or staircase=false");
+    report["stack_axis_from"] = "estimate";
+    arguments.set("stack_axis", estimate.direction);
+    return estimate.direction;
 }
 
 std::vector<double> staircase_part(const Scene& scene, const Surface& surface,
