@@ -6,6 +6,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "geometry/large_array.h"
+
 namespace vesselbench {
 
 namespace {
@@ -14,8 +16,8 @@ constexpr std::size_t kGrain = 4096;
 constexpr int kLanes = 8;
 constexpr std::int32_t kNone = 0x7fffffff;  // greater than every vertex
 
-/// Four vertex ids in one register of any x86-64.
-using Quad = std::int32_t __attribute__((vector_size(16), may_alias));
+/// Eight vertex ids: one AVX2 register, or two of any x86-64.
+using Lanes = std::int32_t __attribute__((vector_size(32), may_alias));
 
 /// The two other corners of one triangle at a vertex, counter-clockwise.
 struct Corner {
@@ -25,7 +27,7 @@ struct Corner {
 /// Corners around every vertex in one array: row v is [offsets[v], offsets[v + 1]).
 struct Corners {
     std::vector<std::uint32_t> offsets;
-    std::vector<Corner> values;
+    LargeArray<Corner> values;
 };
 
 /// Calls work(first, last) for as many ranges of vertices as there are threads. Every range looks
@@ -50,7 +52,7 @@ Corners corners_by_vertex(std::span<const Triangle> triangles, std::size_t verte
                 if (v - first < last - first) ++offsets[v + 1];
     });
     for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
-    corners.values.resize(offsets.back());
+    corners.values = LargeArray<Corner>(offsets.back());
     std::vector<std::uint32_t> place(offsets.begin(), offsets.end() - 1);
     for_each_share(vertex_count, [&](VertexId first, VertexId last) {
         for (const Triangle& t : triangles)
@@ -86,66 +88,25 @@ RawRow sorted_row(VertexId v, std::span<const Corner> at, std::int32_t* row) {
     return result;
 }
 
-/// How many of eight values are smaller than each of eight others.
-inline void rank(const std::int32_t* values, const std::int32_t* others, std::int32_t* ranks) {
-    const auto* quads = reinterpret_cast<const Quad*>(others);
-    Quad low{}, high{};
-    for (int i = 0; i < kLanes; ++i) {
-        const Quad all{values[i], values[i], values[i], values[i]};
-        low -= all < quads[0];  // a true lane is -1
-        high -= all < quads[1];
-    }
-    reinterpret_cast<Quad*>(ranks)[0] = low;
-    reinterpret_cast<Quad*>(ranks)[1] = high;
+namespace any_cpu {
+#include "geometry/one_rings.inc"
 }
 
-/// The usual case, without a branch: an inner vertex of a manifold with at most eight triangles,
-/// whose neighbours stand once as `next` and once as `previous`. They are sorted by their ranks.
-/// \return 0 if the vertex is not of this kind
-inline std::uint32_t manifold_row(VertexId v, const Corner* at, std::uint32_t size,
-                                  std::int32_t* row) {
-    alignas(16) std::int32_t next[kLanes], previous[kLanes], next_rank[kLanes],
-        previous_rank[kLanes], sorted[kLanes + 1];
-    for (std::uint32_t i = 0; i < kLanes; ++i) {
-        next[i] = i < size ? at[i].next : kNone;
-        previous[i] = i < size ? at[i].previous : kNone;
-    }
-    rank(next, next, next_rank);
-    rank(next, previous, previous_rank);
-    std::uint32_t seen = 0, seen_previous = 0;
-    std::int32_t different = 0;
-    for (int i = 0; i < kLanes; ++i) {
-        sorted[next_rank[i]] = next[i];
-        seen |= 1U << next_rank[i];
-    }
-    for (int i = 0; i < kLanes; ++i) {
-        different |= sorted[previous_rank[i]] ^ previous[i];
-        seen_previous |= 1U << previous_rank[i];
-    }
-    const std::uint32_t every = size < kLanes ? (2U << size) - 1U : 255U;
-    bool self = false;
-    for (std::uint32_t i = 0; i < size; ++i) self |= sorted[i] == static_cast<std::int32_t>(v);
-    if (seen != every || seen_previous != every || different != 0 || self) return 0;
-    for (std::uint32_t i = 0; i < size; ++i) row[i] = sorted[i];
-    return size;
+#pragma GCC push_options
+#pragma GCC target("avx2")
+
+namespace avx2 {
+#include "geometry/one_rings.inc"
 }
 
-/// Replaces the corners of the vertices [first, last) by their neighbours.
+#pragma GCC pop_options
+
 void make_rows(Corners& corners, std::size_t first, std::size_t last, OneRings& rings) {
-    for (std::size_t v = first; v < last; ++v) {
-        Corner* at = corners.values.data() + corners.offsets[v];
-        auto* row = reinterpret_cast<std::int32_t*>(at);
-        const std::uint32_t size = corners.offsets[v + 1] - corners.offsets[v];
-        std::uint32_t made = 0;
-        if (size > 0 && size <= kLanes)
-            made = manifold_row(static_cast<VertexId>(v), at, size, row);
-        if (made == 0) {
-            const RawRow raw = sorted_row(static_cast<VertexId>(v), {at, size}, row);
-            made = raw.size;
-            rings.boundary[v] = raw.boundary ? 1 : 0;
-        }
-        rings.rows.offsets[v + 1] = made;
-    }
+    static const bool wide = __builtin_cpu_supports("avx2") != 0;
+    if (wide)
+        avx2::make_rows(corners, first, last, rings);
+    else
+        any_cpu::make_rows(corners, first, last, rings);
 }
 
 }  // namespace

@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <vector>
 
+#include "geometry/large_array.h"
 #include "smoothing/filter_support.h"
-#include "smoothing/pack_array.h"
 #include "smoothing/sweep_schedule.h"
 
 namespace vesselbench::detail {
 
 namespace {
 
+using PackArray = LargeArray<PackRow>;
+
+Pack* packs_of(const PackArray& array) {
+    return reinterpret_cast<Pack*>(array.data());
+}
+
 PackArray packed(const Positions& positions, const NeighbourBlocks& blocks) {
     PackArray array(positions.size());
-    Pack* packs = array.data();
+    Pack* packs = packs_of(array);
     for_each_vertex(positions.size(), [&](std::size_t place) {
         const Vec3& p = positions[blocks.vertex_at(place)];
         packs[place] = Pack{p.x(), p.y(), p.z(), 0.0};
@@ -67,9 +73,9 @@ Positions run_linear_filter(const Topology& topology, const Positions& positions
 
     const auto run = [&](std::size_t number, std::size_t block) {
         const bool last = (number + 1) % steps.size() == 0;
-        const StepArrays arrays{.source = values[number % 2].data(),
-                                .target = values[(number + 1) % 2].data(),
-                                .start = start.data(),
+        const StepArrays arrays{.source = packs_of(values[number % 2]),
+                                .target = packs_of(values[(number + 1) % 2]),
+                                .start = packs_of(start),
                                 .share = last || free.empty() ? weights.data() : free.data()};
         take_linear_step(steps[number % steps.size()], arrays, blocks, block);
         const std::size_t first = block * NeighbourBlocks::kBlock;
@@ -82,7 +88,7 @@ Positions run_linear_filter(const Topology& topology, const Positions& positions
     sweep(blocks, all_steps, kBytesAtPlace, run, progress);
 
     Positions moved(count);
-    const Pack* last = values[all_steps % 2].data();
+    const Pack* last = packs_of(values[all_steps % 2]);
     for_each_vertex(count, [&](std::size_t place) {
         const std::size_t v = blocks.vertex_at(place);
         // What stays, stays bit for bit: a sum with 0 turns -0 into 0.

@@ -9,6 +9,11 @@ namespace vesselbench::detail {
 /// A position that fills one wide register: x, y, z and 0.
 using Pack = double __attribute__((vector_size(32), may_alias));
 
+/// Memory of one pack, as arrays hold it.
+struct alignas(sizeof(Pack)) PackRow {
+    double values[4];
+};
+
 /// What one step of a filter does, as a linear combination at every vertex:
 ///
 ///     target = onto + share * (umbrella * U + source * s + target * t + start * o)

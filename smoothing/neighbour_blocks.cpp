@@ -102,7 +102,7 @@ NeighbourBlocks::NeighbourBlocks(const CompressedRows& rows)
     group_offsets_.assign(blocks + 1, 0);
     neighbour_offsets_.assign(blocks + 1, 0);
     members_.resize(blocks * kBlock);
-    neighbours_.resize(rows.values.size());
+    neighbours_ = LargeArray<std::uint32_t>(rows.values.size());
     for (std::size_t block = 0; block < blocks; ++block) {
         std::size_t size = 0;
         const std::size_t end = std::min(vertex_count_, (block + 1) * kBlock);

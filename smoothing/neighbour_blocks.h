@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/large_array.h"
 #include "geometry/topology.h"
 #include "geometry/vec3.h"
 
@@ -68,7 +69,7 @@ private:
     std::vector<BlockGroup> groups_;
     std::vector<std::uint32_t> group_offsets_;  ///< #blocks + 1
     std::vector<std::uint16_t> members_;        ///< #blocks * kBlock
-    std::vector<std::uint32_t> neighbours_;
+    LargeArray<std::uint32_t> neighbours_;
     std::vector<std::uint32_t> neighbour_offsets_;  ///< #blocks + 1
 };
 
