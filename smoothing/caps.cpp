@@ -45,6 +45,12 @@ Cap make_cap(const Surface& surface, std::vector<TriangleId> triangles, const Ve
     return cap;
 }
 
+/// Normal of a triangle.
+struct FaceNormal {
+    Vec3 weighted = Vec3::Zero();  ///< as long as twice the area [mm^2]
+    double length = 0.0;           ///< of it; 0: degenerate
+};
+
 class CapSearch {
 public:
     CapSearch(const Surface& surface, const CapParameters& parameters)
@@ -75,6 +81,9 @@ public:
     }
 
     std::vector<Cap> patches() const {
+        if (std::ranges::all_of(surface_.patches,
+                                [](const Patch& patch) { return patch.kind == PatchKind::Wall; }))
+            return {};
         std::vector<std::vector<TriangleId>> triangles(surface_.patches.size());
         for (TriangleId t = 0; t < surface_.triangle_count(); ++t)
             if (!is_wall(t)) triangles[(*surface_.patch_labels)[t]].push_back(t);
@@ -93,13 +102,12 @@ private:
     /// Normals of triangles and vertices, and which vertices are flat: none of their triangles
     /// turns away from their normal.
     void find_normals() {
-        weighted_.resize(surface_.triangle_count());
-        lengths_.resize(surface_.triangle_count());
+        faces_.resize(surface_.triangle_count());
         areas_.resize(surface_.triangle_count());
-        detail::for_each_vertex(weighted_.size(), [&](std::size_t t) {
+        detail::for_each_vertex(faces_.size(), [&](std::size_t t) {
             const Vec3 normal = area_normal(surface_.points(), surface_.triangles()[t]);
-            lengths_[t] = length_of(normal);
-            weighted_[t] = lengths_[t] > 0.0 ? normal : Vec3::Zero();
+            const double length = length_of(normal);
+            if (length > 0.0) faces_[t] = {normal, length};
             areas_[t] = is_wall(static_cast<TriangleId>(t)) ? 0 : kNotSearched;
         });
         at_vertices_.resize(surface_.vertex_count());
@@ -107,11 +115,11 @@ private:
         detail::for_each_vertex(flat_.size(), [&](std::size_t v) {
             const auto row = rows_.row(v);
             Vec3 sum = Vec3::Zero();
-            for (const TriangleId t : row) sum += weighted_[t];
+            for (const TriangleId t : row) sum += faces_[t].weighted;
             const double least = flat_cosine_ * sum.norm();
             const bool flat =
                 !sum.isZero() && std::all_of(row.begin(), row.end(), [&](TriangleId t) {
-                    return weighted_[t].dot(sum) >= least * lengths_[t];
+                    return faces_[t].weighted.dot(sum) >= least * faces_[t].length;
                 });
             flat_[v] = flat ? 1 : 0;
             if (flat) at_vertices_[v] = sum.normalized();
@@ -169,15 +177,22 @@ private:
 
     /// Calls visit(other) for the triangles without an area that share an edge with t.
     template <class Visit>
-    void visit_free_neighbours(TriangleId t, const Visit& visit) const {
+    void visit_free_neighbours(TriangleId t, const Visit& visit) {
         const Triangle& corners = surface_.triangles()[t];
-        for (int k = 0; k < 3; ++k)
-            for (const TriangleId other : rows_.row(corners[k])) {
-                if (areas_[other] != 0) continue;
+        for (int k = 0; k < 3; ++k) {
+            const auto row = rows_.row(corners[k]);
+            const VertexId b = corners[(k + 1) % 3];
+            if (beside_.size() < row.size()) beside_.resize(row.size());
+            std::size_t count = 0;  // chosen without branches, which nothing could predict
+            for (const TriangleId other : row) {
                 const Triangle& o = surface_.triangles()[other];
-                const VertexId b = corners[(k + 1) % 3];
-                if (o[0] == b || o[1] == b || o[2] == b) visit(other);
+                const bool shares = (o[0] == b) | (o[1] == b) | (o[2] == b);
+                beside_[count] = other;
+                count += static_cast<std::size_t>(shares & (areas_[other] == 0));
             }
+            for (std::size_t i = 0; i < count; ++i)
+                if (areas_[beside_[i]] == 0) visit(beside_[i]);
+        }
     }
 
     /// Adds the triangles around the area that differ slightly from it (those at a flat vertex do)
@@ -185,7 +200,7 @@ private:
     void grow() {
         const Vec3 normal = mean_normal(area_);
         const auto add = [&](TriangleId t) {
-            if (weighted_[t].dot(normal) < spread_cosine_ * lengths_[t]) return;
+            if (faces_[t].weighted.dot(normal) < spread_cosine_ * faces_[t].length) return;
             areas_[t] = number_;
             area_.push_back(t);
         };
@@ -195,15 +210,15 @@ private:
         for (; next < area_.size(); ++next) {
             const TriangleId from = area_[next];
             visit_free_neighbours(from, [&](TriangleId to) {
-                const double least = flat_cosine_ * lengths_[to] * lengths_[from];
-                if (weighted_[to].dot(weighted_[from]) >= least) add(to);
+                const double least = flat_cosine_ * faces_[to].length * faces_[from].length;
+                if (faces_[to].weighted.dot(faces_[from].weighted) >= least) add(to);
             });
         }
     }
 
     Vec3 mean_normal(const std::vector<TriangleId>& area) const {
         Vec3 sum = Vec3::Zero();
-        for (const TriangleId t : area) sum += weighted_[t];
+        for (const TriangleId t : area) sum += faces_[t].weighted;
         return sum.normalized();
     }
 
@@ -212,8 +227,7 @@ private:
     std::size_t smallest_;
     double flat_cosine_, spread_cosine_;
     detail::CapBorder border_;
-    std::vector<Vec3> weighted_;     ///< #T normals as long as twice the area [mm^2]
-    std::vector<double> lengths_;    ///< #T of them; 0: degenerate
+    std::vector<FaceNormal> faces_;  ///< #T
     std::vector<Vec3> at_vertices_;  ///< #V unit, at flat vertices
     std::vector<std::uint8_t> flat_;
     detail::AreaNumbers areas_;
@@ -221,6 +235,7 @@ private:
     std::uint32_t number_ = 0;            ///< of the latest part and its area
     std::vector<VertexId> part_;
     std::vector<TriangleId> area_, around_;
+    std::vector<TriangleId> beside_;  ///< room for the triangles on an edge
 };
 
 }  // namespace

@@ -52,17 +52,18 @@ std::vector<double> face_orientations(const Topology& topology, const Positions&
 std::vector<double> orientation_change(const Topology& topology, const Positions& positions,
                                        const Vec3& stack_axis) {
     const std::vector<double> theta = raw_orientations(topology, positions, stack_axis);
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    std::vector<double> smallest(positions.size(), kNone), change(positions.size(), -kNone);
-    for (TriangleId t = 0; t < theta.size(); ++t) {
-        if (theta[t] == kDegenerate) continue;
-        for (const VertexId v : topology.triangles()[t]) {
-            smallest[v] = std::min(smallest[v], theta[t]);
-            change[v] = std::max(change[v], theta[t]);
+    const CompressedRows& rows = topology.triangles_at();
+    std::vector<double> change(positions.size());
+    detail::for_each_vertex(change.size(), [&](std::size_t v) {
+        constexpr double kNone = std::numeric_limits<double>::infinity();
+        double smallest = kNone, largest = -kNone;
+        for (const TriangleId t : rows.row(v)) {
+            if (theta[t] == kDegenerate) continue;
+            smallest = std::min(smallest, theta[t]);
+            largest = std::max(largest, theta[t]);
         }
-    }
-    for (std::size_t v = 0; v < change.size(); ++v)
-        change[v] = smallest[v] == kNone ? 0.0 : change[v] - smallest[v];
+        change[v] = smallest == kNone ? 0.0 : largest - smallest;
+    });
     return change;
 }
 

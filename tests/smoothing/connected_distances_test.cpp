@@ -79,6 +79,24 @@ SCENARIO("Distances along a surface are those of a search from every source",
     }
 }
 
+SCENARIO("Sources that crowd in a corner of a wide space give exact distances",
+         "[smoothing][connected-distances]") {
+    const Surface far = mapped(icosphere(5.0, 1), [](const Vec3& p) { return Vec3(p * 1e6); });
+    const Surface both = merged(spiky_shells(), far);
+    const double share = GENERATE(0.1, 0.6);
+    const auto sources = some_vertices(both.vertex_count(), share);
+    CHECK(distances(both, sources, 2.5) == by_definition(both, sources, 2.5));
+}
+
+SCENARIO("Distances in a plane and along a line of vertices are exact",
+         "[smoothing][connected-distances]") {
+    const Vec3 flat = GENERATE(Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 0));
+    const Surface sphere =
+        mapped(icosphere(5.0, 3), [&](const Vec3& p) { return Vec3(p.cwiseProduct(flat)); });
+    const auto sources = some_vertices(sphere.vertex_count(), 0.1);
+    CHECK(distances(sphere, sources, 1.0) == by_definition(sphere, sources, 1.0));
+}
+
 SCENARIO("Distances do not leak between surfaces that are not connected",
          "[smoothing][connected-distances]") {
     const Surface outer = icosphere(5.0, 3);

@@ -1,0 +1,65 @@
+#include "smoothing/point_grid.h"
+
+#include <Eigen/Geometry>
+
+namespace vesselbench::detail {
+
+namespace {
+
+constexpr std::size_t kCellsPerPoint = 2;  // points lie on a surface, so that most cells are empty
+constexpr double kMostCells = 1024.0;      // along an axis
+constexpr double kCrowd = 32.0;            // points in the cell of the average point
+
+}  // namespace
+
+/// Sets the size of the cells. \return number of them
+std::size_t PointGrid::choose_cells(const Vec3& extent, std::size_t points) {
+    const double most = static_cast<double>(kCellsPerPoint * points + 64);
+    const double longest = extent.maxCoeff();
+    double length = longest > 0.0 ? longest / kMostCells : 1.0;
+    const auto cells = [&](int axis) { return std::floor(extent[axis] / length) + 1.0; };
+    while (cells(0) * cells(1) * cells(2) > most) length *= 1.1;
+    per_length_ = 1.0 / length;
+    crowded_ = !std::isfinite(longest) || !std::isfinite(per_length_);
+    if (crowded_) return 0;
+    std::size_t count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        size_[axis] = static_cast<int>(cells(axis));
+        count *= static_cast<std::size_t>(size_[axis]);
+    }
+    return count;
+}
+
+PointGrid::PointGrid(const Positions& positions, std::span<const VertexId> chosen) {
+    Eigen::AlignedBox3d box;
+    for (const VertexId v : chosen) box.extend(positions[v]);
+    if (chosen.empty()) return;
+    origin_ = box.min();
+    const std::size_t count = choose_cells(box.sizes(), chosen.size());
+    if (crowded_) return;
+    offsets_.assign(count + 1, 0);
+    std::vector<std::uint32_t> cells(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Vec3 at = (positions[chosen[i]] - origin_) * per_length_;
+        cells[i] = static_cast<std::uint32_t>(
+            (cell(at.z(), 2) * size_[1] + cell(at.y(), 1)) * size_[0] + cell(at.x(), 0));
+        ++offsets_[cells[i]];
+    }
+    double neighbours = 0.0;
+    std::uint32_t total = 0;
+    for (std::uint32_t& offset : offsets_) {
+        neighbours += static_cast<double>(offset) * offset;
+        total += offset;
+        offset = total;
+    }
+    crowded_ = neighbours > kCrowd * static_cast<double>(chosen.size());
+    points_.resize(chosen.size());
+    vertices_.resize(chosen.size());
+    for (std::size_t i = chosen.size(); i-- > 0;) {
+        const std::uint32_t place = --offsets_[cells[i]];
+        points_[place] = positions[chosen[i]];
+        vertices_[place] = chosen[i];
+    }
+}
+
+}  // namespace vesselbench::detail

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/topology.h"
+#include "geometry/vec3.h"
+#include "smoothing/point_tree.h"
+
+namespace vesselbench::detail {
+
+/// Some vertices of a surface in equal cells, to be found by place as in a PointTree: several times
+/// faster, unless most of them crowd in few cells. Where two lie equally near, either is found.
+class PointGrid {
+public:
+    using Found = PointTree::Found;
+
+    /// \param chosen at finite positions
+    PointGrid(const Positions& positions, std::span<const VertexId> chosen);
+
+    /// True if there are so many vertices in a cell that a PointTree should be used; a grid that
+    /// is must not be searched.
+    [[nodiscard]] bool crowded() const { return crowded_; }
+
+    /// The vertex nearest to p, if it is nearer than what is known already; else that.
+    [[nodiscard]] Found nearest(const Vec3& p, Found known) const {
+        visit_rows(p, known.squared, [&](std::uint32_t i) {
+            const double d = (p - points_[i]).squaredNorm();
+            if (d < known.squared) known = {vertices_[i], d};
+        });
+        return known;
+    }
+
+    /// Calls visit(Found) for every vertex nearer to p than the square root of `squared`.
+    template <class Visit>
+    void visit_nearer(const Vec3& p, double squared, const Visit& visit) const {
+        visit_rows(p, squared, [&](std::uint32_t i) {
+            const double d = (p - points_[i]).squaredNorm();
+            if (d < squared) visit(Found{vertices_[i], d});
+        });
+    }
+
+private:
+    /// Along one axis, in cells.
+    struct Span {
+        double at;        ///< of the point looked from
+        int first, last;  ///< cells within the distance
+
+        /// From the point to the cell, for certain not too large.
+        [[nodiscard]] double gap(int cell) const {
+            const double apart = std::max(cell - at, at - (cell + 1));
+            return std::max(0.0, apart - 1e-9 * (1.0 + std::abs(at)));  // rounding
+        }
+    };
+
+    [[nodiscard]] int cell(double at, int axis) const {
+        return static_cast<int>(std::clamp(at, 0.0, size_[axis] - 1.0));
+    }
+
+    [[nodiscard]] Span span(const Vec3& p, double distance, int axis) const {
+        const double from = p[axis] - origin_[axis];
+        return {from * per_length_, cell((p[axis] - distance - origin_[axis]) * per_length_, axis),
+                cell((p[axis] + distance - origin_[axis]) * per_length_, axis)};
+    }
+
+    /// Calls visit(place) at least for all that are nearer to p than the square root of `squared`,
+    /// which visit() may make smaller.
+    template <class Visit>
+    void visit_rows(const Vec3& p, const double& squared, const Visit& visit) const {
+        const double distance = std::sqrt(squared) * (1.0 + 1e-9);  // rounding
+        const Span xs = span(p, distance, 0), ys = span(p, distance, 1), zs = span(p, distance, 2);
+        const double scale = per_length_ * per_length_ * (1.0 + 1e-9);
+        for (int z = zs.first; z <= zs.last; ++z) {
+            const double dz = zs.gap(z);
+            for (int y = ys.first; y <= ys.last; ++y) {
+                const double dy = ys.gap(y);
+                if (dy * dy + dz * dz > squared * scale) continue;
+                const std::size_t row = (static_cast<std::size_t>(z) * size_[1] + y) * size_[0];
+                const std::uint32_t end = offsets_[row + xs.last + 1];
+                for (std::uint32_t i = offsets_[row + xs.first]; i < end; ++i) visit(i);
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t choose_cells(const Vec3& extent, std::size_t points);
+
+    Vec3 origin_ = Vec3::Zero();
+    double per_length_ = 1.0;  ///< cells per length [1/mm]
+    std::array<int, 3> size_ = {1, 1, 1};
+    bool crowded_ = false;
+    std::vector<std::uint32_t> offsets_;  ///< of the cells, x fastest; #cells + 1
+    std::vector<Vec3> points_;            ///< by cell
+    std::vector<VertexId> vertices_;      ///< the same
+};
+
+}  // namespace vesselbench::detail
