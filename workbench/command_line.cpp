@@ -35,6 +35,11 @@ constexpr const char* kExportFooter =
     "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, residual,\n"
     "processes; --set may be repeated.";
 
+constexpr const char* kPictureFooter =
+    "Patient coordinates are LPS: y points backwards, z to the head. --view 0,1,0 looks from the\n"
+    "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
+    "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
+
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
     "'vesselbench COMMAND --help' explains a command, 'vesselbench operations' the operations.";
@@ -211,6 +216,35 @@ void add_measure(CommandLine& line) {
     command.add_flag("--json", options->json, "Print one JSON document");
 }
 
+void add_picture(CommandLine& line) {
+    const auto options = std::make_shared<PictureArguments>();
+    CLI::App& command =
+        add_command(line, "picture", "Draw a surface, or its deviation from a reference",
+                    [options] { return draw_picture(*options), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("OUT.png", options->out, "The picture")->required()->type_name("");
+    command
+        .add_option("--reference", options->reference,
+                    "Surface file to compare with: blue is inside, red outside of it")
+        ->type_name("FILE");
+    command
+        .add_option("--full-colour", options->full_colour,
+                    "Deviation of the full colours [mm] (default: 98 of 100 vertices are below)")
+        ->type_name("MM");
+    command
+        .add_option("--view", options->view,
+                    "Direction of sight (default: 0,1,0, from the patient's front)")
+        ->delimiter(',')
+        ->expected(3)
+        ->type_name("X,Y,Z");
+    command.add_option("--size", options->size, "Width and height [pixels]")
+        ->capture_default_str()
+        ->type_name("PIXELS");
+    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.footer(kPictureFooter);
+}
+
 void add_centerlines(CommandLine& line) {
     const auto options = std::make_shared<CenterlineOptions>();
     CLI::App& command =
@@ -254,6 +288,7 @@ void set_up(CommandLine& line) {
     add_replay(line);
     add_export(line);
     add_measure(line);
+    add_picture(line);
     add_centerlines(line);
     add_operations(line);
     add_phantom(line);

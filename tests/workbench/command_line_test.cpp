@@ -126,3 +126,34 @@ SCENARIO("A project that is not there or no project is bad input", "[workbench][
         }
     CHECK(names_in(folder) == std::vector<std::string>{"text.vbench"});
 }
+
+SCENARIO("A picture shows a surface, or its deviation", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), file = folder + "/ball.vtp";
+    vesselbench::write_surface(vesselbench::test::icosphere(5.0, 3), file);
+    vesselbench::write_surface(vesselbench::test::icosphere(4.5, 3), folder + "/small.vtp");
+    const std::string out = folder + "/ball.png";
+    check_usage_error({"picture", file}, {"OUT.png", "vesselbench picture --help"});
+    check_usage_error({"picture", file, folder + "/ball.jpg"}, {"ball.jpg", ".png"});
+    check_usage_error({"picture", file, out, "--view", "0,0,0"}, {"--view", "no direction"});
+    check_usage_error({"picture", file, out, "--view", "1,0"}, {"--view"});
+    check_usage_error({"picture", file, out, "--size", "0"}, {"--size", "8192"});
+    check_usage_error({"picture", file, out, "--full-colour", "1"}, {"needs --reference"});
+    const ProgramRun plain = run({"picture", file, out, "--size", "64", "--view=-1,0,0"});
+    if (plain.exit_code == 1 && plain.err.find("no pictures:") != std::string::npos) {
+        WARN("skipped: " << plain.err);
+        return;
+    }
+    INFO(plain.err);
+    REQUIRE(plain.exit_code == 0);
+    std::ifstream picture(out, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(picture), {}};
+    CHECK_THAT(bytes, StartsWith("\x89PNG"));
+    const auto small = [&](const std::string& view) {
+        return run({"picture", file, folder + "/deviation.png", "--size", "64", "--view", view,
+                    "--reference", folder + "/small.vtp"});
+    };
+    CHECK_THAT(small("0,0,-1").out, Contains("deviation, blue 0.5"));
+    CHECK(run({"picture", folder + "/no.vtp", out}).exit_code == 3);
+    CHECK(names_in(folder) ==
+          std::vector<std::string>{"ball.png", "ball.vtp", "deviation.png", "small.vtp"});
+}

@@ -64,6 +64,19 @@ struct MeasureOptions {
 /// Prints what can be measured on a surface, and its distance to a reference.
 void measure_surface(const MeasureOptions& options);
 
+struct PictureArguments {
+    std::string surface;
+    std::string out;                       ///< .png
+    std::string reference;                 ///< empty: colours by patch
+    std::vector<double> view = {0, 1, 0};  ///< direction of sight, 3 numbers (LPS)
+    std::optional<double> full_colour;     ///< [mm]; none: what 98 of 100 vertices stay below
+    int size = 700;                        ///< width and height [pixels]
+    std::string units;                     ///< of the files; empty: mm
+};
+
+/// Draws a surface, coloured by patch or by its deviation from a reference.
+void draw_picture(const PictureArguments& arguments);
+
 struct CenterlineOptions {
     std::string surface;
     std::string out;    ///< .vtp

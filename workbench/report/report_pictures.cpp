@@ -9,7 +9,6 @@
 #include "geometry/errors.h"
 #include "geometry/measure.h"
 #include "geometry/surface_distance.h"
-#include "gpu/picture.h"
 
 namespace vesselbench {
 
@@ -46,22 +45,6 @@ double colour_scale(std::vector<double> deviations) {
     return std::max(*place, 1e-6);
 }
 
-/// Signed deviations [mm] as colours, and what the full colour stands for.
-std::pair<std::vector<Colour>, double> deviation_colours(
-    const Surface& surface, const Surface& source, const std::vector<std::uint8_t>& comparable) {
-    const std::vector<double> deviations =
-        SurfaceDistance(source).signed_distances(surface.points());
-    std::vector<double> compared;
-    for (std::size_t v = 0; v < deviations.size(); ++v)
-        if (comparable[v]) compared.push_back(deviations[v]);
-    const double scale = colour_scale(std::move(compared));
-    std::vector<Colour> colours;
-    for (std::size_t v = 0; v < deviations.size(); ++v)
-        colours.push_back(
-            diverging_colour(comparable[v] ? std::clamp(deviations[v] / scale, -1.0, 1.0) : 0.0));
-    return {std::move(colours), scale};
-}
-
 }  // namespace
 
 std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source,
@@ -71,18 +54,38 @@ std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface
         for (const View& view : kViews)
             pictures.push_back({std::string("Patches, ") + view.name, drawn(surface, view, {})});
         if (source == nullptr) return pictures;
-        const auto [colours, scale] = deviation_colours(surface, *source, comparable);
-        char title[128];
-        for (const View& view : kViews) {
-            std::snprintf(title, sizeof title,
-                          "Deviation from the source, %s: blue %.2g mm inside, red outside",
-                          view.name, scale);
-            pictures.push_back({title, drawn(surface, view, colours)});
-        }
+        const auto [colours, full] = deviation_colours(surface, *source, comparable);
+        for (const View& view : kViews)
+            pictures.push_back({std::string("Deviation from the source, ") + view.name + ": " +
+                                    deviation_legend(full),
+                                drawn(surface, view, colours)});
     } catch (const GpuUnavailable&) {
         return {};
     }
     return pictures;
+}
+
+DeviationColours deviation_colours(const Surface& surface, const Surface& source,
+                                   const std::vector<std::uint8_t>& comparable,
+                                   double full_colour) {
+    const std::vector<double> deviations =
+        SurfaceDistance(source).signed_distances(surface.points());
+    const auto counts = [&](std::size_t v) { return comparable.empty() || comparable[v] != 0; };
+    std::vector<double> compared;
+    for (std::size_t v = 0; v < deviations.size(); ++v)
+        if (counts(v)) compared.push_back(deviations[v]);
+    const double full = full_colour > 0.0 ? full_colour : colour_scale(std::move(compared));
+    std::vector<Colour> colours;
+    for (std::size_t v = 0; v < deviations.size(); ++v)
+        colours.push_back(
+            diverging_colour(counts(v) ? std::clamp(deviations[v] / full, -1.0, 1.0) : 0.0));
+    return {std::move(colours), full};
+}
+
+std::string deviation_legend(double full_colour) {
+    char text[64];
+    std::snprintf(text, sizeof text, "blue %.2g mm inside, red outside", full_colour);
+    return text;
 }
 
 }  // namespace vesselbench

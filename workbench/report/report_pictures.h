@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "geometry/surface.h"
+#include "gpu/picture.h"
 #include "workbench/report/report_html.h"
 
 namespace vesselbench {
@@ -16,5 +18,21 @@ namespace vesselbench {
 ///        and extruded ends) stay white
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
     const Surface& surface, const Surface* source, const std::vector<std::uint8_t>& comparable);
+
+/// Vertex colours of a surface's deviation from another one, blue inside, red outside of it.
+struct DeviationColours {
+    std::vector<Colour> colours;  ///< #V
+    double full_colour = 0.0;     ///< the deviation that the full colours stand for [mm]
+};
+
+/// \param comparable as for report_pictures; empty: all vertices
+/// \param full_colour [mm]; 0: what 98 of 100 comparable vertices stay below
+/// \throw InvalidInput if the source has no triangle
+[[nodiscard]] DeviationColours deviation_colours(const Surface& surface, const Surface& source,
+                                                 const std::vector<std::uint8_t>& comparable = {},
+                                                 double full_colour = 0.0);
+
+/// What the colours say: "blue 0.5 mm inside, red outside".
+[[nodiscard]] std::string deviation_legend(double full_colour);
 
 }  // namespace vesselbench

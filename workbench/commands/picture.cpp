@@ -1,0 +1,65 @@
+#include "gpu/picture.h"
+
+#include <cmath>
+#include <iostream>
+
+#include "geometry/errors.h"
+#include "workbench/commands/commands.h"
+#include "workbench/foreign_surface.h"
+#include "workbench/pending_files.h"
+#include "workbench/report/report_pictures.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kLargestSide = 8192;  ///< what gpu/picture.h draws
+
+void check(const PictureArguments& arguments) {
+    if (!arguments.out.ends_with(".png"))
+        throw UsageError("OUT '" + arguments.out + "' does not end in .png");
+    if (arguments.size < 1 || arguments.size > kLargestSide)
+        throw UsageError("--size: " + std::to_string(arguments.size) +
+                         " pixels are out of the range 1 to " + std::to_string(kLargestSide));
+    if (arguments.full_colour) {
+        if (arguments.reference.empty())
+            throw UsageError("--full-colour is a deviation: it needs --reference");
+        if (!(*arguments.full_colour > 0.0 && std::isfinite(*arguments.full_colour)))
+            throw UsageError("--full-colour must be above 0 mm");
+    }
+}
+
+Vec3 view_of(const std::vector<double>& numbers) {
+    const Vec3 view(numbers.at(0), numbers.at(1), numbers.at(2));
+    if (view.allFinite() && view.norm() > 0.0) return view.normalized();
+    throw UsageError("--view has no direction: give three numbers x,y,z that are not all 0");
+}
+
+/// The head is up, or, seen from above or below, the front.
+Vec3 up_of(const Vec3& view) {
+    return std::abs(view.z()) < 0.99 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
+}
+
+}  // namespace
+
+void draw_picture(const PictureArguments& arguments) {
+    check(arguments);
+    const Vec3 view = view_of(arguments.view);
+    PictureOptions options{
+        .width = arguments.size, .height = arguments.size, .view = view, .up = up_of(view)};
+    const Surface surface = read_foreign_surface(arguments.surface, arguments.units);
+    std::string legend = "patches in their colours";
+    if (!arguments.reference.empty()) {
+        const Surface reference = read_foreign_surface(arguments.reference, arguments.units);
+        DeviationColours deviation =
+            deviation_colours(surface, reference, {}, arguments.full_colour.value_or(0.0));
+        legend = "deviation, " + deviation_legend(deviation.full_colour);
+        options.vertex_colours = std::move(deviation.colours);
+    }
+    PendingFiles files;
+    files.add_text(arguments.out, png(draw(surface, options)));
+    files.commit();
+    std::cout << "wrote " << arguments.out << ": " << legend << "\n";
+}
+
+}  // namespace vesselbench
