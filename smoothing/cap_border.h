@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "geometry/surface.h"
+#include "smoothing/flat_areas.h"
 
 namespace vesselbench::detail {
-
-/// Per triangle the number of the flat area it belongs to; 0: none.
-using AreaNumbers = std::vector<std::uint32_t>;
 
 /// Tells caps from other flat areas by what the surface does beyond their border. One object looks
 /// at one area after the other and keeps its arrays.
