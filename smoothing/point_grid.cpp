@@ -6,9 +6,10 @@ namespace vesselbench::detail {
 
 namespace {
 
-constexpr std::size_t kCellsPerPoint = 2;  // points lie on a surface, so that most cells are empty
-constexpr double kMostCells = 1024.0;      // along an axis
-constexpr double kCrowd = 32.0;            // points in the cell of the average point
+constexpr std::size_t kCellsPerPoint =
+    1;  // points lie on a surface: most cells are empty, others hold several
+constexpr double kMostCells = 1024.0;  // along an axis
+constexpr double kCrowd = 32.0;        // points in the cell of the average point
 
 }  // namespace
 

@@ -51,12 +51,12 @@ std::vector<double> staircase_weights(const Topology& topology, const Positions&
         for (const double d : weights)
             if (d != kFar) largest = std::max(largest, d);
     }
-    for (std::size_t v = 0; v < weights.size(); ++v) {
+    detail::for_each_vertex(weights.size(), [&](std::size_t v) {
         const double d = weights[v];
         const double near = d == kFar ? 0.0 : largest > 0.0 ? 1.0 - d / largest : 1.0;  // (5.5)
         weights[v] = near * (1.0 - parameters.beta_min) + parameters.beta_min;          // (5.6)
         if (!parameters.caps.empty() && parameters.caps[v] != 0) weights[v] = 0.0;
-    }
+    });
     return weights;
 }
 
