@@ -6,6 +6,7 @@
 #include "geometry/errors.h"
 #include "geometry/io/surface_file.h"
 #include "tests/support/shapes.h"
+#include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 #include "workbench/session.h"
 
@@ -13,14 +14,6 @@ using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
-
-Outcome run(const std::string& name, const Surface& surface, const Arguments& arguments) {
-    Scene scene;
-    scene.surface = surface;
-    Progress progress;
-    const Operation& operation = find_operation(name);
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
-}
 
 /// Two dabs on the wall of a tube of radius 2 mm along z.
 std::vector<double> stroke(double strength) {

@@ -3,22 +3,11 @@
 
 #include "geometry/errors.h"
 #include "tests/support/shapes.h"
+#include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
-
-namespace {
-
-Outcome run(const std::string& name, const Surface& surface, const Arguments& arguments) {
-    Scene scene;
-    scene.surface = surface;
-    Progress progress;
-    const Operation& operation = find_operation(name);
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
-}
-
-}  // namespace
 
 SCENARIO("smooth keeps caps and rims bit for bit and says what it did", "[workbench][smooth]") {
     const Surface tube = closed_tube(2.0, 12.0, 24, 30);

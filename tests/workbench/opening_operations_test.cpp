@@ -4,20 +4,13 @@
 #include "geometry/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
+#include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
-
-Outcome run(const std::string& name, const Surface& surface, const Arguments& arguments) {
-    Scene scene;
-    scene.surface = surface;
-    Progress progress;
-    const Operation& operation = find_operation(name);
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
-}
 
 /// A second run with the resolved arguments leaves the same bits.
 void check_replay(const std::string& operation, const Surface& surface, const Outcome& outcome) {

@@ -11,6 +11,7 @@
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
+#include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 #include "workbench/phantoms/phantom_json.h"
 
@@ -20,9 +21,7 @@ using namespace vesselbench::test;
 namespace {
 
 Outcome smooth(const Scene& scene, const Arguments& arguments) {
-    Progress progress;
-    const Operation& operation = find_operation("smooth");
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
+    return run("smooth", scene, arguments);
 }
 
 Scene scene_of(const Surface& surface) {

@@ -224,4 +224,16 @@ WorkerOptions test_worker() {
     return options;
 }
 
+Outcome run(const std::string& operation, const Scene& scene, const Arguments& arguments) {
+    Progress progress;
+    const Operation& found = find_operation(operation);
+    return found.run(scene, checked_arguments(found, arguments), progress);
+}
+
+Outcome run(const std::string& operation, const Surface& surface, const Arguments& arguments) {
+    Scene scene;
+    scene.surface = surface;
+    return run(operation, scene, arguments);
+}
+
 }  // namespace vesselbench::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "workbench/operation.h"
 #include "workbench/worker.h"
 
 namespace vesselbench::test {
@@ -14,6 +15,12 @@ namespace vesselbench::test {
 /// - `flatten` (openings): sets z to 0, and one attribute, patches and a volume mesh
 /// - isolated: `far-bump` (as bump), `crash`, `crash-on-file`, `hang`, `greedy`, `refuse`
 [[nodiscard]] const Operation& find_test_operation(const std::string& name);
+
+/// Runs a real operation, found by its name, on a scene or on a surface alone.
+[[nodiscard]] Outcome run(const std::string& operation, const Scene& scene,
+                          const Arguments& arguments);
+[[nodiscard]] Outcome run(const std::string& operation, const Surface& surface,
+                          const Arguments& arguments);
 
 /// Starts the helper program of these tests as a worker that knows the operations above.
 [[nodiscard]] WorkerOptions test_worker();

@@ -1,29 +1,16 @@
 #include <cmath>
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/image/extract_surface.h"
-#include "geometry/io/surface_file.h"
 #include "geometry/measure.h"
+#include "workbench/operations/surface_argument.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 namespace {
-
-Surface surface_in_file(const Arguments& arguments, Outcome& outcome) {
-    const std::string path = arguments.text("file"), units = arguments.text("units");
-    SurfaceFile file =
-        read_surface(path, units == "auto" ? std::nullopt : std::optional(length_unit_from(units)));
-    outcome.resolved.set("units", to_string(file.unit));
-    if (!file.unit_certain)
-        outcome.warnings.push_back(std::filesystem::path(path).filename().string() +
-                                   ": the unit is not certain (" + file.unit_reason +
-                                   "); give units=mm, cm or m if this is wrong");
-    return std::move(file.surface);
-}
 
 Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
                           const Progress& progress) {
@@ -44,7 +31,7 @@ Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress)
     const std::string& name = arguments.text("name");
     if (name.empty()) throw UsageError("load-neighbour: name must not be empty");
     Outcome outcome{.scene = scene, .resolved = arguments};
-    Surface neighbour = arguments.has("file") ? surface_in_file(arguments, outcome)
+    Surface neighbour = arguments.has("file") ? read_surface_argument(arguments, outcome).surface
                                               : surface_of_labels(scene, arguments, progress);
     if (neighbour.empty()) throw InvalidInput("load-neighbour: the surface has no triangles");
     outcome.report = std::make_shared<nlohmann::ordered_json>(
@@ -73,12 +60,7 @@ Operation load_neighbour_operation() {
                             .type = List,
                             .help = "labels of the mask or label map instead, as 1,2,3",
                             .minimum = 1},
-                           {.name = "units",
-                            .type = Choice,
-                            .default_value = std::string("auto"),
-                            .help = "unit of the file's coordinates; auto takes what the file "
-                                    "states, or the unit in which it has the size of a vessel",
-                            .choices = {"auto", "mm", "cm", "m"}}},
+                           units_parameter()},
             .run = &load,
             .isolated = true,
             .thesis = "5.2"};
