@@ -323,6 +323,30 @@ std::string free_name(const std::string& stem, bool numbered, const std::vector<
     }
 }
 
+double distance_to_vertices(const Surface& surface, const Vec3& point) {
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : surface.points()) squared = std::min(squared, (p - point).squaredNorm());
+    return std::sqrt(squared);
+}
+
+/// True if the cut for opening i removed the surface at another opening's place, and that is not
+/// just another tip of the same ragged end.
+bool takes_another_end(const Surface& before, const Surface& after, const OpeningPlan& plan,
+                       std::size_t i) {
+    constexpr double kSameEnd = 2.0;  // diameters of the cut
+    const auto patch = nearest_opening(after, plan.openings[i].place.plane.point);
+    const double diameter = patch ? patch_shape(after, *patch).diameter() : 0.0;
+    for (std::size_t j = 0; j < plan.openings.size(); ++j) {
+        const OpeningPlace &own = plan.openings[i].place, &other = plan.openings[j].place;
+        if (j == i || (own.tip - other.tip).norm() < kSameEnd * diameter) continue;
+        // an opening made before is looked for at its cap, one to come at its tip
+        const Vec3& at = j < i ? other.plane.point : other.tip;
+        const double was = distance_to_vertices(before, at);
+        if (distance_to_vertices(after, at) > 1.5 * was + 0.1 * diameter) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
@@ -331,10 +355,11 @@ OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
 }
 
 Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
-                      const std::optional<Vec3>& inlet) {
+                      const std::optional<Vec3>& inlet, std::vector<std::size_t>* left_out) {
     Surface result = surface;
     std::vector<std::string> unnamed;
-    for (const auto& opening : plan.openings) {
+    for (std::size_t i = 0; i < plan.openings.size(); ++i) {
+        const PlannedOpening& opening = plan.openings[i];
         if (opening.keep) {
             const auto patch = nearest_opening(result, opening.place.plane.point);
             if (!patch)
@@ -350,11 +375,14 @@ Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
             continue;
         }
         Patch patch{free_name("opening", true, result.patches), PatchKind::Cut};
-        if (opening.patch)
-            patch = *opening.patch;
-        else
-            unnamed.push_back(patch.name);
-        result = clip_branch(result, opening.place.plane, patch);
+        if (opening.patch) patch = *opening.patch;
+        Surface cut = clip_branch(result, opening.place.plane, patch);
+        if (takes_another_end(result, cut, plan, i)) {
+            if (left_out != nullptr) left_out->push_back(i);
+            continue;
+        }
+        if (!opening.patch) unnamed.push_back(patch.name);
+        result = std::move(cut);
     }
     return name_openings(result, unnamed, inlet);
 }

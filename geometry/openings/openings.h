@@ -34,10 +34,14 @@ struct OpeningPlanOptions {
                                         const OpeningPlanOptions& options = {});
 
 /// Cuts and caps as planned. Openings without a name are called and typed by name_openings.
+/// A cut that would take the end of another vessel with it is left out: it lies in a neck of the
+/// network, not at an end.
 /// \param inlet a point near the opening that is the inlet [mm]; none: the largest, unless a patch
 ///        of that kind exists
+/// \param left_out if not null, the indices of the openings left out are added here, ascending
 [[nodiscard]] Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
-                                    const std::optional<Vec3>& inlet = std::nullopt);
+                                    const std::optional<Vec3>& inlet = std::nullopt,
+                                    std::vector<std::size_t>* left_out = nullptr);
 
 /// Orders the patches (wall, inlet, outlets by descending area, the rest) and gives those of kind
 /// Cut that are listed in `unnamed` a kind and a name: the inlet as above, the others outlet_1,

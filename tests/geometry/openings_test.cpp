@@ -258,6 +258,32 @@ SCENARIO("Attributes and patches go along when a branch is cut", "[geometry][ope
     CHECK(clipped.patches[1] == Patch{"outlet_1", PatchKind::Outlet});
 }
 
+SCENARIO("A cut that would take another vessel's end with it is left out", "[geometry][openings]") {
+    const double length = 30.0;
+    const Surface tube = open_tube(2.0, length, 40, 90);
+    const auto graph = line_graph(straight_line(), length, 2.0);
+    OpeningPlan plan = plan_openings(tube, graph);
+    REQUIRE(plan.openings.size() == 2);
+    const std::size_t upper = plan.openings[0].place.tip.z() > 15.0 ? 0 : 1;
+    std::vector<std::size_t> left_out;
+    GIVEN("a cut for the upper end that keeps what lies above it") {
+        plan.openings[upper].place.plane = {Vec3(0, 0, 20.0), -Vec3::UnitZ()};
+        const Surface clipped = clip_openings(tube, plan, std::nullopt, &left_out);
+        CHECK(left_out == std::vector<std::size_t>{upper});
+        double lowest = length, highest = 0.0;
+        for (const Vec3& p : clipped.points()) {
+            lowest = std::min(lowest, p.z());
+            highest = std::max(highest, p.z());
+        }
+        CHECK(lowest < 5.0);       // the lower end was opened,
+        CHECK(highest == length);  // the upper one stayed
+    }
+    GIVEN("the plan as it is") {
+        check_caps(clip_openings(tube, plan, std::nullopt, &left_out), 2);
+        CHECK(left_out.empty());
+    }
+}
+
 SCENARIO("Cutting fails with a clear text where it cannot be done", "[geometry][openings]") {
     const Surface tube = open_tube(2.0, 30.0, 40, 90);
     CHECK_THROWS_WITH(cut_branch(tube, {Vec3(0, 0, 40), Vec3::UnitZ()}),

@@ -7,6 +7,7 @@
 #include "geometry/errors.h"
 #include "geometry/openings/opening_axis.h"
 #include "geometry/openings/openings.h"
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/point_json.h"
 
@@ -112,13 +113,26 @@ Resolved describe(const Surface& surface, const OpeningPlan& plan) {
     return resolved;
 }
 
+/// Takes openings that were not made out of the plan, and says so.
+void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
+    for (auto i = left_out.rbegin(); i != left_out.rend(); ++i) {
+        const auto opening = plan.openings.begin() + static_cast<std::ptrdiff_t>(*i);
+        plan.warnings.push_back("the end at " + place_text(opening->place.tip) +
+                                " was left closed: a cut there would take other vessels' ends with "
+                                "it; tip=x,y,z distance=... chooses the place");
+        plan.openings.erase(opening);
+    }
+}
+
 Outcome clip_opening(const Scene& scene, const Arguments& arguments, Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
-    const OpeningPlan plan =
+    OpeningPlan plan =
         arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
     progress.report(0.9, "cutting");
-    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"));
+    std::vector<std::size_t> left_out;
+    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out);
+    leave_out(plan, left_out);
     const Resolved resolved = describe(clipped, plan);
     Outcome outcome;
     outcome.resolved = arguments;
