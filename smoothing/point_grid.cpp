@@ -6,18 +6,23 @@ namespace vesselbench::detail {
 
 namespace {
 
-constexpr std::size_t kCellsPerPoint =
-    1;  // points lie on a surface: most cells are empty, others hold several
 constexpr double kMostCells = 1024.0;  // along an axis
 constexpr double kCrowd = 32.0;        // points in the cell of the average point
+
+/// Points lie on a surface, so that n cells in space leave n^(1/3) points in each that has any:
+/// more cells keep these few, and cost memory.
+double cells_for(std::size_t points) {
+    const auto count = static_cast<double>(points);
+    return count * std::clamp(std::sqrt(count) / 100.0, 1.0, 8.0) + 64.0;
+}
 
 }  // namespace
 
 /// Sets the size of the cells. \return number of them
 std::size_t PointGrid::choose_cells(const Vec3& extent, std::size_t points) {
-    const double most = static_cast<double>(kCellsPerPoint * points + 64);
+    const double most = cells_for(points);
     const double longest = extent.maxCoeff();
-    double length = longest > 0.0 ? longest / kMostCells : 1.0;
+    double length = longest > 1e-300 ? longest / kMostCells : 1.0;  // no zero by underflow
     const auto cells = [&](int axis) { return std::floor(extent[axis] / length) + 1.0; };
     while (cells(0) * cells(1) * cells(2) > most) length *= 1.1;
     per_length_ = 1.0 / length;
