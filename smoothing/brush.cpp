@@ -41,23 +41,40 @@ void check(const Dab& dab, BrushKind kind) {
     detail::require_positive("local radius", dab.anchor.radius);
     detail::require_positive("radius", dab.radius);
     detail::require_range("strength", dab.strength, kind == BrushKind::Smooth ? 0.0 : -1.0, 1.0);
-}
-
-/// Strength * falloff at a distance from the dab's middle [mm].
-double factor(const Dab& dab, double distance) {
-    const double t = std::min(1.0, distance / dab.radius);
-    switch (dab.falloff) {
-        case Falloff::Smooth:
-            return dab.strength * (1.0 - t * t) * (1.0 - t * t);
-        case Falloff::Linear:
-            return dab.strength * (1.0 - t);
-        case Falloff::Constant:
-            break;
-    }
-    return dab.strength;
+    detail::require_range("falloff", dab.falloff, 0.0, 1.0);
 }
 
 }  // namespace
+
+Anchor nearest_anchor(const Surface& surface, const SurfaceDistance& places, const Vec3& point,
+                      double otherwise) {
+    if (!point.allFinite()) throw InvalidInput("the point to brush at is not finite");
+    const SurfacePoint place = places.closest_point(point);
+    const Vec3 normal = area_normal(surface.points(), surface.triangles()[place.triangle]);
+    if (!(normal.norm() > 0.0))
+        throw AlgorithmFailure("the triangle at " + place_text(place.point) +
+                               " has no area: repair the surface, or brush beside it");
+    Anchor anchor{.point = place.point, .normal = normal.normalized(), .radius = otherwise};
+    const auto hits = places.all_hits(place.point, -anchor.normal);
+    const Triangle& here = surface.triangles()[place.triangle];
+    const auto touches = [&](TriangleId t) {
+        return std::ranges::find_first_of(surface.triangles()[t], here) !=
+               surface.triangles()[t].end();
+    };
+    const auto opposite = std::ranges::find_if(hits, [&](const SurfaceHit& hit) {
+        return hit.from_inside && hit.distance > 0.0 && !touches(hit.triangle);
+    });
+    if (opposite != hits.end()) anchor.radius = 0.5 * opposite->distance;
+    return anchor;
+}
+
+double falloff_share(const Dab& dab, double distance) {
+    const double t = distance / dab.radius, solid = 1.0 - dab.falloff;
+    if (t > 1.0) return 0.0;
+    if (t <= solid) return 1.0;
+    const double s = (t - solid) / dab.falloff;
+    return (1.0 - s * s) * (1.0 - s * s);
+}
 
 BrushStroke::BrushStroke(Surface surface, BrushSettings settings,
                          std::shared_ptr<const SurfaceDistance> places)
@@ -106,7 +123,7 @@ std::vector<VertexId> BrushStroke::add(const Dab& dab) {
     touched_.clear();
     for (const auto& [v, distance] :
          neighbourhood_.within(now_, place.triangle, place.point, dab.radius)) {
-        const double share = factor(dab, distance);
+        const double share = dab.strength * falloff_share(dab, distance);
         const bool stays = settings_.kind != BrushKind::Weight && fixed_[v] != 0;
         if (share != 0.0 && !stays) touched_.push_back({v, share});
     }
@@ -157,6 +174,10 @@ Vec3 BrushStroke::vertex_normal(VertexId v) const {
         sum += area_normal(now_, start_.triangles()[t]);
     const double length = sum.norm();
     return length > 0.0 ? Vec3(sum / length) : Vec3::Zero();
+}
+
+TakenBack BrushStroke::keep_walls_apart(const Progress& progress) {
+    return take_back_crossings(start_, now_, progress);
 }
 
 Surface BrushStroke::surface() const {

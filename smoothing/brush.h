@@ -8,6 +8,7 @@
 #include "geometry/surface.h"
 #include "geometry/surface_distance.h"
 #include "smoothing/geodesic_neighbourhood.h"
+#include "smoothing/new_crossings.h"
 
 namespace vesselbench {
 
@@ -19,12 +20,14 @@ struct Anchor {
     double radius = 1.0;          ///< local radius of the vessel [mm], > 0
 };
 
-/// How a brush fades from its middle (t = 0) to its edge (t = 1).
-enum class Falloff : std::uint8_t {
-    Smooth,    ///< (1 - t^2)^2
-    Linear,    ///< 1 - t
-    Constant,  ///< 1
-};
+/// The anchor of the surface's place nearest to a point: the outward normal there, and half of the
+/// way through the vessel as local radius.
+/// \param places of the same surface
+/// \param otherwise local radius [mm] where that way leads into the open
+/// \throw InvalidInput if the point is not finite
+/// \throw AlgorithmFailure if the triangle there has no area
+[[nodiscard]] Anchor nearest_anchor(const Surface& surface, const SurfaceDistance& places,
+                                    const Vec3& point, double otherwise);
 
 enum class BrushKind : std::uint8_t {
     Smooth,   ///< Laplace passes: a vertex goes strength * falloff of the way to its ring's mean
@@ -37,8 +40,13 @@ struct Dab {
     Anchor anchor;
     double radius = 1.0;    ///< reach along the surface [mm], > 0
     double strength = 0.5;  ///< [-1, 1], [0, 1] for smoothing [-]
-    Falloff falloff = Falloff::Smooth;
+    /// Part of the radius, from the edge inward, over which the brush fades [-], 0 ... 1: as
+    /// (1 - s^2)^2 with s from 0 to 1 across it. 1 fades from the middle on, 0 has a sharp edge.
+    double falloff = 1.0;
 };
+
+/// Share of its strength that a dab has at a distance along the surface [mm].
+[[nodiscard]] double falloff_share(const Dab& dab, double distance);
 
 struct BrushSettings {
     BrushKind kind = BrushKind::Smooth;
@@ -64,6 +72,10 @@ public:
     /// \throw InvalidInput if the dab is out of its ranges
     /// \throw AlgorithmFailure if there is no such place; the stroke stays as it was
     std::vector<VertexId> add(const Dab& dab);
+
+    /// Ends the stroke: where it made the wall pass through itself or another one, it is taken
+    /// back.
+    TakenBack keep_walls_apart(const Progress& progress = {});
 
     /// The surface with all dabs so far.
     [[nodiscard]] Surface surface() const;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/self_intersections.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -100,6 +101,60 @@ SCENARIO("A brush never reaches through to a nearby vessel", "[smoothing][brush]
     CHECK(moved > 100);
 }
 
+SCENARIO("A brush does not reach through a thin wall", "[smoothing][brush]") {
+    // A pipe with an outer and an inner side, 0.2 mm apart, joined by rings at both ends.
+    const Surface outer = open_tube(2.0, 10.0, 64, 80);
+    const std::size_t count = outer.vertex_count();
+    Positions points = outer.points();
+    for (const Vec3& p : outer.points()) points.emplace_back(0.9 * p.x(), 0.9 * p.y(), p.z());
+    std::vector<Triangle> triangles(outer.triangles().begin(), outer.triangles().end());
+    const auto inside = [&](VertexId v) { return static_cast<VertexId>(v + count); };
+    for (const auto& [a, b, c] : outer.triangles())
+        triangles.push_back({inside(a), inside(c), inside(b)});
+    for (const auto& loop : outer.topology->boundary_loops())
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const VertexId a = loop[i], b = loop[(i + 1) % loop.size()];
+            triangles.push_back({b, a, inside(a)});
+            triangles.push_back({b, inside(a), inside(b)});
+        }
+    const Surface pipe = make_surface(std::move(points), std::move(triangles));
+    REQUIRE(is_closed_manifold(pipe));
+    const auto kind = GENERATE(BrushKind::Smooth, BrushKind::Inflate, BrushKind::Weight);
+    const auto side = GENERATE(1.0, -1.0);
+    const Dab dab{.anchor = {.point = {side > 0 ? 2.0 : 1.8, 0.0, 5.0},
+                             .normal = {side, 0, 0},
+                             .radius = 1.0},
+                  .radius = 1.5,
+                  .strength = 0.5};
+    const Surface after = brushed(pipe, kind, {dab, dab});
+    std::size_t changed = 0;
+    for (std::size_t v = 0; v < pipe.vertex_count(); ++v) {
+        const bool touched = kind == BrushKind::Weight
+                                 ? after.attributes.at("painted_weight")->at(v) != 0.0
+                                 : after.points()[v] != pipe.points()[v];
+        changed += touched ? 1 : 0;
+        if (touched) REQUIRE((v < count) == (side > 0.0));
+    }
+    CHECK(changed > 50);
+}
+
+SCENARIO("At its end a stroke is taken back where walls would cross", "[smoothing][brush]") {
+    const Surface tube = closed_tube(1.0, 10.0, 48, 80);
+    const Surface both =
+        merged(tube, mapped(tube, [](const Vec3& p) { return Vec3(p + Vec3(2.1, 0, 0)); }));
+    const Dab dab{.anchor = {.point = {1.0, 0.0, 5.0}, .normal = {1, 0, 0}, .radius = 1.0},
+                  .radius = 2.0,
+                  .strength = 1.0};
+    BrushStroke stroke(both, {.kind = BrushKind::Inflate});
+    for (int i = 0; i < 2; ++i) static_cast<void>(stroke.add(dab));
+    REQUIRE_FALSE(self_intersections(stroke.surface()).empty());
+    const TakenBack taken = stroke.keep_walls_apart();
+    CHECK(taken.vertices > 0);
+    CHECK(taken.crossings_left == 0);
+    CHECK(self_intersections(stroke.surface()).empty());
+    CHECK(enclosed_volume(stroke.surface()) > enclosed_volume(both) + 0.02);
+}
+
 SCENARIO("The anchor's normal chooses the side of a thin gap", "[smoothing][brush]") {
     const Surface tube = closed_tube(1.0, 10.0, 48, 80);
     const Surface both =
@@ -119,7 +174,7 @@ SCENARIO("Caps, rims and open boundaries stay, but can be painted", "[smoothing]
     const Dab dab{.anchor = {.point = {2.0, 0.0, 5.9}, .normal = {1, 0, 0}, .radius = 2.0},
                   .radius = 2.0,
                   .strength = 1.0,
-                  .falloff = Falloff::Constant};
+                  .falloff = 0.0};
     for (const BrushKind kind : {BrushKind::Smooth, BrushKind::Inflate}) {
         const Surface after = brushed(tube, kind, {dab});
         CHECK(after.points() != tube.points());
@@ -152,13 +207,70 @@ SCENARIO("A painted weight adds up and stays between 0 and 1", "[smoothing][brus
     CHECK(weight({some, less}) == Approx(0.1));
     CHECK(weight({some, some, some}) == 1.0);
     CHECK(weight({some, less, less}) == 0.0);
-    Dab linear = some;
-    linear.falloff = Falloff::Linear;
-    const Surface painted = brushed(sphere, BrushKind::Weight, {linear});
-    for (std::size_t v = 0; v < sphere.vertex_count(); ++v) {
-        const double arc = 10.0 * std::acos(std::min(1.0, sphere.points()[v].dot(top) / 100.0));
-        CHECK(painted.attributes.at("painted_weight")->at(v) ==
-              Approx(0.4 * std::max(0.0, 1.0 - arc / 3.0)).margin(4e-3));
+}
+
+SCENARIO("A dab fades over its falloff, and not before", "[smoothing][brush]") {
+    Dab dab{.radius = 4.0, .falloff = 0.5};
+    CHECK(falloff_share(dab, 0.0) == 1.0);
+    CHECK(falloff_share(dab, 2.0) == 1.0);
+    CHECK(falloff_share(dab, 3.0) == Approx(0.5625));  // (1 - 1/4)^2
+    CHECK(falloff_share(dab, 4.0) == 0.0);
+    dab.falloff = 0.0;
+    CHECK(falloff_share(dab, 4.0) == 1.0);
+    CHECK(falloff_share(dab, 4.0001) == 0.0);
+    dab.falloff = 1.0;
+    CHECK(falloff_share(dab, 2.0) == Approx(0.5625));
+    GIVEN("a sphere that is painted with it") {
+        const Surface sphere = icosphere(10.0, 4);
+        const Vec3 top = sphere.points()[0];
+        dab = on_sphere(top, 3.0, 0.4);
+        dab.falloff = GENERATE(0.0, 0.3, 1.0);
+        const Surface painted = brushed(sphere, BrushKind::Weight, {dab});
+        for (std::size_t v = 0; v < sphere.vertex_count(); ++v) {
+            const double arc = 10.0 * std::acos(std::min(1.0, sphere.points()[v].dot(top) / 100.0));
+            if (std::abs(arc - 3.0) > 0.02)  // a sharp edge has no value at 3
+                CHECK(painted.attributes.at("painted_weight")->at(v) ==
+                      Approx(0.4 * falloff_share(dab, arc)).margin(8e-3));
+        }
+    }
+}
+
+SCENARIO("Dabs of one stroke may fade differently", "[smoothing][brush]") {
+    const Surface sphere = icosphere(10.0, 4);
+    Dab sharp = on_sphere({0, 0, 1}, 3.0, 1.0), soft = on_sphere({0, 0, -1}, 3.0, 1.0);
+    sharp.falloff = 0.0;
+    const Surface up = brushed(sphere, BrushKind::Inflate, {sharp, soft});
+    double highest = 0.0, lowest = 0.0;
+    for (const Vec3& p : up.points()) {
+        const double around = p.head<2>().norm();
+        if (around < 1.8 || around > 2.5) continue;
+        if (p.z() > 0.0) highest = std::max(highest, p.norm());
+        if (p.z() < 0.0) lowest = std::max(lowest, p.norm());
+    }
+    CHECK(highest == Approx(10.3).margin(0.01));
+    CHECK(lowest < 10.15);
+}
+
+SCENARIO("A point finds its anchor: normal and half of the way through", "[smoothing][brush]") {
+    const Surface tube = closed_tube(2.0, 10.0, 64, 60);
+    const SurfaceDistance places(tube);
+    const Anchor anchor = nearest_anchor(tube, places, {2.7, 0.1, 5.0}, 9.0);
+    CHECK((anchor.point - Vec3(2, 0.07, 5)).norm() < 0.02);
+    CHECK(anchor.normal.dot(Vec3::UnitX()) > 0.99);
+    CHECK(anchor.radius == Approx(2.0).epsilon(0.01));
+    GIVEN("a vertex, where several triangles are equally near") {
+        const Anchor corner = nearest_anchor(tube, places, tube.points()[64 * 30], 9.0);
+        CHECK(corner.radius == Approx(2.0).epsilon(0.01));
+    }
+    GIVEN("a sheet, behind which there is nothing") {
+        const Surface sheet = make_surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+        CHECK(nearest_anchor(sheet, SurfaceDistance(sheet), {0.2, 0.2, 1.0}, 9.0).radius == 9.0);
+    }
+    GIVEN("no sense") {
+        CHECK_THROWS_AS(nearest_anchor(tube, places, {std::nan(""), 0, 0}, 1.0), InvalidInput);
+        const Surface line = make_surface({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
+        CHECK_THROWS_WITH(nearest_anchor(line, SurfaceDistance(line), {0, 0, 1}, 1.0),
+                          Catch::Contains("no area"));
     }
 }
 
@@ -193,6 +305,8 @@ SCENARIO("Dabs off the surface and nonsense values are refused", "[smoothing][br
     CHECK_THROWS_AS(stroke.add(with([&](Dab& d) { d.radius = nan; })), InvalidInput);
     CHECK_THROWS_AS(stroke.add(with([](Dab& d) { d.strength = -0.1; })), InvalidInput);
     CHECK_THROWS_AS(stroke.add(with([&](Dab& d) { d.strength = nan; })), InvalidInput);
+    CHECK_THROWS_AS(stroke.add(with([](Dab& d) { d.falloff = 1.5; })), InvalidInput);
+    CHECK_THROWS_AS(stroke.add(with([&](Dab& d) { d.falloff = nan; })), InvalidInput);
     CHECK_THROWS_AS(stroke.add(with([](Dab& d) { d.anchor.normal.setZero(); })), InvalidInput);
     CHECK_THROWS_AS(stroke.add(with([&](Dab& d) { d.anchor.point.y() = nan; })), InvalidInput);
     CHECK_THROWS_AS(stroke.add(with([](Dab& d) { d.anchor.radius = -1.0; })), InvalidInput);

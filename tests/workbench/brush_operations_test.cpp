@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
@@ -5,7 +6,9 @@
 
 #include "geometry/errors.h"
 #include "geometry/io/surface_file.h"
+#include "geometry/self_intersections.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 #include "workbench/session.h"
@@ -16,8 +19,9 @@ using namespace vesselbench::test;
 namespace {
 
 /// Two dabs on the wall of a tube of radius 2 mm along z.
-std::vector<double> stroke(double strength) {
-    return {2, 0, 6, 1, 0, 0, 2, 1.5, strength, 2, 0, 7, 1, 0, 0, 2, 1.5, strength};
+std::vector<double> stroke(double strength, double falloff = 1.0) {
+    return {2, 0, 6, 1, 0, 0, 2, 1.5, strength, falloff,
+            2, 0, 7, 1, 0, 0, 2, 1.5, strength, falloff};
 }
 
 }  // namespace
@@ -57,11 +61,97 @@ SCENARIO("The brushes say what they did and replay it", "[workbench][brush]") {
     }
 }
 
+SCENARIO("One dab at a point is written as the dab it became", "[workbench][brush]") {
+    const Surface tube = closed_tube(2.0, 12.0, 48, 60);
+    const auto name = GENERATE("brush-smooth", "brush-inflate", "brush-weight");
+    const Arguments given = {{"at", Vec3(2.4, 0.1, 6.0)}, {"radius", 1.5}, {"falloff", 0.5}};
+    const Outcome outcome = run(name, tube, given);
+    CHECK(outcome.warnings.empty());
+    const auto& dab = outcome.resolved.list("dabs");
+    REQUIRE(dab.size() == 10);
+    CHECK((Vec3(dab[0], dab[1], dab[2]) - Vec3(2.0, 0.1, 6.0)).norm() < 0.03);
+    CHECK(Vec3(dab[3], dab[4], dab[5]).x() > 0.99);
+    CHECK(dab[6] == Approx(2.0).epsilon(0.01));
+    CHECK(std::vector(dab.begin() + 7, dab.end()) == std::vector<double>{1.5, 0.5, 0.5});
+    THEN("its replay and the dab alone are the same bits") {
+        const Outcome again = run(name, tube, outcome.resolved);
+        const Outcome alone = run(name, tube, {{"dabs", dab}});
+        CHECK(again.resolved == outcome.resolved);
+        for (const Outcome* other : {&again, &alone}) {
+            CHECK(other->scene.surface->points() == outcome.scene.surface->points());
+            if (std::string(name) == "brush-weight")
+                CHECK(*other->scene.surface->attributes.at("painted_weight") ==
+                      *outcome.scene.surface->attributes.at("painted_weight"));
+        }
+    }
+    THEN("a point off the surface is told") {
+        const Outcome off = run(name, tube, {{"at", Vec3(8, 0, 6)}, {"radius", 1.5}});
+        REQUIRE(off.warnings.size() == 1);
+        CHECK_THAT(off.warnings[0], Catch::Contains("6 mm off the surface"));
+    }
+}
+
+SCENARIO("A brush does not push a wall through another one", "[workbench][brush]") {
+    const Surface tube = closed_tube(2.0, 12.0, 48, 60);
+    const Surface both =
+        merged(tube, mapped(tube, [](const Vec3& p) { return Vec3(p + Vec3(4.1, 0, 0)); }));
+    const Outcome outcome =
+        run("brush-inflate", both, {{"at", Vec3(2, 0, 6)}, {"radius", 2.0}, {"strength", 1.0}});
+    REQUIRE(outcome.warnings.size() == 1);
+    CHECK_THAT(outcome.warnings[0], Catch::Contains("walls would have passed through each other"));
+    CHECK(self_intersections(*outcome.scene.surface).empty());
+    CHECK(outcome.report->at("vertices_moved") > 20);
+}
+
+SCENARIO("A painted weight steers smooth, and every way back has the same bits",
+         "[workbench][brush]") {
+    const std::string file = temporary_folder() + "/tube.vtp";
+    const Surface tube = mapped(closed_tube(2.0, 12.0, 48, 60), [](const Vec3& p) {
+        return Vec3(p.x() * (1.0 + 0.03 * std::sin(7.0 * p.z())), p.y(), p.z());
+    });
+    write_surface(tube, file);
+    const std::string project = temporary_folder() + "/p.vbench";
+    SessionOptions options;
+    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    Positions painted_points;
+    {
+        Session session = Session::create(project, options);
+        session.apply("load-surface", {{"file", file}});
+        session.apply("brush-weight", {{"at", Vec3(2, 0, 6)}, {"radius", 2.0}, {"strength", 1.0}});
+        session.apply("smooth", {{"filter", "laplace"}, {"painted", "painted_weight"}});
+        painted_points = surface_of(session.scene()).points();
+        session.undo();
+        const Surface before = surface_of(session.scene());
+        const auto& weights = *before.attributes.at("painted_weight");
+        std::size_t moved = 0;
+        for (std::size_t v = 0; v < weights.size(); ++v) {
+            const bool went = painted_points[v] != before.points()[v];
+            if (weights[v] == 0.0) REQUIRE_FALSE(went);
+            moved += went ? 1 : 0;
+        }
+        CHECK(moved > 50);
+        session.redo();
+        CHECK(surface_of(session.scene()).points() == painted_points);
+        for (const auto& entry : session.replay()) CHECK(entry.differences.empty());
+    }
+    THEN("also from the file, with another stroke before it") {
+        Session session = Session::open(project, options);
+        CHECK(surface_of(session.scene()).points() == painted_points);
+        for (const auto& entry : session.replay()) {
+            CHECK((entry.replayed || entry.operation == "load-surface"));  // its file is elsewhere
+            CHECK(entry.differences.empty());
+        }
+        const EditId stroke = session.log()[1].edit.edit.id;
+        session.change_edit(stroke, {{"at", Vec3(-2, 0, 6)}, {"radius", 2.0}, {"strength", 1.0}});
+        CHECK(surface_of(session.scene()).points() != painted_points);
+        session.undo();
+        CHECK(surface_of(session.scene()).points() == painted_points);
+    }
+}
+
 SCENARIO("A painted weight survives what changes connectivity", "[workbench][brush]") {
     const Surface tube = closed_tube(2.0, 12.0, 48, 60);
-    const Surface painted =
-        *run("brush-weight", tube, {{"dabs", stroke(1.0)}, {"falloff", std::string("constant")}})
-             .scene.surface;
+    const Surface painted = *run("brush-weight", tube, {{"dabs", stroke(1.0, 0.0)}}).scene.surface;
     for (const char* name : {"remesh", "subdivide", "smooth"}) {
         INFO(name);
         const Surface after = *run(name, painted, {}).scene.surface;
@@ -83,8 +173,8 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
         numbers[at] = value;
         return Arguments{{"dabs", numbers}};
     };
-    CHECK_THROWS_AS(run(name, tube, with(9, 4.5)), AlgorithmFailure);
-    CHECK_THROWS_WITH(run(name, tube, with(9, 4.5)),
+    CHECK_THROWS_AS(run(name, tube, with(10, 4.5)), AlgorithmFailure);
+    CHECK_THROWS_WITH(run(name, tube, with(10, 4.5)),
                       Catch::Contains(name) && Catch::Contains("dab 2 at (4.5, 0, 7) mm"));
     CHECK_THROWS_AS(run(name, tube, with(3, -1.0)), AlgorithmFailure);
     CHECK_THROWS_AS(run(name, tube, with(3, 0.0)), UsageError);
@@ -92,10 +182,19 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
     CHECK_THROWS_AS(run(name, tube, with(7, -1.0)), UsageError);
     CHECK_THROWS_AS(run(name, tube, with(8, 1.5)), UsageError);
     CHECK_THROWS_AS(run(name, tube, with(8, std::numeric_limits<double>::quiet_NaN())), UsageError);
-    CHECK_THROWS_AS(run(name, tube, {}), UsageError);
+    CHECK_THROWS_WITH(run(name, tube, with(19, 1.1)),
+                      Catch::Contains("dab 2") && Catch::Contains("falloff = 1.1 must be 0 to 1"));
+    CHECK_THROWS_WITH(run(name, tube, {}), Catch::Contains("give dabs, or at=x,y,z"));
+    CHECK_THROWS_AS(run(name, tube, {{"at", Vec3(2, 0, 6)}}), UsageError);
+    CHECK_THROWS_AS(run(name, tube, {{"dabs", stroke(0.5)}, {"radius", 1.0}}), UsageError);
+    CHECK_THROWS_AS(run(name, tube, {{"dabs", stroke(0.5)}, {"at", Vec3(2, 0, 6)}}), UsageError);
+    CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 0.0}}),
+                      Catch::Contains("'radius'") && Catch::Contains("above 0 mm"));
+    CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 1.0}, {"falloff", -1.0}}),
+                      Catch::Contains("'falloff'") && Catch::Contains("0 to 1"));
     CHECK_THROWS_AS(run(name, tube, {{"dabs", std::vector<double>{1, 2, 3}}}), UsageError);
     CHECK_THROWS_AS(run(name, tube, {{"dabs", std::vector<double>{}}}), UsageError);
-    const std::vector<double> between = {2, 0, 6.07, 1, 0, 0, 2, 1e-4, 0.5};
+    const std::vector<double> between = {2, 0, 6.07, 1, 0, 0, 2, 1e-4, 0.5, 1};
     CHECK_FALSE(run(name, tube, {{"dabs", between}}).warnings.empty());
     CHECK_THROWS_AS(run("brush-smooth", tube, with(8, -0.5)), UsageError);
     CHECK_THROWS_AS(
