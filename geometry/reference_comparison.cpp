@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/errors.h"
+#include "geometry/local_error.h"
 #include "geometry/measure.h"
 #include "geometry/surface_distance.h"
 
@@ -66,6 +67,10 @@ OneWay one_way(const Surface& from, const Surface& to, double spacing) {
     return result;
 }
 
+bool same_triangles(const Surface& a, const Surface& b) {
+    return a.vertex_count() == b.vertex_count() && std::ranges::equal(a.triangles(), b.triangles());
+}
+
 }  // namespace
 
 ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference) {
@@ -79,6 +84,11 @@ ReferenceComparison compare_with_reference(const Surface& surface, const Surface
     result.hausdorff_to_reference = there.largest;
     result.mean_to_reference = there.sum / there.area;
     result.mean_distance = (there.sum + back.sum) / (there.area + back.area);
+    if (same_triangles(surface, reference)) {
+        const LocalError error =
+            local_error(*reference.topology, reference.points(), surface.points());
+        result.local_error = {error.mean, error.largest};
+    }
     const double before = std::abs(volume(reference));
     if (before > 0.0)
         result.volume_change_percent = 100.0 * (std::abs(volume(surface)) - before) / before;

@@ -1,8 +1,16 @@
 #pragma once
 
+#include <optional>
+
 #include "geometry/surface.h"
 
 namespace vesselbench {
+
+/// How far vertices are from the reference's triangles around where they came from (local_error.h).
+struct LocalErrorFigures {
+    double mean = 0.0;     ///< over the vertices [mm]
+    double largest = 0.0;  ///< [mm]
+};
 
 /// How two surfaces differ.
 struct ReferenceComparison {
@@ -11,6 +19,8 @@ struct ReferenceComparison {
     double hausdorff_to_reference = 0.0;  ///< from the surface to the reference only [mm]
     double mean_to_reference = 0.0;       ///< from the surface to the reference only [mm]
     double volume_change_percent = 0.0;   ///< of the surface against the reference [%]
+    /// Of surfaces of the same triangles only: one is the other with its vertices moved.
+    std::optional<LocalErrorFigures> local_error;
 };
 
 /// Point-to-surface distances from all vertices and from regular samples inside the triangles, no

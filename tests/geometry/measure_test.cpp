@@ -48,6 +48,8 @@ SCENARIO("A cube's figures are exact, also far away and turned", "[geometry][mea
         // A right isosceles triangle: angles 45, 45, 90.
         CHECK(m.equiangle_skewness.max == Approx(0.25));
         CHECK(m.radius_ratio.min == Approx(2.0 * std::sqrt(2.0) - 2.0));
+        // Every vertex normal is a space diagonal.
+        CHECK(m.normal_curvature_deg == Approx(std::acos(1.0 / std::sqrt(3.0)) * 180.0 / kPi));
     }
 }
 
@@ -129,9 +131,16 @@ SCENARIO("Concentric spheres differ by their radii", "[geometry][measure]") {
     CHECK(c.hausdorff == Approx(0.5).epsilon(0.05));
     CHECK(c.mean_distance == Approx(0.5).epsilon(0.02));
     CHECK(c.volume_change_percent == Approx(100.0 * (1.05 * 1.05 * 1.05 - 1.0)).epsilon(0.01));
+    REQUIRE(c.local_error);
+    CHECK(c.local_error->mean == Approx(0.5).epsilon(0.02));
+    CHECK(c.local_error->largest == Approx(0.5).epsilon(0.02));
+    THEN("surfaces of other triangles have no local error") {
+        CHECK_FALSE(compare_with_reference(icosphere(10.0, 3), icosphere(10.0, 4)).local_error);
+    }
     THEN("a surface does not differ from itself") {
         const auto same = compare_with_reference(icosphere(10.0, 3), icosphere(10.0, 3));
         CHECK(same.hausdorff < 1e-12);
+        CHECK(same.local_error->largest == 0.0);
         CHECK(same.volume_change_percent == Approx(0.0).margin(1e-12));
     }
 }

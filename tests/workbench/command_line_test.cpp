@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -111,6 +112,39 @@ SCENARIO("A file that crashes its reader is bad input", "[workbench][command-lin
         CHECK_THAT(result.err, Contains("cube.vtp"));
     }
     CHECK(names_in(folder) == std::vector<std::string>{"cube.vtp"});
+}
+
+SCENARIO("measure prints every measure of a known shape", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), ball = folder + "/ball.vtp";
+    vesselbench::write_surface(icosphere(5.0, 4), ball);
+    vesselbench::write_surface(icosphere(5.2, 4), folder + "/grown.vtp");
+    vesselbench::write_surface(icosphere(5.2, 5), folder + "/finer.vtp");
+    vesselbench::write_surface(cube(2.0), folder + "/cube.vtp");
+    const auto measured = [&](const std::vector<std::string>& files) {
+        std::vector<std::string> arguments = {"measure", "--json"};
+        for (const std::string& file : files) arguments.push_back(folder + file);
+        return Json::parse(run(arguments).out);
+    };
+    const Json box = measured({"/cube.vtp"});
+    CHECK(box["volume"] == Approx(8.0));
+    CHECK(box["normal_curvature_deg"] == Approx(54.73561));  // of every corner
+    CHECK_FALSE(box.contains("reference"));
+    const Json sphere = measured({"/ball.vtp"});
+    CHECK(sphere["mean_curvature"]["integral"] == Approx(4.0 * M_PI * 5.0).epsilon(0.005));
+    CHECK(sphere["mean_curvature"]["integral_abs"] == Approx(4.0 * M_PI * 5.0).epsilon(0.005));
+    const Json grown = measured({"/grown.vtp", "/ball.vtp"})["reference"];
+    CHECK(grown["hausdorff"] == Approx(0.2).epsilon(0.05));
+    CHECK(grown["mean_distance"] == Approx(0.2).epsilon(0.02));
+    CHECK(grown["volume_change_percent"] == Approx(12.4864).epsilon(1e-4));
+    CHECK(grown["local_error"]["mean"] == Approx(0.2).epsilon(0.02));
+    CHECK(grown["local_error"]["max"] == Approx(0.2).epsilon(0.02));
+    const Json shrunk = measured({"/ball.vtp", "/grown.vtp"})["reference"];
+    CHECK(shrunk["hausdorff"] == Approx(grown["hausdorff"].get<double>()));
+    CHECK(shrunk["mean_distance"] == Approx(grown["mean_distance"].get<double>()));
+    CHECK(shrunk["volume_change_percent"] == Approx(-11.1004).epsilon(1e-4));
+    CHECK_FALSE(measured({"/finer.vtp", "/ball.vtp"})["reference"].contains("local_error"));
+    const std::string people = run({"measure", folder + "/grown.vtp", ball}).out;
+    CHECK_THAT(people, Contains("reference local_error max"));
 }
 
 SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {

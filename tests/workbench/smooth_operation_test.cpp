@@ -17,6 +17,7 @@
 
 using namespace vesselbench;
 using namespace vesselbench::test;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -83,6 +84,31 @@ SCENARIO("smooth estimates the stack axis of a surface that lost its image",
         const Surface plain =
             make_surface(tube.points(), {tube.triangles().begin(), tube.triangles().end()});
         CHECK_THROWS_AS(smooth(scene_of(plain), {{"staircase", true}}), AlgorithmFailure);
+    }
+}
+
+SCENARIO("smooth reports how far it went from the original surface", "[workbench][smooth]") {
+    GIVEN("a sphere, whose vertices can only go inward") {
+        const Surface sphere = icosphere(5.0, 4);
+        const Outcome outcome =
+            smooth(scene_of(sphere), {{"filter", "laplace"}, {"iterations", std::int64_t{50}}});
+        const Json& report = *outcome.report;
+        double sunk = 0.0;
+        for (const Vec3& p : outcome.scene.surface->points())
+            sunk += (5.0 - p.norm()) / static_cast<double>(sphere.vertex_count());
+        CHECK(sunk > 0.05);
+        CHECK(report["local_error_mean_mm"] == Approx(sunk).epsilon(0.02));
+        CHECK(report["local_error_largest_mm"] >= report["local_error_mean_mm"]);
+    }
+    GIVEN("a tube that keeps its caps: no vertex is farther off than it moved") {
+        const Json report = *smooth(scene_of(fine_tube(3.0, 12.0, 48)), {}).report;
+        CHECK(report["local_error_mean_mm"] <= report["mean_displacement_mm"]);
+        CHECK(report["local_error_largest_mm"] <= report["largest_displacement_mm"]);
+    }
+    GIVEN("no iteration") {
+        const Json report =
+            *smooth(scene_of(icosphere(5.0, 3)), {{"iterations", std::int64_t{0}}}).report;
+        CHECK(report["local_error_largest_mm"] == 0.0);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/local_error.h"
 #include "geometry/measure.h"
 #include "geometry/wording.h"
 #include "smoothing/distance_weights.h"
@@ -36,6 +37,9 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["vertices_moved"] = std::ranges::count_if(moved, [](double d) { return d > 0.0; });
     report["largest_displacement_mm"] = moved.empty() ? 0.0 : std::ranges::max(moved);
     report["mean_displacement_mm"] = mean(moved);
+    const LocalError error = local_error(*before.topology, before.points(), after.points());
+    report["local_error_mean_mm"] = error.mean;
+    report["local_error_largest_mm"] = error.largest;
     report["normal_curvature_before_deg"] = mean(normal_curvature(before));
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }

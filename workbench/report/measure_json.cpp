@@ -63,11 +63,15 @@ Json measure_json(const SurfaceMeasures& measures) {
 }
 
 Json reference_json(const ReferenceComparison& comparison) {
-    return {{"hausdorff", comparison.hausdorff},
-            {"mean_distance", comparison.mean_distance},
-            {"hausdorff_to_reference", comparison.hausdorff_to_reference},
-            {"mean_to_reference", comparison.mean_to_reference},
-            {"volume_change_percent", comparison.volume_change_percent}};
+    Json json = {{"hausdorff", comparison.hausdorff},
+                 {"mean_distance", comparison.mean_distance},
+                 {"hausdorff_to_reference", comparison.hausdorff_to_reference},
+                 {"mean_to_reference", comparison.mean_to_reference},
+                 {"volume_change_percent", comparison.volume_change_percent}};
+    if (comparison.local_error)
+        json["local_error"] = {{"mean", comparison.local_error->mean},
+                               {"max", comparison.local_error->largest}};
+    return json;
 }
 
 }  // namespace vesselbench
