@@ -5,12 +5,12 @@
 
 namespace vesselbench {
 
-/// An OpenGL 4.3 core context without a display (EGL, Mesa's surfaceless platform), current on the
-/// thread that made it until it goes. It has no default framebuffer: draw into a Framebuffer.
+/// An OpenGL 4.3 core context without a display (EGL: a real device, else Mesa's surfaceless
+/// platform), current on the thread that made it until it goes; then the one that was current
+/// before is so again. It has no default framebuffer: draw into a Framebuffer.
 class OffscreenContext {
 public:
-    /// \throw GpuUnavailable that says what is missing: no EGL, no surfaceless platform, no
-    /// OpenGL 4.3
+    /// \throw GpuUnavailable that says what is missing: no EGL, no platform, no OpenGL 4.3
     OffscreenContext();
     ~OffscreenContext();
     OffscreenContext(OffscreenContext&&) noexcept;

@@ -53,6 +53,10 @@ void delete_renderbuffer(unsigned id) {
     glDeleteRenderbuffers(1, &id);
 }
 
+void delete_query(unsigned id) {
+    glDeleteQueries(1, &id);
+}
+
 Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
     unsigned id = 0;
     glGenBuffers(1, &id);

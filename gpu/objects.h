@@ -37,12 +37,14 @@ void delete_program(unsigned id);
 void delete_vertex_array(unsigned id);
 void delete_framebuffer(unsigned id);
 void delete_renderbuffer(unsigned id);
+void delete_query(unsigned id);
 
 using Buffer = GlObject<delete_buffer>;
 using Program = GlObject<delete_program>;
 using VertexArray = GlObject<delete_vertex_array>;
 using Framebuffer = GlObject<delete_framebuffer>;
 using Renderbuffer = GlObject<delete_renderbuffer>;
+using Query = GlObject<delete_query>;
 
 /// A buffer filled with bytes, labelled for debuggers.
 /// \throw GpuUnavailable if the device has no room for it

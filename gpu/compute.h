@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "gpu/objects.h"
+
+namespace vesselbench {
+
+/// Work-group size of all compute shaders (gpu/shaders/elements.glsl).
+constexpr std::size_t kGroupSize = 256;
+
+/// A linked program from the text of gpu/shaders/<name>.comp and what it includes.
+/// \throw GpuUnavailable with file, line and message if the shader does not compile or link
+[[nodiscard]] Program make_compute_program(const Device& device, const std::string& name);
+
+/// A buffer for shaders, its content undefined.
+/// \throw GpuUnavailable if it is larger than a shader may use, or the device has no room for it
+[[nodiscard]] Buffer make_storage(const Device& device, std::size_t bytes,
+                                  const std::string& label);
+
+/// A buffer for shaders with the bytes of an array of plain values.
+/// \throw GpuUnavailable as above
+template <class T>
+[[nodiscard]] Buffer make_storage(const Device& device, std::span<const T> values,
+                                  const std::string& label);
+
+/// Replaces a buffer's first bytes.
+void write_storage(const Buffer& buffer, std::span<const std::byte> bytes);
+
+/// Waits for the device and reads a buffer's first elements.
+template <class T>
+[[nodiscard]] std::vector<T> read_storage(const Buffer& buffer, std::size_t count);
+
+/// Copies the first bytes of one buffer to another on the device.
+void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes);
+
+/// Binds buffers to the bindings 0, 1, 2 ... of the shaders; a null pointer leaves one as it is.
+void bind_storage(std::initializer_list<const Buffer*> buffers);
+
+/// How many work groups a dispatch of so many elements has.
+[[nodiscard]] std::size_t group_count(std::size_t elements);
+
+/// Runs a program for `elements` elements, after its uniforms and buffers are set: uniform 0 takes
+/// their number. What it writes is seen by every later command.
+void dispatch(const Device& device, const Program& program, std::size_t elements);
+
+/// Waits until the device has done everything asked for.
+void finish_device();
+
+/// Measures how long the device is busy with the commands between start() and stop() [ms].
+class DeviceTimer {
+public:
+    DeviceTimer();
+    void start() const;
+    void stop() const;
+    [[nodiscard]] double milliseconds() const;  ///< waits for the device
+
+private:
+    Query query_;
+};
+
+namespace detail {
+[[nodiscard]] Buffer make_filled_storage(const Device& device, std::span<const std::byte> bytes,
+                                         const std::string& label);
+void read_bytes(const Buffer& buffer, std::span<std::byte> bytes);
+}  // namespace detail
+
+template <class T>
+Buffer make_storage(const Device& device, std::span<const T> values, const std::string& label) {
+    return detail::make_filled_storage(device, std::as_bytes(values), label);
+}
+
+template <class T>
+std::vector<T> read_storage(const Buffer& buffer, std::size_t count) {
+    std::vector<T> values(count);
+    detail::read_bytes(buffer, std::as_writable_bytes(std::span(values)));
+    return values;
+}
+
+}  // namespace vesselbench

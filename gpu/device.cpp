@@ -1,0 +1,75 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <array>
+
+#include <epoxy/gl.h>
+
+#include "geometry/errors.h"
+#include "gpu/shader_texts.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::size_t kGroups = 65535;     // OpenGL 4.3, table 23.64
+constexpr std::size_t kStorageBlocks = 8;  // dito
+
+std::size_t limit(unsigned name) {
+    GLint64 value = 0;
+    glGetInteger64v(name, &value);
+    return static_cast<std::size_t>(std::max<GLint64>(value, 0));
+}
+
+bool context_lost() {
+    if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_KHR_robustness")) return false;
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
+void require_at_least(const char* what, std::size_t offered, std::size_t needed) {
+    if (offered >= needed) return;
+    throw GpuUnavailable("the driver offers " + std::to_string(offered) + " " + what + ", " +
+                         std::to_string(needed) + " are needed");
+}
+
+}  // namespace
+
+Device current_device() {
+    Device device{.limits = {}, .shaders = &shader_texts(), .lost = context_lost};
+    const int version = epoxy_gl_version();
+    device.limits.major = version / 10;
+    device.limits.minor = version % 10;
+    device.limits.renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    if (version >= 43) {
+        device.limits.largest_storage_block = limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+        device.limits.storage_blocks = limit(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
+        int groups = 0;
+        glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &groups);
+        device.limits.largest_group_count = static_cast<std::size_t>(std::max(groups, 0));
+    }
+    require_compute(device.limits);
+    return device;
+}
+
+void require_compute(const DeviceLimits& limits) {
+    if (limits.major < 4 || (limits.major == 4 && limits.minor < 3))
+        throw GpuUnavailable("the driver offers OpenGL " + std::to_string(limits.major) + "." +
+                             std::to_string(limits.minor) +
+                             ", computing needs 4.3: a newer driver may help");
+    require_at_least("work groups", limits.largest_group_count, kGroups);
+    require_at_least("storage buffers in a shader", limits.storage_blocks, kStorageBlocks);
+}
+
+void require_context(const Device& device) {
+    if (device.lost())
+        throw GpuUnavailable("the graphics driver was reset and took its context along");
+}
+
+bool is_software(const DeviceLimits& limits) {
+    constexpr std::array kNames = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
+                                   "Software Rasterizer"};
+    return std::ranges::any_of(
+        kNames, [&](const char* name) { return limits.renderer.find(name) != std::string::npos; });
+}
+
+}  // namespace vesselbench

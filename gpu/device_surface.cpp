@@ -1,0 +1,78 @@
+#include "gpu/device_surface.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "smoothing/filter_support.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::uint32_t kBoundary = 0x80000000;
+
+/// Which corner of the triangle v is; a degenerate triangle's first.
+std::size_t corner_of(const Triangle& t, VertexId v) {
+    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
+}
+
+DeviceRows upload(const Device& device, const CompressedRows& rows, const std::string& label) {
+    return {make_storage(device, std::span<const std::uint32_t>(rows.offsets), label + " offsets"),
+            make_storage(device, std::span<const std::uint32_t>(rows.values), label)};
+}
+
+}  // namespace
+
+Eigen::Vector3f device_point(const Vec3& point, const Vec3& centre) {
+    return (point - centre).cast<float>();
+}
+
+DeviceSurface::DeviceSurface(Device device, Surface surface)
+    : device_(std::move(device)), surface_(std::move(surface)) {
+    if (surface_.empty()) throw InvalidInput("there is no surface to compute with");
+    centre_ = bounds(surface_).centre();
+    std::vector<Eigen::Vector4f> points(vertex_count());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        const Vec3& p = surface_.points()[v];
+        if (!p.allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+        points[v] << device_point(p, centre_), 1.0F;
+    }
+    start_ = make_storage(device_, std::span<const Eigen::Vector4f>(points), "positions");
+}
+
+const DeviceRows& DeviceSurface::rings(int count) const {
+    auto& rows = rings_[count == 1 ? 0 : 1];
+    if (!rows)
+        rows = count == 1 ? upload(device_, surface_.topology->rings(), "neighbours")
+                          : upload(device_, detail::two_rings(*surface_.topology),
+                                   "neighbours within two rings");
+    return *rows;
+}
+
+const DeviceRows& DeviceSurface::corners() const {
+    if (corners_) return *corners_;
+    const CompressedRows& rows = surface_.topology->triangles_at();
+    std::vector<std::array<VertexId, 2>> others(rows.values.size());
+    detail::for_each_vertex(vertex_count(), [&](std::size_t v) {
+        for (std::uint32_t i = rows.offsets[v]; i < rows.offsets[v + 1]; ++i) {
+            const Triangle& t = surface_.triangles()[rows.values[i]];
+            const std::size_t at = corner_of(t, static_cast<VertexId>(v));
+            others[i] = {t[(at + 1) % 3], t[(at + 2) % 3]};
+        }
+    });
+    std::vector<std::uint32_t> offsets = rows.offsets;
+    const auto& boundary = surface_.topology->boundary_vertices();
+    for (std::size_t v = 0; v < boundary.size(); ++v)
+        if (boundary[v] != 0) offsets[v] |= kBoundary;
+    corners_ = DeviceRows{
+        make_storage(device_, std::span<const std::uint32_t>(offsets), "corner offsets"),
+        make_storage(device_, std::span<const std::array<VertexId, 2>>(others), "corners")};
+    return *corners_;
+}
+
+}  // namespace vesselbench

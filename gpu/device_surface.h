@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geometry/surface.h"
+#include "gpu/compute.h"
+
+namespace vesselbench {
+
+/// Rows of elements on the device: those of row i stand from offsets[i] to offsets[i + 1].
+struct DeviceRows {
+    Buffer offsets;  ///< uint, #V + 1
+    Buffer values;
+};
+
+/// A surface on the device: uploaded once, for every filter and measure there. What only some need
+/// is uploaded when it is first asked for.
+/// The context that was current when it was made must be current whenever it is used and when it
+/// goes. Not for several threads.
+class DeviceSurface {
+public:
+    /// \throw InvalidInput if the surface is empty or a position is not finite; GpuUnavailable if
+    /// it does not fit the device
+    DeviceSurface(Device device, Surface surface);
+
+    [[nodiscard]] const Device& device() const { return device_; }
+
+    [[nodiscard]] const Surface& surface() const { return surface_; }
+
+    [[nodiscard]] std::size_t vertex_count() const { return surface_.vertex_count(); }
+
+    /// What positions on the device are relative to: the centre of the bounding box [mm].
+    [[nodiscard]] const Vec3& centre() const { return centre_; }
+
+    /// Positions [mm] relative to the centre, vec4 with w = 1, #V.
+    [[nodiscard]] const Buffer& start() const { return start_; }
+
+    /// Neighbours within 1 or 2 rings: uint.
+    [[nodiscard]] const DeviceRows& rings(int count) const;
+
+    /// The other corners of the triangles at every vertex, in the triangles' direction: uvec2. The
+    /// highest bit of an offset is set where the vertex lies on a boundary.
+    [[nodiscard]] const DeviceRows& corners() const;
+
+private:
+    Device device_;
+    Surface surface_;
+    Vec3 centre_ = Vec3::Zero();
+    Buffer start_;
+    mutable std::optional<DeviceRows> rings_[2], corners_;
+};
+
+/// The same point in single precision, relative to a centre.
+[[nodiscard]] Eigen::Vector3f device_point(const Vec3& point, const Vec3& centre);
+
+}  // namespace vesselbench

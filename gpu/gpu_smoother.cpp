@@ -1,0 +1,192 @@
+#include "gpu/gpu_smoother.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <epoxy/gl.h>
+
+#include "geometry/errors.h"
+#include "smoothing/filter_support.h"
+#include "smoothing/linear_steps.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Eigen::Vector4f;
+
+constexpr float kFixed = -1.0F;
+
+/// Uniforms of gpu/shaders/filter_pass.glsl.
+enum Uniform { kFactors = 1, kOnto, kLast, kIteration, kCell, kHalfSize, kCellAxes };
+
+/// Start positions with what may move of them: the weight, or kFixed.
+std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterSettings& settings) {
+    const Positions& points = surface.surface().points();
+    const auto fixed =
+        detail::checked_fixed_vertices(*surface.surface().topology, points, settings);
+    std::vector<Vector4f> start(points.size());
+    detail::for_each_vertex(start.size(), [&](std::size_t v) {
+        const double weight = settings.weights.empty() ? 1.0 : settings.weights[v];
+        start[v] << device_point(points[v], surface.centre()),
+            fixed[v] != 0 ? kFixed : static_cast<float>(weight);
+    });
+    return start;
+}
+
+Buffer exact_positions(const DeviceSurface& surface) {
+    return make_storage(surface.device(), std::span<const Vec3>(surface.surface().points()),
+                        "positions in double precision");
+}
+
+}  // namespace
+
+GpuSmoother::GpuSmoother(std::shared_ptr<const DeviceSurface> surface,
+                         const FilterSettings& settings)
+    : surface_(std::move(surface)), rings_(settings.rings), constraint_(settings.constraint) {
+    const std::vector<Vector4f> start = weighted_start(*surface_, settings);
+    const std::size_t bytes = start.size() * sizeof(Vector4f);
+    start_ = make_storage(surface_->device(), std::span<const Vector4f>(start), "start");
+    for (Buffer& values : values_)
+        values = make_storage(surface_->device(), bytes, "smoothed positions");
+    copy_storage(start_, values_[0], bytes);
+}
+
+const Program& GpuSmoother::program(const std::string& name) {
+    const auto made =
+        std::ranges::find_if(programs_, [&](const auto& entry) { return entry.first == name; });
+    if (made != programs_.end()) return *made->second;
+    programs_.emplace_back(
+        name, std::make_unique<Program>(make_compute_program(surface_->device(), name)));
+    return *programs_.back().second;
+}
+
+void GpuSmoother::plan_linear(const std::vector<detail::LinearStep>& steps) {
+    for (const detail::LinearStep& step : steps)
+        passes_.push_back({.program = &program("linear_step"),
+                           .factors = {step.umbrella, step.source, step.target, step.start},
+                           .onto = static_cast<int>(step.onto)});
+}
+
+void GpuSmoother::plan(const LaplaceParameters& parameters) {
+    plan_linear(detail::linear_steps(parameters));
+}
+
+void GpuSmoother::plan(const LaplaceHcParameters& parameters) {
+    plan_linear(detail::linear_steps(parameters));
+}
+
+void GpuSmoother::plan(const TaubinParameters& parameters) {
+    plan_linear(detail::linear_steps(parameters));
+}
+
+void GpuSmoother::plan(const MeanCurvatureFlowParameters& parameters) {
+    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
+    detail::require_one_ring("mean curvature flow", {.rings = rings_});
+    passes_.push_back({.program = &program("curvature_flow"),
+                       .factors = {parameters.lambda},
+                       .by_corners = true});
+}
+
+void GpuSmoother::plan(const AnisotropicParameters& parameters) {
+    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
+    detail::require_one_ring("anisotropic smoothing", {.rings = rings_});
+    const Surface& surface = surface_->surface();
+    const double feature = parameters.feature_curvature.value_or(
+        default_feature_curvature(*surface.topology, surface.points()));
+    detail::require_positive("feature_curvature", feature);
+    passes_.push_back({.program = &program("curvature_flow"),
+                       .factors = {parameters.lambda, feature},
+                       .by_corners = true});
+}
+
+void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
+    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
+    const Surface& surface = surface_->surface();
+    const double trigger = parameters.trigger_curvature.value_or(
+        default_trigger_curvature(*surface.topology, surface.points()));
+    detail::require_positive("trigger_curvature", trigger);
+    find_first_iterations(trigger);
+    passes_.push_back({.program = &program("triggered_laplace"), .factors = {parameters.lambda}});
+}
+
+void GpuSmoother::find_first_iterations(double trigger) {
+    const Device& device = surface_->device();
+    if (first_iterations_.id() == 0)
+        first_iterations_ = make_storage(device, surface_->vertex_count() * sizeof(std::int32_t),
+                                         "first iterations");
+    const Buffer exact = exact_positions(*surface_);
+    const DeviceRows& corners = surface_->corners();
+    bind_storage({&exact, nullptr, &start_, &corners.offsets, &corners.values, &first_iterations_});
+    const Program& find = program("trigger");
+    glUseProgram(find.id());
+    glUniform1d(1, trigger);
+    dispatch(device, find, surface_->vertex_count());
+}
+
+void GpuSmoother::start(const FilterParameters& parameters) {
+    require_context(surface_->device());
+    passes_.clear();
+    steps_done_ = 0;
+    iterations_done_ = 0;
+    copy_storage(start_, values_[0], surface_->vertex_count() * sizeof(Vector4f));
+    std::visit([&](const auto& filter) { plan(filter); }, parameters);
+}
+
+void GpuSmoother::run_pass(const Pass& pass, bool last) {
+    const DeviceRows& rows = pass.by_corners ? surface_->corners() : surface_->rings(rings_);
+    bind_storage({&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], &start_,
+                  &rows.offsets, &rows.values,
+                  first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
+    glUseProgram(pass.program->id());
+    const Vector4f factors = Eigen::Vector4d(pass.factors.data()).cast<float>();
+    glUniform4fv(kFactors, 1, factors.data());
+    glUniform1i(kOnto, pass.onto);
+    glUniform1i(kLast, last ? 1 : 0);
+    glUniform1i(kIteration, iterations_done_);
+    glUniform1i(kCell, 0);
+    if (last && constraint_) set_constraint(*constraint_);
+    dispatch(surface_->device(), *pass.program, surface_->vertex_count());
+    ++steps_done_;
+}
+
+void GpuSmoother::set_constraint(const PositionConstraint& constraint) {
+    const Eigen::Vector3f half_size = (0.5 * constraint.size).cast<float>();
+    const Eigen::Matrix3f axes = constraint.axes.cast<float>();
+    glUniform1i(kCell, constraint.cell == PositionConstraint::Cell::Voxel ? 1 : 2);
+    glUniform3fv(kHalfSize, 1, half_size.data());
+    glUniformMatrix3fv(kCellAxes, 1, GL_FALSE, axes.data());
+}
+
+void GpuSmoother::run(int iterations, const Progress& progress) {
+    // Between two looks at the user's wish to stop; a device is fastest when it is never waited
+    // for.
+    constexpr std::size_t kVertices = 20'000'000;
+    const int batch = std::max(25, static_cast<int>(kVertices / surface_->vertex_count()));
+    for (int i = 0; i < iterations; ++i) {
+        if (i % batch == 0) {
+            if (i > 0) finish_device();
+            progress.report(static_cast<double>(i) / iterations, "smoothing");
+        }
+        for (const Pass& pass : passes_) run_pass(pass, &pass == &passes_.back());
+        ++iterations_done_;
+    }
+    require_context(surface_->device());
+}
+
+Positions GpuSmoother::positions() const {
+    const std::size_t count = surface_->vertex_count();
+    const auto moved = read_storage<Vector4f>(position_buffer(), count);
+    require_context(surface_->device());
+    const Positions& start = surface_->surface().points();
+    Positions result(count);
+    detail::for_each_vertex(count, [&](std::size_t v) {
+        const Eigen::Vector3f from = device_point(start[v], surface_->centre());
+        result[v] = start[v];
+        if (moved[v].head<3>() != from)
+            result[v] += moved[v].head<3>().cast<double>() - from.cast<double>();
+    });
+    return result;
+}
+
+}  // namespace vesselbench

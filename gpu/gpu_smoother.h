@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/progress.h"
+#include "gpu/device_surface.h"
+#include "smoothing/filter.h"
+#include "smoothing/linear_step.h"
+
+namespace vesselbench {
+
+/// Runs the filters of smoothing/ on the device: a surface, weights, fixed vertices and constraint
+/// are uploaded once, and positions stay on the device from one iteration to the next, until they
+/// are asked for. Same filters, same parameters, same meaning as apply_filter; single precision.
+/// The surface's context must be current whenever it is used and when it goes.
+class GpuSmoother {
+public:
+    /// \param settings the number of iterations in them does not count
+    /// \throw InvalidInput if the settings do not fit the surface; GpuUnavailable if it does not
+    /// fit the device
+    GpuSmoother(std::shared_ptr<const DeviceSurface> surface, const FilterSettings& settings);
+
+    /// Puts all vertices back to the start, for a filter.
+    /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile
+    void start(const FilterParameters& parameters);
+
+    /// Goes on for some iterations; start() must have been called.
+    /// \throw Cancelled; GpuUnavailable if the context was lost
+    void run(int iterations, const Progress& progress = {});
+
+    /// Iterations since start().
+    [[nodiscard]] int iterations_done() const { return iterations_done_; }
+
+    /// Waits for the device and reads the positions [mm]; vertices that did not move get their
+    /// start's bits.
+    /// \throw GpuUnavailable if the context was lost
+    [[nodiscard]] Positions positions() const;
+
+    /// Positions [mm] relative to the surface's centre, vec4, #V, for drawing and measuring.
+    [[nodiscard]] const Buffer& position_buffer() const { return values_[steps_done_ % 2]; }
+
+    [[nodiscard]] const DeviceSurface& surface() const { return *surface_; }
+
+private:
+    /// A pass over all vertices: a program and what its uniforms are.
+    struct Pass {
+        const Program* program = nullptr;
+        std::array<double, 4> factors = {};
+        int onto = 0;
+        bool by_corners = false;  ///< reads triangles instead of neighbours
+    };
+
+    void plan(const LaplaceParameters& parameters);
+    void plan(const LaplaceHcParameters& parameters);
+    void plan(const TaubinParameters& parameters);
+    void plan(const MeanCurvatureFlowParameters& parameters);
+    void plan(const AnisotropicParameters& parameters);
+    void plan(const CurvatureTriggeredParameters& parameters);
+    void plan_linear(const std::vector<detail::LinearStep>& steps);
+    void find_first_iterations(double trigger);
+    void run_pass(const Pass& pass, bool last);
+    static void set_constraint(const PositionConstraint& constraint);
+    const Program& program(const std::string& name);
+
+    std::shared_ptr<const DeviceSurface> surface_;
+    int rings_ = 1;
+    std::optional<PositionConstraint> constraint_;
+    Buffer start_;      ///< as the surface's, but w is the weight, or -1 where fixed
+    Buffer values_[2];  ///< read and written in turn
+    Buffer first_iterations_;
+    std::vector<std::pair<std::string, std::unique_ptr<Program>>> programs_;
+    std::vector<Pass> passes_;
+    std::size_t steps_done_ = 0;
+    int iterations_done_ = 0;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,27 @@
+// What the passes of all filters have in common. Positions [mm] are relative to the centre of the
+// start's bounding box; their w is the vertex' weight in [0, 1], or -1 where it is fixed.
+#include "elements.glsl"
+
+layout(std430, binding = 0) readonly buffer Source { vec4 source[]; };
+layout(std430, binding = 1) buffer Target { vec4 target[]; };
+layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
+
+layout(location = 1) uniform vec4 factors;  // what they mean, the filter says
+layout(location = 2) uniform int onto;      // linear steps: 0 nothing, 1 source, 2 target
+layout(location = 3) uniform bool last;     // the last pass of an iteration
+layout(location = 4) uniform int iteration;
+layout(location = 5) uniform int cell;       // 0 no constraint, 1 voxel, 2 diamond
+layout(location = 6) uniform vec3 half_size;  // of the cell along its axes [mm]
+layout(location = 7) uniform mat3 cell_axes;  // unit columns
+
+// Where the cell around the vertex' start lets it go.
+vec3 inside_cell(vec3 origin, vec3 wanted) {
+    if (cell == 0) return wanted;
+    vec3 moved = transpose(cell_axes) * (wanted - origin);
+    if (cell == 1) {
+        vec3 inside = clamp(moved, -half_size, half_size);
+        return inside == moved ? wanted : origin + cell_axes * inside;
+    }
+    float outside = dot(abs(moved), 1.0 / half_size);
+    return outside <= 1.0 ? wanted : origin + (wanted - origin) / outside;
+}

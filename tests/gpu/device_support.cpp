@@ -1,0 +1,52 @@
+#include "tests/gpu/device_support.h"
+
+#include <algorithm>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/io/surface_file.h"
+#include "geometry/measure.h"
+#include "tests/support/shapes.h"
+
+namespace vesselbench::test {
+
+std::optional<TestDevice> test_device() {
+    try {
+        return TestDevice{};
+    } catch (const GpuUnavailable& error) {
+        WARN("skipped: " << error.what());
+        return std::nullopt;
+    }
+}
+
+std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test, const Surface& surface) {
+    return std::make_shared<const DeviceSurface>(test.device, surface);
+}
+
+std::vector<NamedSurface> varied_surfaces() {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> offset(-0.1, 0.1);
+    const Vec3 centre(100.0, -250.0, 40.0);
+    std::vector<NamedSurface> all{
+        {"noisy sphere",
+         mapped(icosphere(10.0, 4, centre),
+                [&](const Vec3& p) { return Vec3(p + 0.1 * offset(random) * (p - centre)); })},
+        {"open tube", open_tube(2.0, 30.0, 40, 60)}};
+    for (const char* name : {"v4a_ideal_bifurcation_aneurysm.stl", "vampy_left_atrium.vtp",
+                             "jk_carotid_left_lumen_raw.stl", "vmtk_aorta_surface_open_ends.stl"})
+        if (const std::string path = shared_data(std::string("surfaces/") + name); !path.empty())
+            all.push_back({name, read_surface(path).surface});
+    return all;
+}
+
+std::vector<double> relative_distances(const Positions& a, const Positions& b) {
+    const double diagonal = bounds(a).diagonal();
+    std::vector<double> distances(a.size());
+    for (std::size_t v = 0; v < a.size(); ++v) distances[v] = (a[v] - b[v]).norm() / diagonal;
+    std::ranges::sort(distances);
+    return distances;
+}
+
+}  // namespace vesselbench::test

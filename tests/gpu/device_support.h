@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/surface.h"
+#include "gpu/context.h"
+#include "gpu/device_surface.h"
+
+namespace vesselbench::test {
+
+/// A context for the length of a test.
+struct TestDevice {
+    OffscreenContext context;
+    Device device = current_device();
+};
+
+/// Nothing, after a WARN that says what is missing, where there is no usable OpenGL.
+[[nodiscard]] std::optional<TestDevice> test_device();
+
+/// The surface on the device.
+[[nodiscard]] std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test,
+                                                            const Surface& surface);
+
+/// A surface and what it is called.
+struct NamedSurface {
+    std::string name;
+    Surface surface;
+};
+
+/// A noisy sphere far from the origin, an open tube, and surfaces from ../shared/data where they
+/// are.
+[[nodiscard]] std::vector<NamedSurface> varied_surfaces();
+
+/// Distances of corresponding vertices by the diagonal of the first one's bounding box, ascending.
+[[nodiscard]] std::vector<double> relative_distances(const Positions& a, const Positions& b);
+
+}  // namespace vesselbench::test

@@ -1,0 +1,165 @@
+#include "gpu/gpu_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "tests/gpu/device_support.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+constexpr int kIterations = 50;
+
+/// Weights between 0 and 1 that vary along the surface; some are 0, some are 1.
+std::vector<double> wavy_weights(const Surface& surface) {
+    std::vector<double> weights(surface.vertex_count());
+    for (std::size_t v = 0; v < weights.size(); ++v)
+        weights[v] = std::clamp(0.5 + 0.7 * std::sin(surface.points()[v].sum()), 0.0, 1.0);
+    return weights;
+}
+
+Positions on_device(const TestDevice& test, const Surface& surface, const FilterParameters& filter,
+                    const FilterSettings& settings) {
+    GpuSmoother smoother(uploaded(test, surface), settings);
+    smoother.start(filter);
+    smoother.run(kIterations);
+    return smoother.positions();
+}
+
+/// Relative distances between the device's result and the CPU's, ascending.
+std::vector<double> differences(const TestDevice& test, const Surface& surface,
+                                const FilterParameters& filter, FilterSettings settings) {
+    settings.iterations = kIterations;
+    return relative_distances(apply_filter(*surface.topology, surface.points(), filter, settings),
+                              on_device(test, surface, filter, settings));
+}
+
+double at_share(const std::vector<double>& ascending, double share) {
+    return ascending[static_cast<std::size_t>(share * static_cast<double>(ascending.size() - 1))];
+}
+
+}  // namespace
+
+SCENARIO("Linear filters on the device agree with the CPU", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const std::vector<std::pair<std::string, FilterParameters>> filters = {
+        {"laplace", LaplaceParameters{}},
+        {"laplace-hc", LaplaceHcParameters{}},
+        {"laplace-hc, pulled to the start", LaplaceHcParameters{0.5, 0.2, 0.6}},
+        {"taubin", TaubinParameters{}}};
+    for (const auto& [name, surface] : varied_surfaces()) {
+        const std::vector<double> weights = wavy_weights(surface);
+        for (const auto& [filter_name, filter] : filters) {
+            INFO(filter_name << " of " << name);
+            CHECK(differences(*test, surface, filter, {}).back() <= 2e-6);
+            CHECK(differences(*test, surface, filter, {.weights = weights}).back() <= 2e-6);
+        }
+        INFO("two rings of " << name);
+        CHECK(differences(*test, surface, LaplaceHcParameters{}, {.rings = 2}).back() <= 2e-6);
+    }
+}
+
+SCENARIO("The node position constraint on the device agrees with the CPU", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const auto& [name, surface] : varied_surfaces())
+        for (const auto cell :
+             {PositionConstraint::Cell::Voxel, PositionConstraint::Cell::Diamond}) {
+            INFO(name);
+            const PositionConstraint constraint{cell, skew_rotation(), Vec3(0.1, 0.2, 0.3)};
+            const FilterSettings settings{.constraint = constraint};
+            CHECK(differences(*test, surface, LaplaceParameters{}, settings).back() <= 2e-6);
+            CHECK(differences(*test, surface, TaubinParameters{}, settings).back() <= 2e-6);
+        }
+}
+
+SCENARIO("Curvature filters on the device agree with the CPU", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const auto& [name, surface] : varied_surfaces()) {
+        const std::vector<double> weights = wavy_weights(surface);
+        const std::vector<std::pair<std::string, FilterParameters>> filters = {
+            {"mean curvature flow", MeanCurvatureFlowParameters{}},
+            {"anisotropic", AnisotropicParameters{}},
+            {"curvature-triggered", CurvatureTriggeredParameters{}}};
+        for (const auto& [filter_name, filter] : filters)
+            for (const bool weighted : {false, true}) {
+                INFO(filter_name << " of " << name << (weighted ? ", weighted" : ""));
+                const auto found =
+                    differences(*test, surface, filter,
+                                {.weights = weighted ? std::span<const double>(weights)
+                                                     : std::span<const double>{}});
+                INFO("median " << at_share(found, 0.5) << ", most " << at_share(found, 0.999));
+                CHECK(at_share(found, 0.999) <= 1e-5);
+                CHECK(found.back() <= 5e-4);
+            }
+    }
+}
+
+SCENARIO("What is not to move stays bit for bit on the device", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface tube = open_tube(2.0, 10.0, 16, 20);
+    std::vector<std::uint8_t> fixed(tube.vertex_count(), 0);
+    std::vector<double> weights(tube.vertex_count(), 1.0);
+    for (std::size_t v = 0; v < fixed.size(); v += 3) fixed[v] = 1;
+    for (std::size_t v = 1; v < fixed.size(); v += 7) weights[v] = 0.0;
+    const auto& rim = tube.topology->boundary_vertices();
+    const std::vector<FilterParameters> filters = {
+        LaplaceParameters{},           LaplaceHcParameters{},   TaubinParameters{},
+        MeanCurvatureFlowParameters{}, AnisotropicParameters{}, CurvatureTriggeredParameters{}};
+    for (const FilterParameters& filter : filters) {
+        INFO("filter " << filter.index());
+        const Positions moved =
+            on_device(*test, tube, filter, {.weights = weights, .fixed = fixed});
+        for (std::size_t v = 0; v < moved.size(); ++v)
+            if (fixed[v] != 0 || weights[v] == 0.0 || rim[v] != 0)
+                CHECK(moved[v] == tube.points()[v]);
+        if (std::holds_alternative<AnisotropicParameters>(filter)) continue;
+        const Positions rim_moves = on_device(*test, tube, filter, {.keep_boundary = false});
+        CHECK(relative_distances(rim_moves,
+                                 apply_filter(*tube.topology, tube.points(), filter,
+                                              {.iterations = kIterations, .keep_boundary = false}))
+                  .back() <= 1e-5);
+    }
+}
+
+SCENARIO("A run goes on where it stopped, and starts anew when asked", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface sphere = icosphere(5.0, 3);
+    GpuSmoother smoother(uploaded(*test, sphere), {});
+    for (const FilterParameters& filter :
+         std::vector<FilterParameters>{LaplaceParameters{}, LaplaceHcParameters{}}) {
+        smoother.start(filter);
+        smoother.run(7);
+        const Positions whole = smoother.positions();
+        smoother.start(filter);
+        CHECK(smoother.positions() == sphere.points());
+        for (int i = 0; i < 7; ++i) smoother.run(1);
+        CHECK(smoother.positions() == whole);
+        CHECK(smoother.iterations_done() == 7);
+    }
+}
+
+SCENARIO("The device refuses what the CPU refuses", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const auto surface = uploaded(*test, icosphere(5.0, 2));
+    GpuSmoother smoother(surface, {});
+    CHECK_THROWS_AS(smoother.start(LaplaceParameters{1.5}), InvalidInput);
+    CHECK_THROWS_AS(smoother.start(TaubinParameters{0.5, -0.1}), InvalidInput);
+    CHECK_THROWS_AS(smoother.start(AnisotropicParameters{0.5, 0.0}), InvalidInput);
+    const std::vector<double> two(2, 1.0);
+    CHECK_THROWS_AS(GpuSmoother(surface, {.weights = two}), InvalidInput);
+    GpuSmoother wide(surface, {.rings = 2});
+    CHECK_THROWS_AS(wide.start(MeanCurvatureFlowParameters{}), InvalidInput);
+    CHECK_THROWS_AS(DeviceSurface(test->device, Surface{}), InvalidInput);
+}
