@@ -25,10 +25,13 @@ void multiply(std::vector<double>& weights, const std::vector<double>& by) {
         for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
 }
 
-Vec3 direction_argument(const Arguments& arguments, const std::string& name) {
-    const Vec3 direction = arguments.point(name);
-    if (direction.allFinite() && direction.norm() > 0.0) return direction.normalized();
-    throw UsageError("smooth: " + name + " = " + to_text(direction) +
+/// The stack axis that the user gave; also one that is not asked for must make sense.
+std::optional<Vec3> given_stack_axis(const Arguments& arguments) {
+    const auto axis = arguments.optional_point("stack_axis");
+    if (!axis) return std::nullopt;
+    const Vec3 direction = axis->stableNormalized();
+    if (direction.allFinite() && direction.norm() > 0.5) return direction;
+    throw UsageError("smooth: stack_axis = " + to_text(*axis) +
                      " has no direction: give three numbers that are not all 0");
 }
 
@@ -45,9 +48,9 @@ Surface without_caps(const Surface& surface) {
 
 /// Where the stack axis comes from: the user, the image, or the surface itself.
 Vec3 stack_axis(const Scene& scene, Arguments& arguments, Json& report) {
-    if (arguments.has("stack_axis")) {
+    if (const auto given = given_stack_axis(arguments)) {
         report["stack_axis_from"] = "argument";
-        return direction_argument(arguments, "stack_axis");
+        return *given;
     }
     if (scene.sampling && scene.sampling->confidence > 0.0) {
         const Vec3 axis = scene.sampling->axes.col(2);
@@ -87,7 +90,12 @@ std::vector<double> staircase_part(const Scene& scene, const Surface& surface,
 
 std::vector<Surface> neighbours_of(const Scene& scene) {
     std::vector<Surface> neighbours;
-    for (const auto& [name, surface] : scene.neighbours) neighbours.push_back(surface);
+    for (const auto& [name, surface] : scene.neighbours) {
+        if (surface.empty())
+            throw InvalidInput("smooth: the neighbour '" + name +
+                               "' has no triangles: load it again, or use distance=none");
+        neighbours.push_back(surface);
+    }
     if (neighbours.empty())
         throw InvalidInput(
             "smooth: distance awareness needs a neighbour, and there is none: use load-neighbour");
@@ -130,8 +138,7 @@ std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments&
         constraint.size = scene.sampling->spacing;
     }
     if (arguments.has("cell")) constraint.size = arguments.point("cell");
-    const bool positive = constraint.size.allFinite() && constraint.size.minCoeff() > 0.0;
-    if (!positive || (!scene.sampling && !arguments.has("cell")))
+    if (!scene.sampling && !arguments.has("cell"))
         throw UsageError("smooth: constraint=" + cell +
                          " needs the voxels' size: give cell=x,y,z in mm, each above 0");
     arguments.set("cell", constraint.size);
@@ -161,7 +168,9 @@ std::vector<Parameter> context_parameter_table() {
              .type = Point,
              .unit = "mm",
              .help = "size of the voxels of constraint along the image's axes; the image's own "
-                     "when left out"},
+                     "when left out",
+             .minimum = 0.0,
+             .above_minimum = true},
             {.name = "staircase",
              .type = Flag,
              .default_value = false,
@@ -204,7 +213,8 @@ std::vector<Parameter> context_parameter_table() {
              .unit = "mm",
              .default_value = 2.0,
              .help = "distance=margin only: within it nothing moves",
-             .minimum = 0.0},
+             .minimum = 0.0,
+             .above_minimum = true},
             {.name = "omega",
              .unit = "1/mm",
              .default_value = 0.06,
@@ -228,6 +238,7 @@ std::vector<Parameter> context_parameter_table() {
 
 SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Json& report) {
     const Surface& surface = surface_of(scene);
+    static_cast<void>(given_stack_axis(arguments));
     SmoothingContext context;
     context.constraint = constraint_part(scene, arguments);
     const std::vector<Cap> caps = caps_of(surface, arguments);

@@ -1,0 +1,237 @@
+#include <cmath>
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/io/surface_file.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+#include "tests/workbench/test_operations.h"
+#include "workbench/operation.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+const std::vector<std::string> kFilters = {
+    "laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic", "curvature-triggered"};
+
+/// Arguments of `smooth` without sense, and what the error has to say.
+struct Nonsense {
+    std::vector<std::string> arguments;
+    std::vector<std::string> parts;
+};
+
+std::vector<Nonsense> nonsense() {
+    return {{{"lambda=2"}, {"'lambda'", "'2'", "0 to 1"}},
+            {{"lambda=-0.1"}, {"'lambda'", "0 to 1"}},
+            {{"lambda=nan"}, {"'lambda'", "'nan'", "0 to 1"}},
+            {{"lambda=inf"}, {"'lambda'", "0 to 1"}},
+            {{"iterations=-1"}, {"'iterations'", "0 to 10000"}},
+            {{"iterations=2.5"}, {"'iterations'", "whole number"}},
+            {{"iterations=nan"}, {"'iterations'", "whole number"}},
+            {{"filter=taubin", "mu=0.5"}, {"'mu'", "-2 to 0"}},
+            {{"filter=taubin", "mu=-0.2"}, {"mu = -0.2", "at most -lambda = -0.5"}},
+            {{"alpha=2"}, {"'alpha'", "0 to 1"}},
+            {{"beta=-1"}, {"'beta'", "0 to 1"}},
+            {{"curvature=0"}, {"'curvature'", "above 0 1/mm"}},
+            {{"rings=3"}, {"'rings'", "1 to 2"}},
+            {{"filter=anisotropic", "rings=2"}, {"rings = 2", "filter=anisotropic"}},
+            {{"tau_max=0"}, {"'tau_max'", "above 0 mm"}},
+            {{"tau_max=nan"}, {"'tau_max'", "above 0 mm"}},
+            {{"tau_theta=1.5"}, {"'tau_theta'", "0 to 1"}},
+            {{"beta_min=-0.1"}, {"'beta_min'", "0 to 1"}},
+            {{"staircase=true", "stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all 0"}},
+            {{"stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all 0"}},
+            {{"staircase=true", "stack_axis=0,nan,1"}, {"'stack_axis'", "three numbers"}},
+            {{"omega=-1"}, {"'omega'", "above 0 1/mm"}},
+            {{"omega=0"}, {"'omega'", "above 0 1/mm"}},
+            {{"margin=0"}, {"'margin'", "above 0 mm"}},
+            {{"margin=-2"}, {"'margin'", "above 0 mm"}},
+            {{"constraint=voxel"}, {"cell=x,y,z", "above 0"}},
+            {{"constraint=diamond", "cell=1,0,1"}, {"'cell'", "above 0 mm"}},
+            {{"cell=1,-1,1"}, {"'cell'", "above 0 mm"}},
+            {{"filter=laplac"}, {"'filter'", "did you mean 'laplace'"}},
+            {{"caps=no"}, {"'caps'", "keep, smooth, round"}},
+            {{"distance=near"}, {"'distance'", "none, linear, margin, exponential"}}};
+}
+
+/// What cannot be smoothed as asked, though every argument is in its range: bad input, exit code 3.
+std::vector<Nonsense> missing() {
+    return {{{"distance=linear"}, {"neighbour", "load-neighbour"}}, {{"painted=mine"}, {"'mine'"}}};
+}
+
+struct NastyShape {
+    std::string name;
+    Surface surface;
+};
+
+Surface in_the_air(const Surface& surface) {
+    Positions points = surface.points();
+    points.insert(points.begin(), Vec3(9, 9, 9));
+    points.emplace_back(-9, 9, 9);
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : surface.triangles()) triangles.push_back({a + 1, b + 1, c + 1});
+    return make_surface(std::move(points), std::move(triangles));
+}
+
+Surface all_caps(Surface surface) {
+    for (Patch& patch : surface.patches) patch.kind = PatchKind::Outlet;
+    return surface;
+}
+
+std::vector<NastyShape> nasty_shapes() {
+    const Surface tube = closed_tube(2.0, 6.0, 12, 8);
+    std::vector<Triangle> moebius;
+    Positions band;
+    for (int i = 0; i < 24; ++i) {
+        const double turn = 2.0 * M_PI * i / 24;
+        for (const double side : {-1.0, 1.0})
+            band.emplace_back((5.0 + side * std::cos(turn / 2)) * std::cos(turn),
+                              (5.0 + side * std::cos(turn / 2)) * std::sin(turn),
+                              side * std::sin(turn / 2));
+        const VertexId a = 2 * i, b = i == 23 ? 1 : a + 2, c = i == 23 ? 0 : a + 3;
+        moebius.push_back({a, b, c});
+        moebius.push_back({a, c, a + 1});
+    }
+    std::vector<Triangle> turned(tube.triangles().begin(), tube.triangles().end());
+    for (std::size_t t = 0; t < turned.size(); t += 3) std::swap(turned[t][0], turned[t][1]);
+    std::vector<Triangle> twice(tube.triangles().begin(), tube.triangles().end());
+    twice.insert(twice.end(), tube.triangles().begin(), tube.triangles().begin() + 20);
+    const auto scaled = [&](double factor) {
+        return mapped(tube, [=](const Vec3& p) { return Vec3(factor * p); });
+    };
+    return {
+        {"one triangle", make_surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})},
+        {"a triangle without area", make_surface({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}})},
+        {"a triangle at one point", make_surface({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}})},
+        {"one corner three times",
+         make_surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {1, 1, 1}, {2, 2, 0}})},
+        {"three sheets at an edge, and more",
+         make_surface(
+             {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {9, 9, 9}, {1, 0, 0}},
+             {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 2, 3}, {1, 1, 1}, {0, 1, 6}})},
+        {"two cones tip to tip",
+         make_surface(
+             {{0, 0, 0}, {1, 0, 1}, {0, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {0, 1, -1}, {-1, -1, -1}},
+             {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 5, 4}, {0, 6, 5}, {0, 4, 6}})},
+        {"a Moebius band", make_surface(std::move(band), std::move(moebius))},
+        {"vertices without triangles", in_the_air(tube)},
+        {"an open tube", open_tube(2.0, 6.0, 12, 8)},
+        {"triangles turned over", make_surface(tube.points(), std::move(turned))},
+        {"triangles twice", make_surface(tube.points(), std::move(twice))},
+        {"all flat", mapped(tube, [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.0); })},
+        {"all on a line", mapped(tube, [](const Vec3& p) { return Vec3(0.0, 0.0, p.z()); })},
+        {"nothing but caps", all_caps(tube)},
+        {"very small", scaled(1e-9)},
+        {"very large", scaled(1e9)},
+        {"through itself",
+         merged(tube, mapped(tube, [](const Vec3& p) { return Vec3(p + Vec3(1, 0.1, 0.2)); }))}};
+}
+
+/// Every way to smooth: filters, context, caps.
+void check_smooths(const std::string& name, const Surface& surface) {
+    Scene scene;
+    scene.surface = surface;
+    scene.neighbours["beside"] = icosphere(1.0, 1, Vec3(4, 0, 3));
+    const std::vector<Arguments> contexts = {
+        {},
+        {{"staircase", true}, {"stack_axis", Vec3(0.1, 0, 1)}, {"distance", std::string("margin")}},
+        {{"staircase", true},
+         {"stack_axis", Vec3(0, 0, 1)},
+         {"beta_min", 0.3},
+         {"weight", std::string("thesis")},
+         {"distance", std::string("exponential")},
+         {"constraint", std::string("diamond")},
+         {"cell", Vec3(0.3, 0.3, 1.0)}}};
+    for (const std::string& filter : kFilters)
+        for (const char* caps : {"keep", "round", "smooth"})
+            for (std::size_t c = 0; c < contexts.size(); ++c) {
+                CAPTURE(name, filter, caps, c);
+                Arguments arguments = contexts[c];
+                arguments.set("filter", filter);
+                arguments.set("caps", std::string(caps));
+                arguments.set("iterations", std::int64_t{5});
+                const Outcome outcome = run("smooth", scene, arguments);
+                REQUIRE(outcome.scene.surface->topology == surface.topology);
+                const auto finite = [](const Vec3& p) { return p.allFinite(); };
+                REQUIRE(std::ranges::all_of(outcome.scene.surface->points(), finite));
+                for (const auto& [key, value] : outcome.report->items())
+                    if (value.is_number()) REQUIRE(std::isfinite(value.get<double>()));
+            }
+}
+
+}  // namespace
+
+SCENARIO("smooth refuses nonsense by the parameter's name and range", "[workbench][smooth]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    write_surface(closed_tube(2.0, 6.0, 12, 8), folder + "/tube.vtp");
+    const auto program = [&](std::vector<std::string> arguments) {
+        return run_program(VESSELBENCH_BINARY, arguments);
+    };
+    REQUIRE(program({"new", project, folder + "/tube.vtp"}).exit_code == 0);
+    const auto check = [&](const std::vector<Nonsense>& cases, int exit_code) {
+        for (const auto& [arguments, parts] : cases) {
+            std::vector<std::string> command = {"apply", project, "smooth"};
+            command.insert(command.end(), arguments.begin(), arguments.end());
+            const ProgramRun result = program(command);
+            INFO(arguments.back() << ": " << result.err);
+            CHECK(result.exit_code == exit_code);
+            CHECK(result.out.empty());
+            CHECK_THAT(result.err, Catch::Contains("smooth: "));
+            for (const std::string& part : parts) CHECK_THAT(result.err, Catch::Contains(part));
+        }
+    };
+    check(nonsense(), 2);
+    check(missing(), 3);
+    const ProgramRun log = program({"log", project, "--json"});
+    CHECK(nlohmann::json::parse(log.out)["edits"].size() == 1);  // none of it left a trace
+}
+
+SCENARIO("An empty neighbour is refused by its name", "[workbench][smooth]") {
+    Scene scene;
+    scene.surface = icosphere(3.0, 2);
+    scene.neighbours["tumour"] = make_surface({}, {});
+    const auto distance = GENERATE(as<std::string>(), "linear", "margin", "exponential");
+    CHECK_THROWS_AS(run("smooth", scene, {{"distance", distance}}), InvalidInput);
+    CHECK_THROWS_WITH(run("smooth", scene, {{"distance", distance}}),
+                      Catch::Contains("'tumour' has no triangles"));
+}
+
+SCENARIO("A surface without triangles or with places that are no numbers is refused",
+         "[workbench][smooth]") {
+    const auto filter = GENERATE(from_range(kFilters));
+    CHECK_THROWS_AS(run("smooth", make_surface({}, {}), {{"filter", filter}}), InvalidInput);
+    CHECK_THROWS_AS(run("smooth", make_surface({{1, 2, 3}}, {}), {{"filter", filter}}),
+                    InvalidInput);
+    Positions points = icosphere(3.0, 2).points();
+    points[7].y() = std::nan("");
+    CHECK_THROWS_WITH(run("smooth", icosphere(3.0, 2).with_positions(points), {{"filter", filter}}),
+                      Catch::Contains("vertex 7"));
+}
+
+SCENARIO("smooth takes any shape, however broken", "[workbench][smooth]") {
+    for (const auto& [name, surface] : nasty_shapes()) check_smooths(name, surface);
+}
+
+SCENARIO("smooth takes the broken files of others", "[workbench][smooth]") {
+    const std::string folder = shared_data("nasty");
+    if (folder.empty()) return;
+    std::size_t smoothed = 0;
+    for (const std::string& file : names_in(folder)) {
+        Surface surface;
+        try {
+            surface = read_surface(folder + "/" + file).surface;
+        } catch (const InvalidInput&) {
+            continue;  // what cannot be read is refused before
+        }
+        if (surface.vertex_count() > 5000) continue;
+        check_smooths(file, surface);
+        ++smoothed;
+    }
+    CHECK(smoothed >= 12);
+}
