@@ -19,7 +19,8 @@ struct alignas(sizeof(Pack)) PackRow {
 ///     target = onto + share * (umbrella * U + source * s + target * t + start * o)
 ///
 /// with U the mean of the neighbours' source values less the own one, s and t the own values in
-/// source and target before the step, o the position before the first iteration.
+/// source and target before the step, o the position before the first iteration. U is 0 at a
+/// vertex without neighbours.
 struct LinearStep {
     enum class Onto { Zero, Source, Target };
 
@@ -31,12 +32,13 @@ struct LinearStep {
 struct StepArrays {
     const Pack* source = nullptr;
     Pack* target = nullptr;
-    const Pack* start = nullptr;  ///< may be null if LinearStep::start is 0
-    const double* share = nullptr;
+    const Pack* start = nullptr;    ///< may be null if LinearStep::start is 0
+    const double* share = nullptr;  ///< null: 1 everywhere
 };
 
-/// Takes the step at all vertices of a block. Neighbours are added in the order of their rows, with
-/// the widest registers of the CPU it runs on; the bits do not depend on their width.
+/// Takes the step at all vertices of a block. Neighbours are added in a fixed order, with the
+/// widest registers of the CPU it runs on; the bits do not depend on their width, nor on whether a
+/// share of 1 is given or left out.
 void take_linear_step(const LinearStep& step, const StepArrays& arrays,
                       const NeighbourBlocks& blocks, std::size_t block);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 namespace vesselbench::detail {
 
@@ -11,7 +12,7 @@ namespace {
 using Run = std::function<void(std::size_t, std::size_t)>;
 
 constexpr std::size_t kCacheBytes = std::size_t{1} << 20;  // a usual second-level cache
-constexpr std::size_t kPartsAimed = 16;                    // enough for the threads of a desktop
+constexpr std::size_t kPartsOfThread = 2;  // more: fewer steps at once; fewer: threads wait
 
 /// Blocks [first, last) of the surface.
 struct Part {
@@ -46,14 +47,16 @@ void sweep(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_a
            const Run& run, const Progress& progress) {
     const std::size_t count = blocks.block_count();
     const std::size_t reach = std::max<std::size_t>(1, blocks.reach());
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    const std::size_t aimed = threads == 1 ? 1 : kPartsOfThread * threads;
     const std::size_t fits = kCacheBytes / (reach * NeighbourBlocks::kBlock * bytes_at_place);
     const std::size_t at_once =
-        std::max<std::size_t>(1, std::min(fits, count / (2 * reach * kPartsAimed)));
-    for (std::size_t done = 0; done < steps && count > 0;) {
+        std::max<std::size_t>(1, std::min({fits, count / (2 * reach * aimed), steps}));
+    const std::size_t passes = (steps + at_once - 1) / at_once;
+    for (std::size_t pass = 0, done = 0; pass < passes && count > 0; ++pass) {
         progress.report(static_cast<double>(done) / static_cast<double>(steps), "smoothing");
-        const std::size_t now = std::min(at_once, steps - done);
-        const std::size_t parts =
-            std::clamp<std::size_t>(count / (2 * now * reach), 1, 4 * kPartsAimed);
+        const std::size_t now = steps * (pass + 1) / passes - done;
+        const std::size_t parts = std::clamp<std::size_t>(count / (2 * now * reach), 1, aimed);
         const auto bound = [&](std::size_t i) { return count * i / parts; };
         tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
             run_inner({bound(i), bound(i + 1), i == 0, i + 1 == parts}, done, now, reach, run);
