@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/errors.h"
+#include "geometry/repair.h"
 #include "geometry/self_intersections.h"
 #include "geometry/surface_distance.h"
 #include "geometry/wording.h"
@@ -174,8 +176,26 @@ void refine(const Surface& source, const Positions& places, double gradation,
                            "; use a smaller edge, or separate the walls that touch there");
 }
 
+/// Walls that all but touch may cross however fine their edges are: there, crossings are smoothed
+/// or cut out and filled again.
+Surface parted(const Surface& source, const Surface& result, RemeshReport& report) {
+    const auto crossings = self_intersections(result);
+    if (crossings.empty()) return result;
+    report.crossings_parted = crossings.size();
+    report.crossing = result.points()[result.triangles()[crossings.front().first][0]];
+    try {
+        Repaired repaired =
+            repair(result, {.keep_components = std::numeric_limits<std::size_t>::max()});
+        // repair faces every component outward, which would fill a cavity
+        if (!repaired.report.turned_inside_out) return std::move(repaired.surface);
+    } catch (const AlgorithmFailure&) {
+        // told below, in terms of this operation
+    }
+    refuse_crossing(source, result);
+}
+
 Surface remeshed_until_sound(const Surface& surface, const Surface& start,
-                             std::vector<double> sizes, double gradation,
+                             std::vector<double> sizes, double gradation, RemeshReport& report,
                              const Progress& progress) {
     Surface result = remeshed_once(surface, sizes, start, progress);
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
@@ -184,8 +204,7 @@ Surface remeshed_until_sound(const Surface& surface, const Surface& start,
         refine(surface, places, gradation, sizes);
         result = remeshed_once(surface, sizes, surface, progress);
     }
-    if (!self_intersections(result).empty()) refuse_crossing(surface, result);
-    return result;
+    return parted(surface, result, report);
 }
 
 RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
@@ -199,7 +218,7 @@ RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
     return report;
 }
 
-Surface graded(const Surface& surface, const std::vector<double>& radii, const RemeshReport& report,
+Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
                double gradation, const Progress& progress) {
     std::vector<double> sizes = sizing_field(surface, radii,
                                              {.edge = report.edge,
@@ -207,17 +226,17 @@ Surface graded(const Surface& surface, const std::vector<double>& radii, const R
                                               .max_edge = report.max_edge,
                                               .gradation = gradation},
                                              progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, surface, std::move(sizes), gradation,
+    return remeshed_until_sound(surface, surface, std::move(sizes), gradation, report,
                                 progress.part(0.2, 1.0));
 }
 
 /// CGAL knows one edge length only, and leaves slivers at rims; its mesh is where the rounds start.
-Surface uniform(const Surface& surface, const RemeshReport& report, double gradation,
+Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
                 const Progress& progress) {
     progress.report(0.0, "remeshing");
     const Surface even = remesh_uniform(surface, report.edge);
     const std::vector<double> sizes(surface.vertex_count(), report.edge);
-    return remeshed_until_sound(surface, even, sizes, gradation, progress.part(0.3, 1.0));
+    return remeshed_until_sound(surface, even, sizes, gradation, report, progress.part(0.3, 1.0));
 }
 
 }  // namespace

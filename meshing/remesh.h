@@ -29,6 +29,10 @@ struct RemeshReport {
     double wall_skewness_mean = 0.0, wall_skewness_max = 0.0;          ///< equiangle skewness [-]
     double wall_radius_ratio_mean = 0.0, wall_radius_ratio_min = 0.0;  ///< 2 r_in / r_out [-]
     double caps_skewness_mean = 0.0;                                   ///< 0 without caps [-]
+    /// Pairs of triangles that crossed where walls all but touch, until the walls were parted
+    /// there, which leaves worse triangles; and where the first was [mm].
+    std::size_t crossings_parted = 0;
+    Vec3 crossing = Vec3::Zero();
 };
 
 struct Remeshed {
@@ -47,7 +51,8 @@ struct Remeshed {
 /// \param surface an oriented manifold, closed or open
 /// \param lines centerlines for the vessel's radius; null: it is measured by rays
 /// \throw InvalidInput if a parameter is out of its range or the surface is not a manifold;
-///        AlgorithmFailure that names the place if the result would intersect itself
+///        AlgorithmFailure that names the place if the result would intersect itself and
+///        its walls cannot be parted
 [[nodiscard]] Remeshed remesh(const Surface& surface, const RemeshParameters& parameters = {},
                               const CenterlineGraph* lines = nullptr,
                               const Progress& progress = {});

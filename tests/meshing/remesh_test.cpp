@@ -27,6 +27,16 @@ void check_quality(const RemeshReport& report) {
     CHECK(report.caps_skewness_mean < 0.2);
 }
 
+/// A ball of radius 5 mm, dented from above until the dent's tip is this far from the wall below.
+Surface dented(double gap) {
+    return mapped(icosphere(5.0, 5), [&](const Vec3& p) {
+        const double off_axis = (p[0] * p[0] + p[1] * p[1]) / 20.0;
+        if (p[2] < 0.0 || off_axis > 1.0) return p;
+        const double depth = std::pow(1.0 - off_axis, 0.3);
+        return Vec3(p[0], p[1], (1.0 - depth) * p[2] + depth * (gap - 5.0));
+    });
+}
+
 void check_sound(const Surface& surface, bool closed) {
     const Connectivity parts = connectivity(*surface.topology);
     CHECK(parts.closed == closed);
@@ -179,6 +189,16 @@ SCENARIO("Remeshing is deterministic and knows no unit and no direction", "[mesh
         check_quality(turned.report);
         CHECK(static_cast<double>(turned.surface.triangle_count()) ==
               Approx(static_cast<double>(first.surface.triangle_count())).epsilon(0.1));
+    }
+}
+
+SCENARIO("Walls that all but touch are parted where no edge is short enough", "[meshing][remesh]") {
+    GIVEN("a dent that rests on the wall, 0.0002 mm off it, with edges of 0.8 mm") {
+        const Surface body = dented(0.0002);
+        REQUIRE(self_intersections(body).empty());
+        const Remeshed remeshed = remesh(body, {.mode = RemeshMode::Uniform, .edge = 0.8});
+        CHECK(remeshed.report.crossings_parted > 0);
+        check_sound(remeshed.surface, true);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/centerlines.h"
 #include "geometry/errors.h"
+#include "geometry/wording.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -72,6 +73,11 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         outcome.resolved.set("max_edge", figures.max_edge);
     }
     outcome.report = report_from(figures);
+    if (figures.crossings_parted > 0)
+        outcome.warnings.push_back(
+            "walls that all but touch near " + place_text(figures.crossing) +
+            " crossed when remeshed, and were parted there: triangles are worse, and the wall may "
+            "have moved; separate the walls or use a smaller edge if that part matters");
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
 }
