@@ -83,8 +83,10 @@ std::vector<double> staircase_part(const Scene& scene, const Surface& surface,
     const auto change = orientation_change(*surface.topology, surface.points(), axis);
     auto weights = staircase_weights(*surface.topology, surface.points(), change, parameters);
     report["stack_axis"] = point_json(axis);
-    report["staircase_vertices"] =
-        std::ranges::count_if(change, [&](double value) { return value > parameters.tau_theta; });
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < change.size(); ++v)
+        count += change[v] > parameters.tau_theta && caps[v] == 0 ? 1 : 0;
+    report["staircase_vertices"] = count;
     return weights;
 }
 
