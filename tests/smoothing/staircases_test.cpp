@@ -5,11 +5,8 @@
 #include <random>
 
 #include <catch2/catch.hpp>
-#include <tbb/global_control.h>
 
 #include "geometry/errors.h"
-#include "geometry/image/extract_surface.h"
-#include "geometry/io/image_file.h"
 #include "smoothing/laplace.h"
 #include "smoothing/staircase_weights.h"
 #include "tests/support/iso_surface.h"
@@ -22,42 +19,6 @@ using namespace vesselbench::test;
 namespace {
 
 const Vec3 kAlongZ(0, 0, 1);
-
-/// Sec. 5.3.2-5.3.3 as they stand, without any thought of speed: Eqs. 5.3-5.6 vertex by vertex, a
-/// whole search for every staircase vertex.
-std::vector<double> weights_as_printed(const Surface& surface, const Vec3& axis, double tau_theta,
-                                       double tau_max, double beta_min) {
-    const Positions& x = surface.points();
-    const std::size_t count = x.size();
-    std::vector<double> distance(count, 1e300);
-    for (VertexId s = 0; s < count; ++s) {
-        double low = 2.0, high = -1.0;
-        for (const TriangleId t : surface.topology->triangles_at().row(s)) {
-            const Vec3 n = area_normal(x, surface.triangles()[t]);
-            if (!(n.norm() > 0.0)) continue;
-            const double theta = 1.0 - std::abs(n.normalized().dot(axis.normalized()));
-            low = std::min(low, theta);
-            high = std::max(high, theta);
-        }
-        if (!(high - low > tau_theta)) continue;
-        std::vector<bool> seen(count, false);
-        std::deque<VertexId> queue{s};
-        seen[s] = true;
-        while (!queue.empty()) {
-            const VertexId v = queue.front();
-            queue.pop_front();
-            distance[v] = std::min(distance[v], (x[v] - x[s]).norm());
-            for (const VertexId u : surface.topology->rings().row(v))
-                if (!seen[u] && (x[u] - x[s]).norm() <= tau_max) {
-                    seen[u] = true;
-                    queue.push_back(u);
-                }
-        }
-    }
-    for (double& d : distance)
-        d = (d <= tau_max ? 1.0 - d / tau_max : 0.0) * (1.0 - beta_min) + beta_min;
-    return distance;
-}
 
 std::vector<double> weights_of(const Surface& surface, const Vec3& axis,
                                const StaircaseParameters& parameters) {
@@ -126,32 +87,6 @@ SCENARIO("Weights of a 20-vertex step are those worked out by hand", "[smoothing
         CHECK(weights[v] == Approx(expected[v % 5]).margin(1e-12));
         CHECK(printed[v] == Approx(expected_printed[v % 5]).margin(1e-12));
     }
-}
-
-SCENARIO("Staircase weights are those of Sec. 5.3 as printed", "[smoothing][staircases]") {
-    const Surface ball = terraced_ball(9.0);
-    const double tau_max = GENERATE(1.0, 3.0, 7.5);
-    const double tau_theta = GENERATE(0.3, 0.7);
-    CAPTURE(tau_max, tau_theta);
-    const StaircaseParameters parameters{tau_theta, tau_max, 0.1};
-    const auto weights = weights_of(ball, kAlongZ, parameters);
-    CHECK(largest_difference(weights, weights_as_printed(ball, kAlongZ, tau_theta, tau_max, 0.1)) <
-          1e-12);
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    CHECK(weights_of(ball, kAlongZ, parameters) == weights);
-}
-
-SCENARIO("Staircase weights of real masks are those of Sec. 5.3 as printed",
-         "[smoothing][staircases]") {
-    const std::string path = shared_data("images/topcow_mr_roi_003_labels.nii.gz");
-    if (path.empty()) return;
-    const Image labels = read_image(path);
-    const Surface surface =
-        extract_surface(labels, std::nullopt, {.method = ExtractionMethod::Labels, .labels = {1}})
-            .surface;
-    const Vec3 axis = sampling_of(labels).axes.col(2);
-    const auto weights = weights_of(surface, axis, {.tau_max = 1.5});
-    CHECK(largest_difference(weights, weights_as_printed(surface, axis, 0.7, 1.5, 0.0)) < 1e-12);
 }
 
 SCENARIO("Random staircase vertices on folded sheets: exact where sheets come close",
