@@ -196,7 +196,9 @@ Positions vertex_normals(const Surface& surface) {
             normals[t[k]] += angle_between(u, v) / length * normal;
         }
     }
-    for (Vec3& n : normals) n.normalize();
+    // Less is what rounding leaves of triangles that lie on each other: no normal.
+    constexpr double kLeastAngle = 1e-9;
+    for (Vec3& n : normals) n = n.norm() > kLeastAngle ? n.normalized() : Vec3::Zero();
     return normals;
 }
 

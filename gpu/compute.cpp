@@ -113,6 +113,13 @@ void dispatch(const Device& device, const Program& program, std::size_t elements
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void dispatch_group(const Program& program, std::size_t elements) {
+    glUseProgram(program.id());
+    glUniform1ui(0, static_cast<unsigned>(elements));
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void finish_device() {
     glFinish();
 }

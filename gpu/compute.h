@@ -49,6 +49,9 @@ void bind_storage(std::initializer_list<const Buffer*> buffers);
 /// their number. What it writes is seen by every later command.
 void dispatch(const Device& device, const Program& program, std::size_t elements);
 
+/// The same with one work group for all elements.
+void dispatch_group(const Program& program, std::size_t elements);
+
 /// Waits until the device has done everything asked for.
 void finish_device();
 

@@ -13,6 +13,8 @@ namespace vesselbench {
 
 namespace {
 
+using Eigen::Vector4f;
+
 constexpr std::uint32_t kBoundary = 0x80000000;
 
 /// Which corner of the triangle v is; a degenerate triangle's first.
@@ -27,22 +29,27 @@ DeviceRows upload(const Device& device, const CompressedRows& rows, const std::s
 
 }  // namespace
 
-Eigen::Vector3f device_point(const Vec3& point, const Vec3& centre) {
-    return (point - centre).cast<float>();
+DevicePoint device_point(const Vec3& point, const Vec3& centre) {
+    const Vec3 place = point - centre;
+    const Eigen::Vector3f anchor = place.cast<float>();
+    return {anchor, (place - anchor.cast<double>()).cast<float>()};
 }
 
 DeviceSurface::DeviceSurface(Device device, Surface surface)
     : device_(std::move(device)), surface_(std::move(surface)) {
     if (surface_.empty()) throw InvalidInput("there is no surface to compute with");
     centre_ = bounds(surface_).centre();
-    std::vector<Eigen::Vector4f> points(vertex_count());
-    for (std::size_t v = 0; v < points.size(); ++v) {
+    std::vector<Vector4f> anchors(vertex_count()), shifts(vertex_count());
+    for (std::size_t v = 0; v < anchors.size(); ++v) {
         const Vec3& p = surface_.points()[v];
         if (!p.allFinite())
             throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
-        points[v] << device_point(p, centre_), 1.0F;
+        const DevicePoint point = device_point(p, centre_);
+        anchors[v] << point.anchor, 1.0F;
+        shifts[v] << point.shift, 1.0F;
     }
-    start_ = make_storage(device_, std::span<const Eigen::Vector4f>(points), "positions");
+    anchors_ = make_storage(device_, std::span<const Vector4f>(anchors), "anchors");
+    shifts_ = make_storage(device_, std::span<const Vector4f>(shifts), "shifts");
 }
 
 const DeviceRows& DeviceSurface::rings(int count) const {
@@ -52,6 +59,27 @@ const DeviceRows& DeviceSurface::rings(int count) const {
                           : upload(device_, detail::two_rings(*surface_.topology),
                                    "neighbours within two rings");
     return *rows;
+}
+
+const Buffer& DeviceSurface::anchor_umbrellas(int rings) const {
+    auto& buffer = anchor_umbrellas_[rings == 1 ? 0 : 1];
+    if (buffer) return *buffer;
+    const CompressedRows wide =
+        rings == 1 ? CompressedRows{} : detail::two_rings(*surface_.topology);
+    const CompressedRows& rows = rings == 1 ? surface_.topology->rings() : wide;
+    Positions anchors(vertex_count());
+    detail::for_each_vertex(anchors.size(), [&](std::size_t v) {
+        anchors[v] = device_point(surface_.points()[v], centre_).anchor.cast<double>();
+    });
+    std::vector<Vector4f> umbrellas(vertex_count());
+    detail::for_each_vertex(umbrellas.size(), [&](std::size_t v) {
+        Vec3 sum = Vec3::Zero();
+        for (const VertexId u : rows.row(v)) sum += anchors[u] - anchors[v];
+        if (!rows.row(v).empty()) sum /= static_cast<double>(rows.row(v).size());
+        umbrellas[v] << sum.cast<float>(), 0.0F;
+    });
+    buffer = make_storage(device_, std::span<const Vector4f>(umbrellas), "umbrellas");
+    return *buffer;
 }
 
 const DeviceRows& DeviceSurface::corners() const {

@@ -33,8 +33,16 @@ public:
     /// What positions on the device are relative to: the centre of the bounding box [mm].
     [[nodiscard]] const Vec3& centre() const { return centre_; }
 
-    /// Positions [mm] relative to the centre, vec4 with w = 1, #V.
-    [[nodiscard]] const Buffer& start() const { return start_; }
+    /// Where vertices are on the device is anchor + shift [mm]. Anchors are the surface's positions
+    /// in single precision and never change: vec4 with w = 1, #V.
+    [[nodiscard]] const Buffer& anchors() const { return anchors_; }
+
+    /// What single precision left out of the surface's own positions [mm]: vec4, #V. States of the
+    /// surface have other shifts; theirs are what filters move.
+    [[nodiscard]] const Buffer& shifts() const { return shifts_; }
+
+    /// Uniform umbrella operator of the anchors over 1 or 2 rings [mm]: vec4, #V.
+    [[nodiscard]] const Buffer& anchor_umbrellas(int rings) const;
 
     /// Neighbours within 1 or 2 rings: uint.
     [[nodiscard]] const DeviceRows& rings(int count) const;
@@ -47,11 +55,16 @@ private:
     Device device_;
     Surface surface_;
     Vec3 centre_ = Vec3::Zero();
-    Buffer start_;
+    Buffer anchors_, shifts_;
     mutable std::optional<DeviceRows> rings_[2], corners_;
+    mutable std::optional<Buffer> anchor_umbrellas_[2];
 };
 
-/// The same point in single precision, relative to a centre.
-[[nodiscard]] Eigen::Vector3f device_point(const Vec3& point, const Vec3& centre);
+/// A point relative to a centre, in two numbers of single precision each.
+struct DevicePoint {
+    Eigen::Vector3f anchor, shift;
+};
+
+[[nodiscard]] DevicePoint device_point(const Vec3& point, const Vec3& centre);
 
 }  // namespace vesselbench

@@ -18,9 +18,19 @@ using Eigen::Vector4f;
 constexpr float kFixed = -1.0F;
 
 /// Uniforms of gpu/shaders/filter_pass.glsl.
-enum Uniform { kFactors = 1, kOnto, kLast, kIteration, kCell, kHalfSize, kCellAxes };
+enum Uniform {
+    kFactors = 1,
+    kOnto,
+    kLast,
+    kOfPositions,
+    kIteration,
+    kCell,
+    kHalfSize,
+    kCellAxes,
+    kFeatureCurvature
+};
 
-/// Start positions with what may move of them: the weight, or kFixed.
+/// Shifts at the start, with the vertices' weights, or kFixed.
 std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterSettings& settings) {
     const Positions& points = surface.surface().points();
     const auto fixed =
@@ -28,7 +38,7 @@ std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterS
     std::vector<Vector4f> start(points.size());
     detail::for_each_vertex(start.size(), [&](std::size_t v) {
         const double weight = settings.weights.empty() ? 1.0 : settings.weights[v];
-        start[v] << device_point(points[v], surface.centre()),
+        start[v] << device_point(points[v], surface.centre()).shift,
             fixed[v] != 0 ? kFixed : static_cast<float>(weight);
     });
     return start;
@@ -47,8 +57,7 @@ GpuSmoother::GpuSmoother(std::shared_ptr<const DeviceSurface> surface,
     const std::vector<Vector4f> start = weighted_start(*surface_, settings);
     const std::size_t bytes = start.size() * sizeof(Vector4f);
     start_ = make_storage(surface_->device(), std::span<const Vector4f>(start), "start");
-    for (Buffer& values : values_)
-        values = make_storage(surface_->device(), bytes, "smoothed positions");
+    for (Buffer& values : values_) values = make_storage(surface_->device(), bytes, "shifts");
     copy_storage(start_, values_[0], bytes);
 }
 
@@ -62,10 +71,14 @@ const Program& GpuSmoother::program(const std::string& name) {
 }
 
 void GpuSmoother::plan_linear(const std::vector<detail::LinearStep>& steps) {
-    for (const detail::LinearStep& step : steps)
+    bool of_positions = true;
+    for (const detail::LinearStep& step : steps) {
         passes_.push_back({.program = &program("linear_step"),
                            .factors = {step.umbrella, step.source, step.target, step.start},
-                           .onto = static_cast<int>(step.onto)});
+                           .onto = static_cast<int>(step.onto),
+                           .of_positions = of_positions});
+        of_positions = step.onto != detail::LinearStep::Onto::Zero;
+    }
 }
 
 void GpuSmoother::plan(const LaplaceParameters& parameters) {
@@ -83,7 +96,7 @@ void GpuSmoother::plan(const TaubinParameters& parameters) {
 void GpuSmoother::plan(const MeanCurvatureFlowParameters& parameters) {
     detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
     detail::require_one_ring("mean curvature flow", {.rings = rings_});
-    passes_.push_back({.program = &program("curvature_flow"),
+    passes_.push_back({.program = &program("mean_curvature_flow"),
                        .factors = {parameters.lambda},
                        .by_corners = true});
 }
@@ -95,9 +108,10 @@ void GpuSmoother::plan(const AnisotropicParameters& parameters) {
     const double feature = parameters.feature_curvature.value_or(
         default_feature_curvature(*surface.topology, surface.points()));
     detail::require_positive("feature_curvature", feature);
-    passes_.push_back({.program = &program("curvature_flow"),
-                       .factors = {parameters.lambda, feature},
-                       .by_corners = true});
+    const Program& smooth = program("anisotropic");
+    glUseProgram(smooth.id());
+    glUniform1d(kFeatureCurvature, feature);
+    passes_.push_back({.program = &smooth, .factors = {parameters.lambda}, .by_corners = true});
 }
 
 void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
@@ -117,7 +131,8 @@ void GpuSmoother::find_first_iterations(double trigger) {
                                          "first iterations");
     const Buffer exact = exact_positions(*surface_);
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&exact, nullptr, &start_, &corners.offsets, &corners.values, &first_iterations_});
+    bind_storage({&exact, nullptr, &start_, &corners.offsets, &corners.values, nullptr, nullptr,
+                  &first_iterations_});
     const Program& find = program("trigger");
     glUseProgram(find.id());
     glUniform1d(1, trigger);
@@ -135,14 +150,16 @@ void GpuSmoother::start(const FilterParameters& parameters) {
 
 void GpuSmoother::run_pass(const Pass& pass, bool last) {
     const DeviceRows& rows = pass.by_corners ? surface_->corners() : surface_->rings(rings_);
-    bind_storage({&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], &start_,
-                  &rows.offsets, &rows.values,
-                  first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
+    bind_storage(
+        {&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], &start_, &rows.offsets,
+         &rows.values, pass.by_corners ? nullptr : &surface_->anchor_umbrellas(rings_),
+         &surface_->anchors(), first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
     glUseProgram(pass.program->id());
     const Vector4f factors = Eigen::Vector4d(pass.factors.data()).cast<float>();
     glUniform4fv(kFactors, 1, factors.data());
     glUniform1i(kOnto, pass.onto);
     glUniform1i(kLast, last ? 1 : 0);
+    glUniform1i(kOfPositions, pass.of_positions ? 1 : 0);
     glUniform1i(kIteration, iterations_done_);
     glUniform1i(kCell, 0);
     if (last && constraint_) set_constraint(*constraint_);
@@ -176,15 +193,17 @@ void GpuSmoother::run(int iterations, const Progress& progress) {
 
 Positions GpuSmoother::positions() const {
     const std::size_t count = surface_->vertex_count();
-    const auto moved = read_storage<Vector4f>(position_buffer(), count);
+    const auto moved = read_storage<Vector4f>(shifts(), count);
     require_context(surface_->device());
     const Positions& start = surface_->surface().points();
     Positions result(count);
     detail::for_each_vertex(count, [&](std::size_t v) {
-        const Eigen::Vector3f from = device_point(start[v], surface_->centre());
-        result[v] = start[v];
-        if (moved[v].head<3>() != from)
-            result[v] += moved[v].head<3>().cast<double>() - from.cast<double>();
+        const DevicePoint from = device_point(start[v], surface_->centre());
+        const Eigen::Vector3f shift = moved[v].head<3>();
+        result[v] =
+            shift == from.shift
+                ? start[v]
+                : Vec3(surface_->centre() + from.anchor.cast<double>() + shift.cast<double>());
     });
     return result;
 }

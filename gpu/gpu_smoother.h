@@ -41,8 +41,8 @@ public:
     /// \throw GpuUnavailable if the context was lost
     [[nodiscard]] Positions positions() const;
 
-    /// Positions [mm] relative to the surface's centre, vec4, #V, for drawing and measuring.
-    [[nodiscard]] const Buffer& position_buffer() const { return values_[steps_done_ % 2]; }
+    /// Shifts of the vertices (DeviceSurface), for drawing and measuring.
+    [[nodiscard]] const Buffer& shifts() const { return values_[steps_done_ % 2]; }
 
     [[nodiscard]] const DeviceSurface& surface() const { return *surface_; }
 
@@ -52,7 +52,8 @@ private:
         const Program* program = nullptr;
         std::array<double, 4> factors = {};
         int onto = 0;
-        bool by_corners = false;  ///< reads triangles instead of neighbours
+        bool of_positions = true;  ///< the source holds shifts, not differences of them
+        bool by_corners = false;   ///< reads triangles instead of neighbours
     };
 
     void plan(const LaplaceParameters& parameters);
@@ -70,7 +71,7 @@ private:
     std::shared_ptr<const DeviceSurface> surface_;
     int rings_ = 1;
     std::optional<PositionConstraint> constraint_;
-    Buffer start_;      ///< as the surface's, but w is the weight, or -1 where fixed
+    Buffer start_;      ///< the surface's shifts; w is the weight, or -1 where fixed
     Buffer values_[2];  ///< read and written in turn
     Buffer first_iterations_;
     std::vector<std::pair<std::string, std::unique_ptr<Program>>> programs_;

@@ -1,35 +1,24 @@
 #version 430 core
 // One linear step of a filter (smoothing/linear_step.h):
 //   target = onto + share * (umbrella * U + source * s + target * t + start * o)
-// with the factors x umbrella, y source, z target, w start; y + z + w is 0 (a step does not depend on
-// where the origin is), which the differences here rely on.
-// 0 source, 1 target, 2 start, 3 offsets and 4 neighbours of every vertex
+// with the factors x umbrella, y source, z target, w start; y + z + w is 0 (a step does not depend
+// on where the origin is), which the differences here rely on. After a step onto nothing, the source
+// holds differences of positions instead of shifts.
+// 0 source, 1 target, 2 start, 3 offsets and 4 neighbours, 5 umbrellas of the anchors
 #include "filter_pass.glsl"
-
-layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 4) readonly buffer Neighbours { uint neighbours[]; };
-
-// Mean of the neighbours less the own value; differences first, so that no digits are lost.
-vec3 umbrella(uint v, vec3 own) {
-    uint first = offsets[v], end = offsets[v + 1u];
-    if (first == end) return vec3(0.0);
-    vec3 sum = vec3(0.0);
-    for (uint i = first; i < end; ++i) sum += source[neighbours[i]].xyz - own;
-    return sum / float(end - first);
-}
+#include "umbrella.glsl"
 
 void main() {
     uint v = element();
     if (v >= element_count) return;
-    vec4 own = source[v];
+    vec4 own = shifts[v];
     vec3 before = vec3(0.0);
     if (onto == 1)
         before = own.xyz;
     else if (onto == 2)
         before = target[v].xyz;
-    vec3 step = factors.x * umbrella(v, own.xyz);
+    vec3 step = factors.x * (of_positions ? umbrella_of_positions(v, own.xyz) : umbrella_of_shifts(v, own.xyz));
     if (factors.w != 0.0) {
-        // source and target less start are small: no digits are lost
         vec3 origin = start[v].xyz;
         if (factors.y != 0.0) step += factors.y * (own.xyz - origin);
         if (factors.z != 0.0) step += factors.z * (before - origin);

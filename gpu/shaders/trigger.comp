@@ -2,7 +2,7 @@
 // From which iteration of curvature-triggered smoothing on each vertex may move: 0 where its mean
 // curvature at the start exceeds the trigger [1/mm], else as good as never. In double precision, so
 // that the same vertices start as on the CPU.
-// 0 exact positions [mm], 3 doubles each, 2 start, 3 offsets and 4 corners, 5 first iterations
+// 0 exact positions [mm], 3 doubles each, 2 start, 3 offsets and 4 corners, 7 first iterations
 #include "elements.glsl"
 #include "corners.glsl"
 #define REAL double
@@ -11,7 +11,7 @@
 
 layout(std430, binding = 0) readonly buffer Exact { double exact[]; };
 layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
-layout(std430, binding = 5) writeonly buffer First { int first[]; };
+layout(std430, binding = 7) writeonly buffer First { int first[]; };
 layout(location = 1) uniform double trigger;
 
 dvec3 at(uint v) { return dvec3(exact[3u * v], exact[3u * v + 1u], exact[3u * v + 2u]); }

@@ -2,31 +2,31 @@
 // An iteration of curvature-triggered smoothing (smoothing/curvature_triggered.h), factors.x lambda.
 // Vertices join in one iteration after their neighbours: whatever a neighbour writes in this one is
 // not yet below `iteration`, so that their order does not count.
-// 0 source, 1 target, 2 start, 3 offsets and 4 neighbours, 5 first iterations
+// 0 source, 1 target, 2 start, 3 offsets and 4 neighbours, 5 umbrellas of the anchors, 7 first
+// iterations
 #include "filter_pass.glsl"
+#include "umbrella.glsl"
 
-layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 4) readonly buffer Neighbours { uint neighbours[]; };
-layout(std430, binding = 5) coherent buffer First { int first[]; };
+layout(std430, binding = 7) coherent buffer First { int first[]; };
+
+bool joins(uint v) {
+    if (first[v] <= iteration) return true;
+    uint end = offsets[v + 1u];
+    for (uint i = offsets[v]; i < end; ++i)
+        if (first[neighbours[i]] < iteration) {
+            first[v] = iteration;
+            return true;
+        }
+    return false;
+}
 
 void main() {
     uint v = element();
     if (v >= element_count) return;
-    vec4 own = source[v];
+    vec4 own = shifts[v];
     target[v] = own;
-    uint begin = offsets[v], end = offsets[v + 1u];
-    if (own.w <= 0.0 || begin == end) return;
-    bool moves = first[v] <= iteration;
-    vec3 sum = vec3(0.0);
-    for (uint i = begin; i < end; ++i) {
-        sum += source[neighbours[i]].xyz - own.xyz;
-        if (!moves && first[neighbours[i]] < iteration) {
-            moves = true;
-            first[v] = iteration;
-        }
-    }
-    if (!moves) return;
-    vec3 moved = own.xyz + own.w * factors.x * (sum / float(end - begin));
+    if (own.w <= 0.0 || !joins(v)) return;
+    vec3 moved = own.xyz + own.w * factors.x * umbrella_of_positions(v, own.xyz);
     if (cell != 0) moved = inside_cell(start[v].xyz, moved);
     target[v].xyz = moved;
 }

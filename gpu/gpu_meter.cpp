@@ -1,0 +1,120 @@
+#include "gpu/gpu_meter.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "geometry/local_error.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Eigen::Vector4f;
+
+CompressedRows rim_rows(const Topology& topology) {
+    CompressedRows rows{{0}, {}};
+    const auto& boundary = topology.boundary_vertices();
+    if (std::ranges::find(boundary, 1) == boundary.end()) return rows;
+    for (const auto& loop : topology.boundary_loops()) {
+        rows.values.insert(rows.values.end(), loop.begin(), loop.end());
+        rows.offsets.push_back(static_cast<std::uint32_t>(rows.values.size()));
+    }
+    return rows;
+}
+
+}  // namespace
+
+GpuMeter::GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t states, bool planes)
+    : surface_(std::move(surface)),
+      planes_(planes),
+      shape_(make_compute_program(surface_->device(), "shape")),
+      rim_volume_(make_compute_program(surface_->device(), "rim_volume")),
+      local_error_(make_compute_program(surface_->device(), "local_error")),
+      total_(make_compute_program(surface_->device(), "total")) {
+    const Device& device = surface_->device();
+    const std::size_t count = surface_->vertex_count();
+    const Topology& topology = *surface_->surface().topology;
+    const CompressedRows rims = rim_rows(topology);
+    rim_count_ = rims.offsets.size() - 1;
+    rims_ = {make_storage(device, std::span<const std::uint32_t>(rims.offsets), "rim offsets"),
+             make_storage(device, std::span<const std::uint32_t>(rims.values), "rims")};
+    own_references_ =
+        make_storage(device, std::span<const VertexId>(own_references(topology)), "own references");
+    references_ = make_storage(device, count * sizeof(VertexId), "references");
+    normals_ = make_storage(device, count * sizeof(Vector4f), "normals");
+    errors_ = make_storage(device, count * sizeof(float), "local errors");
+    parts_ = make_storage(device, (group_count(count) + rim_count_) * sizeof(Vector4f), "parts");
+    results_ = make_storage(device, 2 * states * sizeof(Vector4f), "measures");
+    restart();
+}
+
+void GpuMeter::restart() {
+    copy_storage(own_references_, references_, surface_->vertex_count() * sizeof(VertexId));
+}
+
+void GpuMeter::find_shape(const Buffer& shifts) {
+    const DeviceRows& corners = surface_->corners();
+    bind_storage({&shifts, &normals_, &parts_, &corners.offsets, &corners.values, nullptr,
+                  &surface_->anchors()});
+    dispatch(surface_->device(), shape_, surface_->vertex_count());
+}
+
+void GpuMeter::add_rims(const Buffer& shifts) {
+    if (rim_count_ == 0) return;
+    bind_storage(
+        {&shifts, nullptr, &parts_, &rims_.offsets, &rims_.values, nullptr, &surface_->anchors()});
+    glUseProgram(rim_volume_.id());
+    glUniform1ui(1, static_cast<unsigned>(group_count(surface_->vertex_count())));
+    dispatch(surface_->device(), rim_volume_, rim_count_ * kGroupSize);
+}
+
+void GpuMeter::find_error(const Buffer& shifts) {
+    const DeviceRows& corners = surface_->corners();
+    bind_storage({&shifts, &errors_, &parts_, &corners.offsets, &corners.values,
+                  &surface_->shifts(), &surface_->anchors(), &references_});
+    glUseProgram(local_error_.id());
+    glUniform1i(1, planes_ ? 1 : 0);
+    dispatch(surface_->device(), local_error_, surface_->vertex_count());
+}
+
+void GpuMeter::total(std::size_t parts, std::size_t place) {
+    bind_storage({&parts_, &results_});
+    glUseProgram(total_.id());
+    glUniform1ui(1, static_cast<unsigned>(place));
+    dispatch_group(total_, parts);
+}
+
+void GpuMeter::measure(const Buffer& shifts, std::size_t state) {
+    const std::size_t groups = group_count(surface_->vertex_count());
+    find_shape(shifts);
+    add_rims(shifts);
+    total(groups + rim_count_, 2 * state);
+    find_error(shifts);
+    total(groups, 2 * state + 1);
+}
+
+void GpuMeter::measure_shape(const Buffer& shifts) {
+    find_shape(shifts);
+}
+
+std::vector<DeviceMeasures> GpuMeter::read(std::size_t states) const {
+    const auto totals = read_storage<Vector4f>(results_, 2 * states);
+    require_context(surface_->device());
+    const auto count = static_cast<double>(surface_->vertex_count());
+    std::vector<DeviceMeasures> measures(states);
+    for (std::size_t i = 0; i < states; ++i) {
+        const Vector4f &shape = totals[2 * i], &error = totals[2 * i + 1];
+        measures[i] = {.error = error.x() / count,
+                       .largest_error = error.w(),
+                       .error_thesis = error.y() / count,
+                       .curvature = shape.x(),
+                       .curvature_abs = shape.y(),
+                       .volume = shape.z()};
+    }
+    return measures;
+}
+
+}  // namespace vesselbench

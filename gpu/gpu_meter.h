@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gpu/device_surface.h"
+
+namespace vesselbench {
+
+/// What smoothing does to a surface, in a few numbers (thesis 6.4-6.5).
+struct DeviceMeasures {
+    double error = 0.0;          ///< mean local error against the start [mm] (6.4.1)
+    double largest_error = 0.0;  ///< largest local error [mm]
+    double error_thesis = 0.0;   ///< mean error as Eq. 6.2 prints it [mm]; 0 unless asked for
+    double curvature = 0.0;      ///< integral of the mean curvature H [mm] (Eq. 6.4)
+    double curvature_abs = 0.0;  ///< integral of |H| [mm]
+    double volume = 0.0;         ///< [mm^3], openings closed in thought (Eq. 6.5)
+};
+
+/// Measures states of a surface on the device, where their positions are: nothing but the few
+/// numbers comes back, and these when they are asked for. Measures are those of
+/// geometry/local_error.h and geometry/measure.h, in single precision; sums have a fixed order.
+/// The surface's context must be current whenever it is used and when it goes.
+class GpuMeter {
+public:
+    /// \param states how many states can be measured before their numbers are read
+    /// \param planes measures error_thesis too
+    /// \throw GpuUnavailable if a shader does not compile or the buffers do not fit
+    explicit GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t states = 1,
+                      bool planes = false);
+
+    /// Every vertex is its own reference again, as where smoothing starts.
+    void restart();
+
+    /// Follows the reference neighbourhoods to a state and measures it, as number `state`.
+    /// \param shifts of its vertices (DeviceSurface)
+    /// \pre state is below the number of states
+    void measure(const Buffer& shifts, std::size_t state = 0);
+
+    /// Unit vertex normals and mean curvature alone, for drawing.
+    void measure_shape(const Buffer& shifts);
+
+    /// Waits for the device and reads the numbers of the first states.
+    /// \throw GpuUnavailable if the context was lost
+    [[nodiscard]] std::vector<DeviceMeasures> read(std::size_t states = 1) const;
+
+    /// Of the state measured last: unit vertex normal, and w the mean curvature [1/mm]; vec4, #V.
+    [[nodiscard]] const Buffer& normals() const { return normals_; }
+
+    /// Of the state measured last: local error [mm]; float, #V.
+    [[nodiscard]] const Buffer& errors() const { return errors_; }
+
+private:
+    void find_shape(const Buffer& shifts);
+    void find_error(const Buffer& shifts);
+    void add_rims(const Buffer& shifts);
+    void total(std::size_t parts, std::size_t place);
+
+    std::shared_ptr<const DeviceSurface> surface_;
+    bool planes_;
+    Program shape_, rim_volume_, local_error_, total_;
+    Buffer own_references_, references_, normals_, errors_, parts_, results_;
+    DeviceRows rims_;  ///< vertices of each boundary loop: uint
+    std::size_t rim_count_ = 0;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,112 @@
+#version 430 core
+// Distance of each vertex from the original's triangles around its reference vertex, which first
+// drifts on with it (thesis 6.4.1, geometry/local_error.h), and each group's part of the sums.
+// 0 shifts, 1 out: distances [mm], 2 out: parts (x closest point, y planes, w largest), 3 offsets and
+// 4 corners, 5 shifts of the original, 6 anchors, 7 references
+#include "elements.glsl"
+#include "positions.glsl"
+#include "corners.glsl"
+#include "reduce.glsl"
+#include "closest_point.glsl"
+
+layout(std430, binding = 1) writeonly buffer Distances { float distances[]; };
+layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
+layout(std430, binding = 7) buffer References { uint references[]; };
+layout(location = 1) uniform bool planes;  // y, the thesis' form, is wanted
+
+const float infinite = 3e38;
+
+// From a vertex to where another one was.
+vec3 way_to(uint v, uint u) {
+    return (anchors[u].xyz - anchors[v].xyz) + (original_shifts[u].xyz - shifts[v].xyz);
+}
+
+vec3 original_edge(uint from, uint to) {
+    return (anchors[to].xyz - anchors[from].xyz) + (original_shifts[to].xyz - original_shifts[from].xyz);
+}
+
+float squared_to(uint u, uint v) {
+    vec3 way = way_to(v, u);
+    return dot(way, way);
+}
+
+// Every step comes strictly closer, so it ends.
+uint drifted(uint reference, uint v) {
+    float closest = squared_to(reference, v);
+    for (bool closer = true; closer;) {
+        closer = false;
+        uint from = reference, end = first_corner(from + 1u);
+        for (uint i = first_corner(from); i < end; ++i)
+            for (int k = 0; k < 2; ++k) {
+                float squared = squared_to(corners[i][k], v);
+                if (squared >= closest) continue;
+                closest = squared;
+                reference = corners[i][k];
+                closer = true;
+            }
+    }
+    return reference;
+}
+
+struct RingPlace {
+    float squared;
+    bool outer;  // on the ring's outer edge
+    uvec2 ends;  // of that edge
+};
+
+RingPlace closest_in_ring(uint centre, uint v) {
+    RingPlace place = RingPlace(infinite, false, uvec2(0u));
+    vec3 a = way_to(v, centre);
+    uint end = first_corner(centre + 1u);
+    for (uint i = first_corner(centre); i < end; ++i) {
+        uvec2 others = corners[i];
+        Closest closest = to_triangle(a, way_to(v, others.x), way_to(v, others.y));
+        if (closest.squared < place.squared) place = RingPlace(closest.squared, closest.outer, others);
+    }
+    return place;
+}
+
+// Where the closest place is on the ring's outer edge, the surface beyond may be closer: then the
+// ring moves there. Every step comes strictly closer, so it ends.
+float to_ring(uint reference, uint v) {
+    RingPlace best = closest_in_ring(reference, v);
+    for (bool closer = best.outer; closer;) {
+        closer = false;
+        uvec2 ends = best.ends;
+        for (int k = 0; k < 2; ++k) {
+            RingPlace next = closest_in_ring(ends[k], v);
+            if (next.squared >= best.squared) continue;
+            best = next;
+            closer = next.outer;
+        }
+    }
+    return best.squared < infinite ? sqrt(best.squared) : sqrt(squared_to(reference, v));
+}
+
+// Eq. 6.2 as printed.
+float to_planes(uint reference, uint v) {
+    float largest = -1.0;
+    vec3 way = way_to(v, reference);
+    uint end = first_corner(reference + 1u);
+    for (uint i = first_corner(reference); i < end; ++i) {
+        vec3 normal = cross(original_edge(reference, corners[i].x), original_edge(reference, corners[i].y));
+        float size = length(normal);
+        if (size > 0.0) largest = max(largest, abs(dot(normal, way)) / size);
+    }
+    return largest >= 0.0 ? largest : sqrt(squared_to(reference, v));
+}
+
+vec4 error_of(uint v) {
+    uint reference = drifted(references[v], v);
+    references[v] = reference;
+    float distance = to_ring(reference, v);
+    distances[v] = distance;
+    return vec4(distance, planes ? to_planes(reference, v) : 0.0, 0.0, distance);
+}
+
+void main() {
+    uint v = element();
+    vec4 sum = group_total(v < element_count ? error_of(v) : vec4(0.0));
+    if (gl_LocalInvocationIndex == 0u && v < element_count) parts[v / 256u] = sum;
+}

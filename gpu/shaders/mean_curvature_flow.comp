@@ -1,0 +1,25 @@
+#version 430 core
+// An iteration of mean curvature flow (smoothing/mean_curvature_flow.h), factors.x lambda.
+// 0 source, 1 target, 2 start, 3 offsets and 4 corners of every vertex, 6 anchors
+#include "filter_pass.glsl"
+#include "corners.glsl"
+#define REAL float
+#define VEC3 vec3
+#include "cotangent_umbrella.glsl"
+
+void main() {
+    uint v = element();
+    if (v >= element_count) return;
+    vec4 own = shifts[v];
+    target[v] = own;
+    if (own.w <= 0.0) return;
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    uint end = first_corner(v + 1u);
+    for (uint i = first_corner(v); i < end; ++i)
+        add_triangle(edge(v, corners[i].x), edge(v, corners[i].y), sum, weights);
+    if (!(weights > 0.0)) return;
+    vec3 moved = own.xyz + own.w * factors.x * (sum / weights);
+    if (cell != 0) moved = inside_cell(start[v].xyz, moved);
+    target[v].xyz = moved;
+}

@@ -1,0 +1,41 @@
+#version 430 core
+// Vertex normals, weighted by the angle at the vertex, and mean curvature (thesis 6.4.2), with each
+// group's part of the integrals of H and |H| [mm] and of the volume [mm^3] (Eqs. 6.4, 6.5).
+// 0 shifts, 1 out: normal and H [1/mm], 2 out: parts, 3 offsets and 4 corners, 6 anchors
+#include "elements.glsl"
+#include "positions.glsl"
+#include "corners.glsl"
+#include "angle.glsl"
+#include "reduce.glsl"
+#define REAL float
+#define VEC3 vec3
+#include "corner_curvature.glsl"
+
+layout(std430, binding = 1) writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
+
+vec4 shape_of(uint v) {
+    vec3 flow = vec3(0.0), outward = vec3(0.0), normal = vec3(0.0);
+    float area = 0.0;
+    uint end = first_corner(v + 1u);
+    for (uint i = first_corner(v); i < end; ++i) {
+        CornerShare share = corner_share(edge(v, corners[i].x), edge(v, corners[i].y));
+        flow += share.flow;
+        area += share.area;
+        normal += share.normal;
+        if (share.across > 0.0) outward += angle_of(share.across, share.along) / share.across * share.normal;
+    }
+    float size = length(outward), curvature = 0.0;
+    // less is what rounding leaves of triangles that lie on each other: no normal
+    outward = size > 1e-5 ? outward / size : vec3(0.0);
+    if (area > 0.0 && !on_boundary(v)) curvature = mean_of(flow, outward, area);
+    normals[v] = vec4(outward, curvature);
+    float part = curvature == 0.0 ? 0.0 : sign(curvature) * length(flow) / 4.0;
+    return vec4(part, abs(part), dot(position_of(v), normal) / 18.0, 0.0);  // each triangle counts at 3 corners
+}
+
+void main() {
+    uint v = element();
+    vec4 sum = group_total(v < element_count ? shape_of(v) : vec4(0.0));
+    if (gl_LocalInvocationIndex == 0u && v < element_count) parts[v / 256u] = sum;
+}

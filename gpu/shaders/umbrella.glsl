@@ -1,0 +1,18 @@
+// The uniform umbrella operator: mean of the neighbours less the own value.
+layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
+layout(std430, binding = 4) readonly buffer Neighbours { uint neighbours[]; };
+layout(std430, binding = 5) readonly buffer AnchorUmbrellas { vec4 anchor_umbrellas[]; };
+
+// Of the shifts, or whatever the source holds in their place.
+vec3 umbrella_of_shifts(uint v, vec3 own) {
+    uint first = offsets[v], end = offsets[v + 1u];
+    if (first == end) return vec3(0.0);
+    vec3 sum = vec3(0.0);
+    for (uint i = first; i < end; ++i) sum += shifts[neighbours[i]].xyz - own;
+    return sum / float(end - first);
+}
+
+// Of the positions: the anchors' share never changes.
+vec3 umbrella_of_positions(uint v, vec3 own) {
+    return anchor_umbrellas[v].xyz + umbrella_of_shifts(v, own);
+}

@@ -1,0 +1,144 @@
+#include "gpu/gpu_meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/local_error.h"
+#include "geometry/measure.h"
+#include "gpu/gpu_smoother.h"
+#include "tests/gpu/device_support.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+/// The CPU's measures of a state, its error against `original`.
+DeviceMeasures on_cpu(const Surface& original, const Positions& moved) {
+    const Surface state = original.with_positions(moved);
+    const LocalError error = local_error(*original.topology, original.points(), moved);
+    const LocalError thesis =
+        local_error(*original.topology, original.points(), moved, LocalErrorForm::Thesis);
+    DeviceMeasures measures{.error = error.mean,
+                            .largest_error = error.largest,
+                            .error_thesis = thesis.mean,
+                            .volume = volume(state)};
+    const MeanCurvature curvature = mean_curvature(state);
+    for (std::size_t v = 0; v < curvature.values.size(); ++v) {
+        measures.curvature += curvature.values[v] * curvature.areas[v];
+        measures.curvature_abs += std::abs(curvature.values[v]) * curvature.areas[v];
+    }
+    return measures;
+}
+
+void check_close(const char* what, double device, double cpu, double diagonal) {
+    INFO(what << ": " << device << " on the device, " << cpu << " on the CPU");
+    CHECK(std::abs(device - cpu) <= std::max(1e-4 * std::abs(cpu), 1e-6 * diagonal));
+}
+
+void check_all(const DeviceMeasures& device, const DeviceMeasures& cpu, double diagonal) {
+    check_close("error", device.error, cpu.error, diagonal);
+    check_close("largest error", device.largest_error, cpu.largest_error, diagonal);
+    check_close("error of the thesis", device.error_thesis, cpu.error_thesis, diagonal);
+    check_close("curvature", device.curvature, cpu.curvature, diagonal);
+    check_close("absolute curvature", device.curvature_abs, cpu.curvature_abs, diagonal);
+    check_close("volume", device.volume, cpu.volume, 0.0);
+}
+
+}  // namespace
+
+SCENARIO("Measures on the device agree with the CPU's", "[gpu][meter]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const auto& [name, surface] : varied_surfaces()) {
+        const auto device = uploaded(*test, surface);
+        GpuSmoother smoother(device, {});
+        GpuMeter meter(device, 1, true);
+        for (const int iterations : {0, 1, 20}) {
+            INFO(name << " after " << iterations << " iterations");
+            smoother.start(LaplaceParameters{});
+            smoother.run(iterations);
+            meter.restart();
+            meter.measure(smoother.shifts());
+            const Positions moved = apply_filter(*surface.topology, surface.points(),
+                                                 LaplaceParameters{}, {.iterations = iterations});
+            check_all(meter.read().front(), on_cpu(surface, moved), bounds(surface).diagonal());
+        }
+    }
+}
+
+SCENARIO("Normals, curvature and error at each vertex agree with the CPU's", "[gpu][meter]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const auto& [name, surface] : varied_surfaces()) {
+        INFO(name);
+        const auto device = uploaded(*test, surface);
+        const std::size_t count = surface.vertex_count();
+        GpuSmoother smoother(device, {});
+        smoother.start(LaplaceHcParameters{});
+        smoother.run(10);
+        GpuMeter meter(device);
+        meter.measure(smoother.shifts());
+        const auto normals = read_storage<Eigen::Vector4f>(meter.normals(), count);
+        const auto errors = read_storage<float>(meter.errors(), count);
+        const Surface moved = surface.with_positions(smoother.positions());
+        const Positions wanted = vertex_normals(moved);
+        const auto curvature = mean_curvature(moved).values;
+        const auto error = local_error(*surface.topology, surface.points(), moved.points()).values;
+        const double allowed = 1e-6 * bounds(surface).diagonal();
+        std::size_t other_normals = 0, other_curvatures = 0, other_errors = 0;
+        for (std::size_t v = 0; v < count; ++v) {
+            const Vec3 normal = normals[v].head<3>().cast<double>();
+            other_normals += (normal - wanted[v]).norm() > 1e-4 ? 1 : 0;
+            other_curvatures +=
+                std::abs(normals[v].w() - curvature[v]) > 1e-3 * std::abs(curvature[v]) + 1e-4 ? 1
+                                                                                               : 0;
+            other_errors +=
+                std::abs(errors[v] - error[v]) > std::max(allowed, 1e-4 * error[v]) ? 1 : 0;
+        }
+        CHECK(other_normals <= count / 1000);
+        CHECK(other_curvatures <= count / 100);
+        CHECK(other_errors == 0);
+    }
+}
+
+SCENARIO("A sphere measures as a sphere on the device", "[gpu][meter]") {
+    const auto test = test_device();
+    if (!test) return;
+    const double radius = 7.0, pi = std::numbers::pi;
+    const auto device = uploaded(*test, icosphere(radius, 5, Vec3(300.0, -20.0, 5.0)));
+    GpuMeter meter(device);
+    meter.measure(device->shifts());
+    const DeviceMeasures measures = meter.read().front();
+    CHECK(measures.error == Approx(0.0).margin(1e-5));
+    CHECK(measures.curvature == Approx(4.0 * pi * radius).epsilon(2e-3));
+    CHECK(measures.curvature_abs == Approx(measures.curvature));
+    CHECK(measures.volume == Approx(4.0 / 3.0 * pi * std::pow(radius, 3)).epsilon(2e-3));
+}
+
+SCENARIO("Many states are measured before one reading", "[gpu][meter]") {
+    const auto test = test_device();
+    if (!test) return;
+    const auto device = uploaded(*test, open_tube(2.0, 10.0, 16, 20));
+    GpuSmoother smoother(device, {.keep_boundary = false});
+    GpuMeter many(device, 4), one(device);
+    smoother.start(LaplaceParameters{});
+    std::vector<DeviceMeasures> singly;
+    for (std::size_t i = 0; i < 4; ++i) {
+        many.measure(smoother.shifts(), i);
+        one.measure(smoother.shifts());
+        singly.push_back(one.read().front());
+        smoother.run(5);
+    }
+    const auto together = many.read(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(together[i].error == singly[i].error);
+        CHECK(together[i].volume == singly[i].volume);
+        if (i > 0) CHECK(together[i].error > together[i - 1].error);
+        if (i > 0) CHECK(together[i].volume < together[i - 1].volume);
+    }
+}
