@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -9,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/box_tree.h"
+#include "geometry/errors.h"
 
 namespace vesselbench {
 
@@ -103,15 +105,36 @@ private:
     std::span<const Triangle> triangles_;
 };
 
-/// Calls test(i, j), i < j, for the places of items in leaves whose boxes meet the leaf's box.
+/// 1 at the nodes that hold a wanted place of the items' order.
+std::vector<std::uint8_t> nodes_with(std::span<const BoxTree::Node> nodes,
+                                     std::span<const std::uint8_t> wanted) {
+    std::vector<std::uint8_t> found(nodes.size(), 0);
+    for (std::size_t at = nodes.size(); at-- > 0;) {  // children stand behind their parents
+        const BoxTree::Node& node = nodes[at];
+        if (node.right != 0)
+            found[at] = found[at + 1] | found[node.right];
+        else
+            found[at] = std::any_of(wanted.begin() + node.begin, wanted.begin() + node.end,
+                                    [](std::uint8_t w) { return w != 0; })
+                            ? 1
+                            : 0;
+    }
+    return found;
+}
+
+/// Calls test(i, j), i < j, for the places of items in leaves whose boxes meet the leaf's box and
+/// one of which is wanted, by the flags of all nodes.
 template <class Test>
-void for_pairs_of(std::span<const BoxTree::Node> nodes, const BoxTree::Node& leaf, Test&& test) {
+void for_pairs_of(std::span<const BoxTree::Node> nodes, std::span<const std::uint8_t> wanted,
+                  std::size_t leaf_at, Test&& test) {
+    const BoxTree::Node& leaf = nodes[leaf_at];
     std::uint32_t stack[64];  // the tree is balanced: twice its depth is far below
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const std::uint32_t at = stack[--depth];
         const BoxTree::Node& node = nodes[at];
+        if (wanted[leaf_at] == 0 && wanted[at] == 0) continue;
         if (node.end <= leaf.begin || !node.box.intersects(leaf.box)) continue;
         if (node.right != 0) {
             stack[depth++] = node.right;
@@ -125,9 +148,13 @@ void for_pairs_of(std::span<const BoxTree::Node> nodes, const BoxTree::Node& lea
 
 }  // namespace
 
-std::vector<TrianglePair> self_intersections(const Positions& positions,
-                                             std::span<const Triangle> triangles,
-                                             const Progress& progress) {
+std::vector<TrianglePair> self_intersections_with(const Positions& positions,
+                                                  std::span<const Triangle> triangles,
+                                                  std::span<const std::uint8_t> chosen,
+                                                  const Progress& progress) {
+    if (chosen.size() != triangles.size())
+        throw InvalidInput("got " + std::to_string(chosen.size()) + " flags for " +
+                           std::to_string(triangles.size()) + " triangles");
     const Tester tester(positions, triangles);
     const auto boxes = triangle_boxes(positions, triangles);
     const BoxTree tree(boxes);
@@ -135,32 +162,41 @@ std::vector<TrianglePair> self_intersections(const Positions& positions,
     // In the order of the leaves neighbours lie close together in memory, and each pair is met from
     // its first triangle only.
     std::vector<BoxTree::Box> leaf_boxes(boxes.size());
-    std::vector<std::uint8_t> flat(boxes.size());
+    std::vector<std::uint8_t> flat(boxes.size()), wanted(boxes.size());
     tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
         leaf_boxes[i] = boxes[items[i]];
         flat[i] = tester.degenerate(items[i]) ? 1 : 0;
+        wanted[i] = chosen[items[i]];
     });
-    std::vector<BoxTree::Node> leaves;
-    for (const BoxTree::Node& node : tree.nodes())
-        if (node.right == 0) leaves.push_back(node);
+    const std::vector<std::uint8_t> wanted_nodes = nodes_with(tree.nodes(), wanted);
+    std::vector<std::size_t> leaves;
+    for (std::size_t at = 0; at < tree.nodes().size(); ++at)
+        if (tree.nodes()[at].right == 0) leaves.push_back(at);
     // Fixed blocks keep the order of the result whatever the number of threads.
     constexpr std::size_t kBlock = 1024;
     std::vector<std::vector<TrianglePair>> found((leaves.size() + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {
         progress.check_cancelled();
         const auto test = [&](std::uint32_t i, std::uint32_t j) {
-            if (!flat[i] && !flat[j] && leaf_boxes[i].intersects(leaf_boxes[j]) &&
-                tester.intersect(items[i], items[j]))
+            if ((wanted[i] | wanted[j]) != 0 && !flat[i] && !flat[j] &&
+                leaf_boxes[i].intersects(leaf_boxes[j]) && tester.intersect(items[i], items[j]))
                 found[block].push_back(std::minmax({items[i], items[j]}));
         };
         const std::size_t end = std::min(leaves.size(), (block + 1) * kBlock);
         for (std::size_t l = block * kBlock; l < end; ++l)
-            for_pairs_of(tree.nodes(), leaves[l], test);
+            for_pairs_of(tree.nodes(), wanted_nodes, leaves[l], test);
     });
     std::vector<TrianglePair> all;
     for (const auto& block : found) all.insert(all.end(), block.begin(), block.end());
     std::sort(all.begin(), all.end());
     return all;
+}
+
+std::vector<TrianglePair> self_intersections(const Positions& positions,
+                                             std::span<const Triangle> triangles,
+                                             const Progress& progress) {
+    return self_intersections_with(positions, triangles,
+                                   std::vector<std::uint8_t>(triangles.size(), 1), progress);
 }
 
 std::vector<TrianglePair> self_intersections(const Surface& surface, const Progress& progress) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,6 +18,13 @@ using TrianglePair = std::pair<TriangleId, TriangleId>;
 [[nodiscard]] std::vector<TrianglePair> self_intersections(const Positions& positions,
                                                            std::span<const Triangle> triangles,
                                                            const Progress& progress = {});
+
+/// The same pairs, but only those with a chosen triangle in them: for the few that moved.
+/// \param chosen 1 at the triangles, #T
+/// \throw InvalidInput unless chosen is #T long
+[[nodiscard]] std::vector<TrianglePair> self_intersections_with(
+    const Positions& positions, std::span<const Triangle> triangles,
+    std::span<const std::uint8_t> chosen, const Progress& progress = {});
 
 [[nodiscard]] std::vector<TrianglePair> self_intersections(const Surface& surface,
                                                            const Progress& progress = {});

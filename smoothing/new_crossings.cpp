@@ -34,11 +34,25 @@ std::vector<int> rings_around(const Surface& surface, const std::vector<Triangle
     return ring;
 }
 
+/// 1 at the triangles with a vertex that has moved.
+std::vector<std::uint8_t> moved_triangles(const Surface& surface, const Positions& moved) {
+    std::vector<std::uint8_t> flags(surface.triangle_count(), 0);
+    for (TriangleId t = 0; t < flags.size(); ++t)
+        for (const VertexId v : surface.triangles()[t])
+            if (moved[v] != surface.points()[v]) flags[t] = 1;
+    return flags;
+}
+
 }  // namespace
 
 TakenBack take_back_crossings(const Surface& surface, Positions& moved, const Progress& progress) {
     TakenBack taken;
-    auto pairs = self_intersections(moved, surface.triangles(), progress);
+    // Triangles that both stayed cannot cross anew.
+    const std::vector<std::uint8_t> suspects = moved_triangles(surface, moved);
+    const auto crossings = [&] {
+        return self_intersections_with(moved, surface.triangles(), suspects, progress);
+    };
+    auto pairs = crossings();
     if (pairs.empty() || !self_intersections(surface, progress).empty()) return taken;
     taken.place = moved[surface.triangles()[pairs.front().first][0]];
     const Positions wanted = moved;
@@ -51,7 +65,7 @@ TakenBack take_back_crossings(const Surface& surface, Positions& moved, const Pr
             if (share[v] < 1.0)
                 moved[v] = surface.points()[v] + share[v] * (wanted[v] - surface.points()[v]);
         }
-        pairs = self_intersections(moved, surface.triangles(), progress);
+        pairs = crossings();
     }
     taken.crossings_left = pairs.size();
     taken.vertices = static_cast<std::size_t>(

@@ -8,6 +8,7 @@
 #include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/reference_comparison.h"
+#include "geometry/self_intersections.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -124,6 +125,24 @@ SCENARIO("Two spheres that pass through each other are found to", "[geometry][me
               .self_intersections > 0);
     CHECK(measure(joined(icosphere(1.0, 2), icosphere(1.0, 2, Vec3(2.5, 0.1, 0.2))))
               .self_intersections == 0);
+}
+
+SCENARIO("Crossings with chosen triangles are those of all that have one", "[geometry][measure]") {
+    const Surface two = joined(icosphere(1.0, 3), icosphere(1.0, 3, Vec3(1.5, 0.1, 0.2)));
+    const auto all = self_intersections(two);
+    REQUIRE(all.size() > 20);
+    for (const std::size_t step : {1, 3, 200, 100000}) {
+        std::vector<std::uint8_t> chosen(two.triangle_count(), 0);
+        for (std::size_t t = 5; t < chosen.size(); t += step) chosen[t] = 1;
+        std::vector<TrianglePair> expected;
+        for (const auto& [s, t] : all)
+            if (chosen[s] != 0 || chosen[t] != 0) expected.emplace_back(s, t);
+        CHECK(self_intersections_with(two.points(), two.triangles(), chosen) == expected);
+    }
+    CHECK(self_intersections_with(two.points(), two.triangles(),
+                                  std::vector<std::uint8_t>(two.triangle_count(), 0))
+              .empty());
+    CHECK_THROWS_AS(self_intersections_with(two.points(), two.triangles(), {}), InvalidInput);
 }
 
 SCENARIO("Concentric spheres differ by their radii", "[geometry][measure]") {

@@ -202,6 +202,24 @@ SCENARIO("An empty neighbour is refused by its name", "[workbench][smooth]") {
                       Catch::Contains("'tumour' has no triangles"));
 }
 
+SCENARIO("A neighbour file without a surface is bad input and no edit", "[workbench][smooth]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    write_surface(closed_tube(2.0, 6.0, 12, 8), folder + "/tube.vtp");
+    write_text(folder + "/empty.stl", "solid empty\nendsolid empty\n");
+    write_text(folder + "/nowhere.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
+    REQUIRE(run_program(VESSELBENCH_BINARY, {"new", project, folder + "/tube.vtp"}).exit_code == 0);
+    for (const std::string name : {"empty.stl", "nowhere.off", "missing.stl"}) {
+        const ProgramRun result = run_program(
+            VESSELBENCH_BINARY,
+            {"apply", project, "load-neighbour", "name=tumour", "file=" + folder + "/" + name});
+        INFO(result.err);
+        CHECK(result.exit_code == 3);
+        CHECK_THAT(result.err, Catch::Contains(name));
+    }
+    const ProgramRun log = run_program(VESSELBENCH_BINARY, {"log", project, "--json"});
+    CHECK(nlohmann::json::parse(log.out)["edits"].size() == 1);
+}
+
 SCENARIO("A surface without triangles or with places that are no numbers is refused",
          "[workbench][smooth]") {
     const auto filter = GENERATE(from_range(kFilters));
