@@ -45,8 +45,9 @@ struct ReplayEntry {
     std::string operation;
     std::string variant;
     bool replayed = false;  ///< false: only the stored result's checksums were tested
-    std::vector<std::string> differences;  ///< empty: same bits
-    std::string note;                      ///< why it was not run again
+    std::vector<std::string> differences;  ///< empty: same bits, or as `distance` says
+    std::optional<double> distance;  ///< largest between vertices [mm], of what a GPU computed
+    std::string note;                ///< why it was not run again
 };
 
 /// A case being worked on: history, project file and running operations in one. Command line,

@@ -5,6 +5,7 @@
 
 #include "geometry/errors.h"
 #include "geometry/image/extract_surface.h"
+#include "geometry/io/surface_file.h"
 #include "geometry/measure.h"
 #include "geometry/phantoms/phantom.h"
 #include "smoothing/distance_weights.h"
@@ -14,6 +15,8 @@
 #include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/replay_tolerance.h"
+#include "workbench/session.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -213,4 +216,65 @@ SCENARIO("Presets decide what is not given, and a replay decides nothing", "[wor
         CHECK(again.resolved == first.resolved);
         CHECK(again.scene.surface->points() == first.scene.surface->points());
     }
+}
+
+SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU is asked for",
+         "[workbench][smooth][device]") {
+    const Scene scene = terraced_vessel();
+    const Outcome plain = smooth(scene, {{"iterations", std::int64_t{10}}});
+    CHECK(plain.resolved.text("device") == "cpu");
+    CHECK(plain.warnings.empty());
+    const Outcome on_gpu =
+        smooth(scene, {{"iterations", std::int64_t{10}}, {"device", std::string("gpu")}});
+    const auto distance = replay_distance(*plain.scene.surface, *on_gpu.scene.surface);
+    REQUIRE(distance);
+    CHECK(distance->allowed);
+    if (on_gpu.resolved.text("device") == "gpu") {
+        CHECK(on_gpu.warnings.empty());
+        CHECK(distance->largest > 0.0);  // single precision
+    } else {
+        WARN("skipped: no OpenGL, the CPU served");
+        REQUIRE(on_gpu.warnings.size() == 1);
+        CHECK(on_gpu.scene.surface->points() == plain.scene.surface->points());
+    }
+}
+
+SCENARIO("What a GPU smoothed is replayed by tolerance", "[workbench][smooth][device]") {
+    const std::string folder = temporary_folder();
+    write_surface(*terraced_vessel().surface, folder + "/vessel.vtp");
+    SessionOptions options;
+    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    Session session = Session::create(folder + "/case.vbench", options);
+    session.apply("load-surface", {{"file", folder + "/vessel.vtp"}});
+    const LogEntry cpu = session.apply("smooth", {{"iterations", std::int64_t{5}}});
+    CHECK(cpu.result->device == "cpu");
+    const LogEntry gpu =
+        session.apply("smooth", {{"iterations", std::int64_t{5}}, {"device", std::string("gpu")}});
+    if (gpu.result->device != "gpu") {
+        WARN("skipped: no OpenGL, the CPU served");
+        return;
+    }
+    CHECK(gpu.result->resolved.text("device") == "gpu");
+    for (const ReplayEntry& entry : session.replay()) {
+        CHECK(entry.replayed);
+        CHECK(entry.differences.empty());
+    }
+}
+
+SCENARIO("A replay on another device may differ as devices do, and no more",
+         "[workbench][smooth][device]") {
+    const Surface sphere = icosphere(10.0, 4);
+    const auto far = [&](double distance, std::size_t vertices) {
+        Positions points = sphere.points();
+        for (std::size_t v = 0; v < vertices; ++v) points[v] += Vec3(distance, 0.0, 0.0);
+        return *replay_distance(sphere, sphere.with_positions(points));
+    };
+    CHECK(far(0.0, 0).allowed);
+    CHECK(far(1e-4, 2562).allowed);  // the diagonal is 34.6 mm
+    CHECK(far(1e-4, 2562).largest == Approx(1e-4));
+    CHECK_FALSE(far(5e-4, 2562).allowed);
+    CHECK(far(5e-3, 1).allowed);
+    CHECK_FALSE(far(5e-3, 10).allowed);
+    CHECK_FALSE(far(0.1, 1).allowed);
+    CHECK_FALSE(replay_distance(sphere, icosphere(10.0, 3)));
 }

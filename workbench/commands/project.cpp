@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -87,6 +88,7 @@ Json replay_json(const std::vector<ReplayEntry>& entries) {
                         {"replayed", entry.replayed},
                         {"differences", entry.differences},
                         {"note", entry.note}});
+        if (entry.distance) list.back()["distance_mm"] = *entry.distance;
         same = same && entry.differences.empty();
     }
     return {{"same", same}, {"edits", list}};
@@ -96,6 +98,11 @@ void print_replay(const std::vector<ReplayEntry>& entries) {
     std::vector<std::vector<std::string>> rows = {{"edit", "operation", "replay"}};
     for (const ReplayEntry& entry : entries) {
         std::string text = entry.replayed ? "same bits" : "stored result is intact";
+        if (entry.distance) {
+            std::ostringstream distance;
+            distance << "computed on a GPU: within " << *entry.distance << " mm";
+            text = distance.str();
+        }
         if (!entry.note.empty()) text += " (" + entry.note + ")";
         if (!entry.differences.empty()) text = "DIFFERS:";
         for (const std::string& difference : entry.differences) text += " " + difference + ";";

@@ -6,6 +6,7 @@
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
 #include "geometry/wording.h"
+#include "gpu/filter_on_device.h"
 #include "smoothing/distance_weights.h"
 #include "smoothing/new_crossings.h"
 #include "workbench/operations/smooth/context.h"
@@ -58,6 +59,19 @@ void keep_walls_apart(const Surface& surface, Positions& moved, Outcome& outcome
     outcome.warnings.push_back(text.str());
 }
 
+/// Moves the vertices on the device that was asked for, and records which one did: what is
+/// committed is the CPU's result unless the GPU is asked for by name (DESIGN 1).
+Positions filtered(const Surface& start, const FilterParameters& filter,
+                   const FilterSettings& settings, Outcome& outcome, const Progress& progress) {
+    const bool by_name = outcome.resolved.text("device") == "gpu";
+    DeviceRun run = apply_filter_on(by_name ? DeviceChoice::Gpu : DeviceChoice::Cpu, start, filter,
+                                    settings, progress);
+    if (!run.reason.empty())
+        outcome.warnings.push_back("device=gpu: the CPU smoothed instead, because " + run.reason);
+    outcome.resolved.set("device", std::string(run.on_gpu ? "gpu" : "cpu"));
+    return std::move(run.positions);
+}
+
 Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     Outcome outcome;
@@ -70,13 +84,13 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     progress.report(0.0, "looking at the context");
     const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
     Positions moved =
-        apply_filter(*surface.topology, context.start, filter,
-                     {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
-                      .weights = context.weights,
-                      .fixed = context.fixed,
-                      .rings = static_cast<int>(outcome.resolved.integer("rings")),
-                      .constraint = context.constraint},
-                     progress.part(0.1, 0.8));
+        filtered(surface.with_positions(context.start), filter,
+                 {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
+                  .weights = context.weights,
+                  .fixed = context.fixed,
+                  .rings = static_cast<int>(outcome.resolved.integer("rings")),
+                  .constraint = context.constraint},
+                 outcome, progress.part(0.1, 0.8));
     keep_walls_apart(surface, moved, outcome, progress);
     Surface smoothed = surface.with_positions(std::move(moved));
     if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
@@ -89,6 +103,14 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
 std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
     for (Parameter& parameter : context_parameter_table()) table.push_back(std::move(parameter));
+    table.push_back({.name = "device",
+                     .type = ParameterType::Choice,
+                     .default_value = std::string("auto"),
+                     .help =
+                         "where vertices are moved: auto and cpu give the same bits everywhere; "
+                         "gpu is faster on large surfaces, a replay compares by tolerance then, "
+                         "and without a usable GPU the CPU serves",
+                     .choices = {"auto", "cpu", "gpu"}});
     return table;
 }
 

@@ -1,0 +1,26 @@
+#include "gpu/device_choice.h"
+
+#include "geometry/errors.h"
+#include "gpu/context.h"
+
+namespace vesselbench {
+
+HeldDevice offscreen_device() {
+    auto context = std::make_shared<OffscreenContext>();
+    return {std::move(context), current_device()};
+}
+
+ChosenDevice choose_device(DeviceChoice choice, const DeviceSource& source) {
+    if (choice == DeviceChoice::Cpu) return {};
+    try {
+        HeldDevice held = source();
+        require_compute(held.device.limits);
+        if (choice == DeviceChoice::Auto && is_software(held.device.limits))
+            return {{}, held.device.limits.renderer + " computes on the CPU itself"};
+        return {std::move(held), ""};
+    } catch (const GpuUnavailable& error) {
+        return {{}, error.what()};
+    }
+}
+
+}  // namespace vesselbench
