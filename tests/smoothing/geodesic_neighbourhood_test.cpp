@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -33,6 +35,34 @@ Surface sheared_plane(int cells) {
             triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
         }
     return make_surface(points, triangles);
+}
+
+/// Plane z = 0 from 0 to `edge` with n x n squares, their inner corners moved at random, each cut
+/// along one or the other diagonal.
+Surface uneven_plane(double edge, int n, double unevenness) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> shift(-unevenness, unevenness);
+    Positions points;
+    std::vector<Triangle> triangles;
+    const auto at = [&](int i, int j) { return static_cast<VertexId>(i * (n + 1) + j); };
+    const auto inner = [&](int i) { return i > 0 && i < n; };
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) {
+            const double dx = inner(i) ? shift(random) : 0.0, dy = inner(j) ? shift(random) : 0.0;
+            points.emplace_back((i + dx) * edge / n, (j + dy) * edge / n, 0.0);
+        }
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const VertexId a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+            if ((i + j) % 3 == 0) {
+                triangles.push_back({a, b, c});
+                triangles.push_back({a, c, d});
+            } else {
+                triangles.push_back({a, b, d});
+                triangles.push_back({b, c, d});
+            }
+        }
+    return make_surface(std::move(points), std::move(triangles));
 }
 
 std::vector<GeodesicNeighbour> around(const Surface& surface, const Vec3& where, double radius) {
@@ -104,6 +134,41 @@ SCENARIO("What is near in space, but far along the surface, is not met", "[smoot
         REQUIRE(found.size() > 100);
         for (const auto& [v, distance] : found) CHECK(folded.points()[v].z() == 0.0);
     }
+}
+
+SCENARIO("Needle triangles do not spoil geodesic distances", "[smoothing][geodesic]") {
+    const Surface plane = mapped(uneven_plane(10.0, 40, 0.3),
+                                 [](const Vec3& p) { return Vec3(p.x(), 0.05 * p.y(), 0.0); });
+    const Vec3 source(5.03, 0.24, 0.0);
+    const auto found = around(plane, source, 2.0);
+    std::size_t inside = 0;
+    for (const Vec3& p : plane.points()) inside += (p - source).norm() <= 2.0 ? 1 : 0;
+    CHECK(found.size() == inside);
+    for (const auto& [v, distance] : found)
+        CHECK(distance == Approx((plane.points()[v] - source).norm()).epsilon(1e-4).margin(1e-6));
+}
+
+SCENARIO("Distances go around the bend of a folded sheet", "[smoothing][geodesic]") {
+    // A sheet of 10 mm by 10 mm, bent double at x = 5 with 0.2 mm between its halves.
+    const double gap = 0.2, bend = 0.5 * std::numbers::pi * gap;
+    const Surface flat = uneven_plane(10.0, 80, 0.2);
+    const auto fold = [&](const Vec3& p) {
+        const double s = p.x() - 5.0, turn = s / (0.5 * gap);
+        if (s < 0.0) return Vec3(s, p.y(), 0.0);
+        if (s < bend)
+            return Vec3(0.5 * gap * std::sin(turn), p.y(), 0.5 * gap * (1.0 - std::cos(turn)));
+        return Vec3(-(s - bend), p.y(), gap);
+    };
+    const Surface sheet = mapped(flat, fold);
+    const Vec3 source(3.5, 5.0, 0.0);
+    for (const auto& [v, distance] : around(sheet, fold(source), 1.4))
+        CHECK(flat.points()[v].x() < 5.0);
+    double farthest = 0.0;
+    for (const auto& [v, distance] : around(sheet, fold(source), 2.5)) {
+        CHECK(distance == Approx((flat.points()[v] - source).norm()).epsilon(0.05));
+        farthest = std::max(farthest, flat.points()[v].x());
+    }
+    CHECK(farthest > 5.8);
 }
 
 SCENARIO("Bad places and radii are refused, bad triangles are left out", "[smoothing][geodesic]") {
