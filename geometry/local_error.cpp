@@ -163,6 +163,17 @@ LocalError local_error(const Topology& topology, const Positions& original, cons
     return error;
 }
 
+VertexId drifted_reference(const Topology& topology, const Positions& original, const Vec3& p,
+                           VertexId reference) {
+    return drift(topology.rings(), original, p, reference);
+}
+
+double local_error_at(const Topology& topology, const Positions& original, const Vec3& p,
+                      VertexId reference, LocalErrorForm form) {
+    return vertex_error({topology.triangles_at(), topology.triangles(), original}, p, reference,
+                        form);
+}
+
 LocalError local_error(const Topology& topology, const Positions& original, const Positions& moved,
                        LocalErrorForm form) {
     std::vector<VertexId> references = own_references(topology);

@@ -49,6 +49,15 @@ void follow_drift(const Topology& topology, const Positions& original, const Pos
                                      const std::vector<VertexId>& references,
                                      LocalErrorForm form = LocalErrorForm::ClosestPoint);
 
+/// One vertex' reference after a drift to `p`, as follow_drift moves it; nothing is checked.
+[[nodiscard]] VertexId drifted_reference(const Topology& topology, const Positions& original,
+                                         const Vec3& p, VertexId reference);
+
+/// One vertex' local error at `p` [mm], as local_error gives it; nothing is checked.
+[[nodiscard]] double local_error_at(const Topology& topology, const Positions& original,
+                                    const Vec3& p, VertexId reference,
+                                    LocalErrorForm form = LocalErrorForm::ClosestPoint);
+
 /// The same, with the references followed from the vertices themselves to the moved positions.
 [[nodiscard]] LocalError local_error(const Topology& topology, const Positions& original,
                                      const Positions& moved,

@@ -28,6 +28,9 @@ public:
     /// The part [from, to] of this progress as a progress of its own from 0 to 1.
     [[nodiscard]] Progress part(double from, double to) const;
 
+    /// One that can be cancelled, but reports nothing: for parts that run at the same time.
+    [[nodiscard]] Progress silent() const { return {nullptr, stop_}; }
+
 private:
     Receiver receiver_;
     std::stop_token stop_;

@@ -38,8 +38,8 @@ Positions anisotropic(const Topology& topology, const Positions& positions,
     detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
     detail::require_one_ring("anisotropic smoothing", settings);
     const detail::VertexMover mover(topology, positions, settings);
-    const double feature =
-        parameters.feature_curvature.value_or(default_feature_curvature(topology, positions));
+    const double feature = parameters.feature_curvature.value_or(
+        default_feature_curvature(topology, detail::start_of(positions, settings)));
     detail::require_positive("feature_curvature", feature);
     Positions now = positions, next = positions;
     detail::Cotangents cotangents;

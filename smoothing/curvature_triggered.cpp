@@ -56,18 +56,20 @@ Positions curvature_triggered(const Topology& topology, const Positions& positio
                               const FilterSettings& settings, const Progress& progress) {
     detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
     const detail::VertexMover mover(topology, positions, settings);
+    const Positions& start = detail::start_of(positions, settings);
+    const int done = settings.earlier ? settings.earlier->iterations : 0;
     const double trigger =
-        parameters.trigger_curvature.value_or(default_trigger_curvature(topology, positions));
+        parameters.trigger_curvature.value_or(default_trigger_curvature(topology, start));
     detail::require_positive("trigger_curvature", trigger);
     const CompressedRows wide =
         settings.rings == 1 ? CompressedRows{} : detail::two_rings(topology);
     const CompressedRows& neighbours = settings.rings == 1 ? topology.rings() : wide;
-    const auto first = first_iterations(topology, neighbours, positions, mover, trigger);
+    const auto first = first_iterations(topology, neighbours, start, mover, trigger);
     Positions now = positions, next = positions;
     for (int iteration = 0; iteration < settings.iterations; ++iteration) {
         progress.report(static_cast<double>(iteration) / settings.iterations, "smoothing");
         detail::for_each_vertex(now.size(), [&](std::size_t v) {
-            if (first[v] > iteration) return;
+            if (first[v] > done + iteration) return;
             const Vec3 displacement = parameters.lambda * umbrella(neighbours, now, v);
             next[v] = mover.moved(v, now[v], displacement);
         });

@@ -32,6 +32,10 @@ void require_fitting(const Topology& topology, const Positions& positions,
         if (!positions[v].allFinite())
             throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
     if (settings.constraint) require_valid(*settings.constraint);
+    if (!settings.earlier) return;
+    if (settings.earlier->start == nullptr || settings.earlier->iterations < 0)
+        throw InvalidInput("an earlier run has start positions and did 0 or more iterations");
+    require_length("start positions", settings.earlier->start->size(), count);
 }
 
 }  // namespace
@@ -71,7 +75,7 @@ std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
 
 VertexMover::VertexMover(const Topology& topology, const Positions& positions,
                          const FilterSettings& settings)
-    : start_(positions),
+    : start_(start_of(positions, settings)),
       settings_(settings),
       fixed_(checked_fixed_vertices(topology, positions, settings)) {}
 

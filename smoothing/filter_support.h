@@ -28,6 +28,12 @@ void require_one_ring(const char* filter, const FilterSettings& settings);
                                                                const Positions& positions,
                                                                const FilterSettings& settings);
 
+/// Positions before the first iteration: those given, or where the earlier run began.
+[[nodiscard]] inline const Positions& start_of(const Positions& positions,
+                                               const FilterSettings& settings) {
+    return settings.earlier ? *settings.earlier->start : positions;
+}
+
 /// Neighbours of every vertex within two rings, without itself, each row ascending.
 [[nodiscard]] CompressedRows two_rings(const Topology& topology);
 

@@ -15,9 +15,10 @@ namespace {
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"geometry", {"geometry"}},
     {"smoothing", {"geometry", "smoothing"}},
-    {"gpu", {"geometry", "smoothing", "gpu"}},
+    {"quality", {"geometry", "smoothing", "quality"}},
+    {"gpu", {"geometry", "smoothing", "quality", "gpu"}},
     {"meshing", {"geometry", "meshing"}},
-    {"workbench", {"geometry", "smoothing", "gpu", "meshing", "workbench"}}};
+    {"workbench", {"geometry", "smoothing", "quality", "gpu", "meshing", "workbench"}}};
 
 struct Include {
     std::string file;  ///< that includes, relative to the repository

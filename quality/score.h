@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "quality/surface_meter.h"
+
+namespace vesselbench {
+
+/// How curvature, error and volume become one number.
+enum class ScoreForm : std::uint8_t {
+    Default,  ///< no unit: integral of |H|, error by the mean edge
+    Thesis    ///< `score-thesis`: Eq. 6.6 as printed, signed curvature and an error in mm
+};
+
+/// \throw InvalidInput unless "default" or "thesis"
+[[nodiscard]] ScoreForm score_form_from(const std::string& name);
+[[nodiscard]] std::string to_string(ScoreForm form);
+
+struct ScoreSettings {
+    ScoreForm form = ScoreForm::Default;
+    double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth
+};
+
+/// The parts of a score, each the smaller the better [-] (score-thesis: the error in mm).
+struct ScoreTerms {
+    double curvature = 1.0;  ///< by the original's
+    double error = 0.0;
+    double volume = 0.0;  ///< change, by the original's
+};
+
+/// What measures are compared with.
+struct ScoreBase {
+    QualityMeasures original;
+    double mean_edge = 0.0;  ///< [mm]
+};
+
+[[nodiscard]] ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures,
+                                     ScoreForm form);
+
+/// S = tau C + (1 - tau) (E + V) / 2 (Eq. 6.6).
+/// \throw InvalidInput unless tau is in [0, 1]
+[[nodiscard]] double score(const ScoreTerms& terms, double tau);
+
+}  // namespace vesselbench

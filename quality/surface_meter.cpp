@@ -1,0 +1,258 @@
+#include "quality/surface_meter.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+
+#include "quality/ring_kernels.h"
+#include <tbb/parallel_for.h>
+
+#include "geometry/errors.h"
+#include "geometry/local_error.h"
+#include "geometry/measure.h"
+
+namespace vesselbench {
+
+namespace {
+
+using detail::PackRow;
+using detail::RingState;
+
+constexpr std::size_t kChunk =
+    512;  // places that are summed by themselves: small, but not too many
+
+Vec3 point_of(const PackRow& row) {
+    return {row.values[0], row.values[1], row.values[2]};
+}
+
+/// The surface renumbered, so that its vertices stand in the order of the states' places.
+Surface in_order(const Topology& topology, const Positions& original,
+                 std::span<const VertexId> order) {
+    if (original.size() != topology.vertex_count() ||
+        (!order.empty() && order.size() != original.size()))
+        throw InvalidInput("got " + std::to_string(original.size()) +
+                           " positions and an order of " + std::to_string(order.size()) + " for " +
+                           std::to_string(topology.vertex_count()) + " vertices");
+    for (std::size_t v = 0; v < original.size(); ++v)
+        if (!original[v].allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    std::vector<Triangle> triangles(topology.triangles().begin(), topology.triangles().end());
+    if (order.empty()) return make_surface(original, std::move(triangles));
+    std::vector<VertexId> place(order.size());
+    Positions positions(order.size());
+    for (std::size_t p = 0; p < order.size(); ++p) {
+        place[order[p]] = static_cast<VertexId>(p);
+        positions[p] = original[order[p]];
+    }
+    for (Triangle& t : triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+    return make_surface(std::move(positions), std::move(triangles));
+}
+
+}  // namespace
+
+struct SurfaceMeter::Data {
+    Surface surface;
+    std::vector<PackRow> original;
+    detail::Fans fans;
+    bool planes = false;
+    std::vector<std::uint32_t> lanes;  ///< all places; those of a chunk by the size of their fans
+    std::vector<double> interior;      ///< 1 where curvature counts
+    std::vector<std::vector<VertexId>> loops;
+    PackRow origin{};
+
+    Data(Surface s, bool with_planes);
+
+    [[nodiscard]] std::size_t chunks() const { return (original.size() + kChunk - 1) / kChunk; }
+
+    /// One chunk's part of the errors' sums.
+    void add_errors(Packs moved, std::size_t chunk, const VertexId* references, VertexId* followed,
+                    QualityMeasures& sums) const;
+    void add_curvatures(Packs moved, std::size_t chunk, QualityMeasures& sums) const;
+    [[nodiscard]] double closing_volume(Packs moved) const;
+    void add_irregular(Packs moved, std::uint32_t place, QualityMeasures& sums) const;
+};
+
+SurfaceMeter::Data::Data(Surface s, bool with_planes)
+    : surface(std::move(s)), fans(detail::make_fans(*surface.topology)), planes(with_planes) {
+    const std::size_t count = surface.vertex_count();
+    const Vec3 middle = bounds(surface).centre();
+    origin = {{middle.x(), middle.y(), middle.z(), 0.0}};
+    for (const Vec3& p : surface.points()) original.push_back({{p.x(), p.y(), p.z(), 0.0}});
+    lanes.resize(count);
+    std::iota(lanes.begin(), lanes.end(), 0U);
+    const auto size = [&](std::uint32_t v) { return fans.offsets[v + 1] - fans.offsets[v]; };
+    for (std::size_t first = 0; first < count; first += kChunk)
+        std::stable_sort(
+            lanes.begin() + static_cast<std::ptrdiff_t>(first),
+            lanes.begin() + static_cast<std::ptrdiff_t>(std::min(count, first + kChunk)),
+            [&](std::uint32_t a, std::uint32_t b) { return size(a) < size(b); });
+    const auto& boundary = surface.topology->boundary_vertices();
+    interior.resize(count);
+    for (std::size_t v = 0; v < count; ++v)
+        interior[v] = boundary[v] != 0 || fans.irregular[v] != 0 ? 0.0 : 1.0;
+    loops = surface.topology->boundary_loops();
+    static_cast<void>(surface.topology->rings());
+}
+
+namespace {
+
+/// Places of one chunk, their references and what they found.
+struct ChunkErrors {
+    std::array<VertexId, kChunk> references;
+    std::array<double, kChunk> distances, planes;
+    std::array<RingState, kChunk> states;
+};
+
+}  // namespace
+
+void SurfaceMeter::Data::add_errors(Packs moved, std::size_t chunk, const VertexId* references,
+                                    VertexId* followed, QualityMeasures& sums) const {
+    const std::size_t first = chunk * kChunk, count = std::min(kChunk, original.size() - first);
+    const std::uint32_t* places = lanes.data() + first;
+    ChunkErrors found;
+    for (std::size_t i = 0; i < count; ++i) found.references[i] = references[places[i]];
+    const auto search = [&](ChunkErrors& errors, const std::uint32_t* at, std::size_t many) {
+        detail::find_ring_distances(
+            fans, {original.data(), moved.data(), at, errors.references.data(), many},
+            {errors.distances.data(), planes ? errors.planes.data() : nullptr,
+             errors.states.data()});
+    };
+    search(found, places, count);
+    // What drifts to another reference is searched again, four at once, in a queue of its own.
+    ChunkErrors again;
+    std::array<std::uint32_t, kChunk> again_places, again_index;
+    std::size_t drifting = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (found.states[i] != RingState::Drifts && found.states[i] != RingState::Unknown) continue;
+        found.references[i] = drifted_reference(*surface.topology, surface.points(),
+                                                point_of(moved[places[i]]), found.references[i]);
+        again_places[drifting] = places[i];
+        again_index[drifting] = static_cast<std::uint32_t>(i);
+        again.references[drifting++] = found.references[i];
+    }
+    search(again, again_places.data(), drifting);
+    for (std::size_t i = 0; i < drifting; ++i) {
+        found.distances[again_index[i]] = again.distances[i];
+        if (planes) found.planes[again_index[i]] = again.planes[i];
+        found.states[again_index[i]] = again.states[i];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 p = point_of(moved[places[i]]);
+        if (found.states[i] != RingState::Known)
+            found.distances[i] =
+                local_error_at(*surface.topology, surface.points(), p, found.references[i]);
+        if (found.states[i] == RingState::Unknown && planes)
+            found.planes[i] = local_error_at(*surface.topology, surface.points(), p,
+                                             found.references[i], LocalErrorForm::Thesis);
+        sums.error += found.distances[i];
+        if (planes) sums.error_thesis += found.planes[i];
+        if (followed != nullptr) followed[places[i]] = found.references[i];
+    }
+}
+
+void SurfaceMeter::Data::add_irregular(Packs moved, std::uint32_t place,
+                                       QualityMeasures& sums) const {
+    Vec3 flow = Vec3::Zero(), normal = Vec3::Zero();
+    for (const TriangleId t : surface.topology->triangles_at().row(place)) {
+        const Triangle& c = surface.triangles()[t];
+        const int k = c[0] == place ? 0 : c[1] == place ? 1 : 2;
+        const Vec3 v = point_of(moved[place]), e = point_of(moved[c[(k + 1) % 3]]) - v,
+                   f = point_of(moved[c[(k + 2) % 3]]) - v;
+        const Vec3 n = e.cross(f);
+        normal += n;
+        if (!(n.norm() > 0.0)) continue;
+        flow -= ((f.dot(f) - e.dot(f)) * e + (e.dot(e) - e.dot(f)) * f) / n.norm();
+    }
+    if (surface.topology->boundary_vertices()[place] == 0) {
+        sums.curvature_abs += 0.25 * flow.norm();
+        if (normal.norm() > 0.0) sums.curvature += 0.25 * flow.dot(normal) / normal.norm();
+    }
+    sums.volume += (point_of(moved[place]) - point_of(origin)).dot(normal);
+}
+
+void SurfaceMeter::Data::add_curvatures(Packs moved, std::size_t chunk,
+                                        QualityMeasures& sums) const {
+    const std::size_t first = chunk * kChunk, count = std::min(kChunk, original.size() - first);
+    const detail::CurvatureSums found = detail::curvature_sums(
+        fans, moved.data(), lanes.data() + first, count, interior.data(), origin);
+    sums.curvature += found.curvature;
+    sums.curvature_abs += found.curvature_abs;
+    sums.volume += found.volume;
+    if (!fans.any_irregular) return;
+    for (std::size_t i = 0; i < count; ++i)
+        if (fans.irregular[lanes[first + i]] != 0) add_irregular(moved, lanes[first + i], sums);
+}
+
+double SurfaceMeter::Data::closing_volume(Packs moved) const {
+    double sum = 0.0;
+    const Vec3 from = point_of(origin);
+    for (const auto& loop : loops) {
+        Vec3 centre = Vec3::Zero();
+        for (const VertexId v : loop) centre += point_of(moved[v]) - from;
+        centre /= static_cast<double>(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 a = point_of(moved[loop[i]]) - from,
+                       b = point_of(moved[loop[(i + 1) % loop.size()]]) - from;
+            sum += centre.dot(b.cross(a));
+        }
+    }
+    return sum / 6.0;
+}
+
+SurfaceMeter::SurfaceMeter(const Topology& topology, const Positions& original, bool planes,
+                           std::span<const VertexId> order)
+    : data_(std::make_unique<const Data>(in_order(topology, original, order), planes)),
+      mean_edge_(mean_edge_length(data_->surface)) {
+    const auto own = own_references();
+    original_ = measure(data_->original, own);
+    original_.error = original_.error_thesis = 0.0;
+}
+
+SurfaceMeter::~SurfaceMeter() = default;
+
+std::vector<VertexId> SurfaceMeter::own_references() const {
+    return vesselbench::own_references(*data_->surface.topology);
+}
+
+void SurfaceMeter::follow(Packs moved, std::vector<VertexId>& references) const {
+    tbb::parallel_for(std::size_t{0}, data_->chunks(), [&](std::size_t chunk) {
+        const std::size_t last = std::min(moved.size(), (chunk + 1) * kChunk);
+        for (std::size_t p = chunk * kChunk; p < last; ++p)
+            references[p] = drifted_reference(*data_->surface.topology, data_->surface.points(),
+                                              point_of(moved[p]), references[p]);
+    });
+}
+
+QualityMeasures SurfaceMeter::measured(Packs moved, const VertexId* references,
+                                       VertexId* followed) const {
+    std::vector<QualityMeasures> parts(data_->chunks());
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t chunk) {
+        data_->add_errors(moved, chunk, references, followed, parts[chunk]);
+        data_->add_curvatures(moved, chunk, parts[chunk]);
+    });
+    QualityMeasures sums;
+    for (const QualityMeasures& part : parts) {  // in order: the same bits every time
+        sums.error += part.error;
+        sums.error_thesis += part.error_thesis;
+        sums.curvature += part.curvature;
+        sums.curvature_abs += part.curvature_abs;
+        sums.volume += part.volume;
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, moved.size()));
+    sums.error /= count;
+    sums.error_thesis /= count;
+    sums.volume = sums.volume / 18.0 + data_->closing_volume(moved);
+    return sums;
+}
+
+QualityMeasures SurfaceMeter::follow_and_measure(Packs moved,
+                                                 std::vector<VertexId>& references) const {
+    return measured(moved, references.data(), references.data());
+}
+
+QualityMeasures SurfaceMeter::measure(Packs moved, const std::vector<VertexId>& references) const {
+    return measured(moved, references.data(), nullptr);
+}
+
+}  // namespace vesselbench

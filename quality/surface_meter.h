@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "geometry/progress.h"
+#include "geometry/topology.h"
+#include "geometry/vec3.h"
+#include "smoothing/linear_step.h"
+
+namespace vesselbench {
+
+/// What smoothing does to a surface, in a few numbers (thesis 6.4-6.5).
+struct QualityMeasures {
+    double error = 0.0;          ///< mean local error against the original [mm] (6.4.1)
+    double error_thesis = 0.0;   ///< the same as Eq. 6.2 prints it [mm]
+    double curvature = 0.0;      ///< integral of H = H_M n / 2 [mm] (Eqs. 6.3-6.4)
+    double curvature_abs = 0.0;  ///< integral of |H| [mm]
+    double volume = 0.0;         ///< [mm^3] (Eq. 6.5)
+
+    bool operator==(const QualityMeasures&) const = default;
+};
+
+/// Measures states of one surface against their original, again and again: all measures in two
+/// passes over the vertices, on all threads, about the time of three sweeps of a filter. The same
+/// bits on any number of threads. Numbers are those of geometry/local_error.h and
+/// geometry/measure.h, but for the signed curvature: here H is the curvature normal's component
+/// along the vertex normal (weighted by area), there all of its length with that component's sign,
+/// which differs where slivers fold.
+class SurfaceMeter {
+public:
+    /// Positions in memory: 4 numbers each, so that a vertex fills one register.
+    using Packs = std::span<const detail::PackRow>;
+
+    /// \param planes measures error_thesis too
+    /// \param order the vertex at every place, where states are not in the order of the vertices;
+    ///        empty: they are
+    /// \throw InvalidInput if a length does not fit, or a position is not finite
+    SurfaceMeter(const Topology& topology, const Positions& original, bool planes = false,
+                 std::span<const VertexId> order = {});
+    ~SurfaceMeter();
+    SurfaceMeter(const SurfaceMeter&) = delete;
+    SurfaceMeter& operator=(const SurfaceMeter&) = delete;
+
+    /// Every place as its own reference.
+    [[nodiscard]] std::vector<VertexId> own_references() const;
+
+    /// Moves the reference neighbourhoods on with a state's vertices (6.4.1).
+    void follow(Packs moved, std::vector<VertexId>& references) const;
+
+    /// Follows the references to this state, and measures it.
+    [[nodiscard]] QualityMeasures follow_and_measure(Packs moved,
+                                                     std::vector<VertexId>& references) const;
+
+    /// The same, for states between those that the references are to pass.
+    [[nodiscard]] QualityMeasures measure(Packs moved,
+                                          const std::vector<VertexId>& references) const;
+
+    [[nodiscard]] const QualityMeasures& original() const { return original_; }
+
+    [[nodiscard]] double mean_edge() const { return mean_edge_; }  ///< of the original [mm]
+
+private:
+    struct Data;
+    QualityMeasures measured(Packs moved, const VertexId* references, VertexId* followed) const;
+
+    std::unique_ptr<const Data> data_;
+    QualityMeasures original_;
+    double mean_edge_ = 0.0;
+};
+
+}  // namespace vesselbench
