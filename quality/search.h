@@ -1,0 +1,94 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "quality/quality_table.h"
+#include "quality/score.h"
+
+namespace vesselbench {
+
+/// A parameter that a search may change.
+struct SearchParameter {
+    std::string name;            ///< as the operation `smooth` calls it
+    std::string unit;            ///< "-", "mm"; empty: a number of things
+    std::vector<double> values;  ///< ascending
+    int coarse = 1;              ///< the first look takes every so many-th value, and the last
+};
+
+/// What a search goes through: the grid of all values. The iterations are the last parameter.
+struct SearchSpace {
+    std::vector<SearchParameter> parameters;
+    Chooser chooser;
+};
+
+/// A parameter set and how good it is.
+struct Suggestion {
+    ParameterSet values;
+    QualityMeasures measures;
+    ScoreTerms terms;
+    double score = 0.0;
+};
+
+/// Searches one surface's parameter sets for the lowest score (thesis 6.5.5). Everything found is
+/// kept for the next search; sets that are left out by the chooser count as infinitely bad. Of
+/// equal scores the fewest iterations win, then the smallest values, so that "do not smooth" is 0,
+/// 0.
+class ParameterSearch {
+public:
+    ParameterSearch(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
+                    ScoreSettings settings);
+
+    /// All sets of the grid, or of its coarse values. \throw Cancelled
+    [[nodiscard]] Suggestion exhaustive(bool coarse, const Progress& progress = {});
+
+    /// From n starts, each near the largest value of one of the n parameters and near the smallest
+    /// of the others, to the best set of the (3^n - 1)-neighbourhood until none is better. At first
+    /// the neighbourhood reaches `reach` twentieths of the parameters' ranges; at each minimum it
+    /// is halved, down to single steps of the grid. From the best of these minima on it is
+    /// stretched along one parameter at a time: strong and few iterations give about the same as
+    /// weak and many, so that good sets lie along a valley, which single steps do not follow.
+    /// \throw Cancelled
+    [[nodiscard]] Suggestion pattern(int reach = 8, const Progress& progress = {});
+
+    /// The same from one set of the grid. \throw Cancelled
+    [[nodiscard]] Suggestion refined(const Suggestion& from, int reach,
+                                     const Progress& progress = {});
+
+    /// The best value of one parameter while the others stay (6.5.5): the suggestion while it is
+    /// dragged. \throw Cancelled
+    [[nodiscard]] Suggestion along(std::size_t parameter, const ParameterSet& current,
+                                   const Progress& progress = {});
+
+    [[nodiscard]] const SearchSpace& space() const { return space_; }
+
+    [[nodiscard]] QualityTable& table() { return table_; }
+
+    [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
+
+    /// Another target smoothness or score; what is known of the surface stays known.
+    void set_score(ScoreSettings settings) { settings_ = settings; }
+
+    /// The best of some sets. \throw InvalidInput if all of them are left out; Cancelled
+    [[nodiscard]] Suggestion best_of(const std::vector<ParameterSet>& sets,
+                                     const Progress& progress = {});
+
+private:
+    using Place = std::vector<int>;  ///< indices into the parameters' values
+
+    [[nodiscard]] ParameterSet values_at(const Place& place) const;
+    [[nodiscard]] Place place_of(const ParameterSet& values) const;
+    [[nodiscard]] std::vector<ParameterSet> neighbourhood(const Place& centre,
+                                                          const std::vector<int>& reach) const;
+    void walk(Suggestion& best, const std::vector<int>& steps, const Progress& progress);
+    [[nodiscard]] Suggestion descend(const Place& start, int reach, const Progress& progress);
+
+    [[nodiscard]] Suggestion along_valley(Suggestion best, const Progress& progress);
+
+    SearchSpace space_;
+    ScoreSettings settings_;
+    QualityTable table_;
+};
+
+}  // namespace vesselbench

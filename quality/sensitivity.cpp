@@ -1,0 +1,120 @@
+#include "quality/sensitivity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::array kMeasures = {QualityMeasure::Curvature, QualityMeasure::Error,
+                                  QualityMeasure::Volume};
+
+double share(double value, double whole) {
+    return whole != 0.0 ? std::abs(value / whole) : 0.0;
+}
+
+std::vector<double> values_of(const SearchParameter& parameter, double current, bool coarse) {
+    std::vector<double> values;
+    const auto step = static_cast<std::size_t>(coarse ? std::max(1, parameter.coarse) : 1);
+    for (std::size_t i = 0; i < parameter.values.size(); i += step)
+        values.push_back(parameter.values[i]);
+    values.push_back(parameter.values.back());
+    values.push_back(current);
+    std::ranges::sort(values);
+    const auto [first, last] = std::ranges::unique(values);
+    values.erase(first, last);
+    return values;
+}
+
+double goodness_of(const CurvePoint& point, QualityMeasure measure) {
+    if (!point.measures) return std::numeric_limits<double>::quiet_NaN();
+    const double bad = measure == QualityMeasure::Curvature ? point.scaled.curvature
+                       : measure == QualityMeasure::Error   ? point.scaled.error
+                                                            : point.scaled.volume;
+    return 1.0 - std::clamp(bad, 0.0, 1.0);
+}
+
+}  // namespace
+
+std::string to_string(QualityMeasure measure) {
+    switch (measure) {
+        case QualityMeasure::Curvature:
+            return "curvature";
+        case QualityMeasure::Error:
+            return "error";
+        case QualityMeasure::Volume:
+            return "volume";
+    }
+    return "";
+}
+
+QualityScale quality_scale(QualityTable& table, const Progress& progress) {
+    const QualityMeasures& original = table.engine().original();
+    const QualityMeasures& strong = table.strong(progress);
+    return {original.curvature_abs, strong.error, strong.volume - original.volume, original.volume};
+}
+
+ScaledQuality scaled_quality(const QualityScale& scale, const QualityMeasures& measures) {
+    return {scale.curvature_abs != 0.0 ? measures.curvature_abs / scale.curvature_abs : 1.0,
+            share(measures.error, scale.error),
+            share(measures.volume - scale.original_volume, scale.volume)};
+}
+
+QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
+                           const ParameterSet& current, bool coarse, const Progress& progress) {
+    const SearchParameter& asked = search.space().parameters.at(parameter);
+    QualityCurve curve{.name = asked.name, .unit = asked.unit, .current = current[parameter]};
+    std::vector<ParameterSet> sets;
+    for (const double value : values_of(asked, current[parameter], coarse)) {
+        sets.push_back(current);
+        sets.back()[parameter] = value;
+    }
+    QualityTable& table = search.table();
+    const QualityScale scale = quality_scale(table, progress);
+    const Suggestion best = search.best_of(sets, progress);
+    const ScoreBase base{table.engine().original(), table.engine().mean_edge()};
+    for (const ParameterSet& set : sets) {
+        CurvePoint point{.value = set[parameter], .measures = table.at(set, progress)};
+        if (point.measures) {
+            point.scaled = scaled_quality(scale, *point.measures);
+            point.score = score(score_terms(base, *point.measures, search.settings().form),
+                                search.settings().tau);
+        }
+        curve.points.push_back(std::move(point));
+    }
+    curve.suggested = best.values[parameter];
+    return curve;
+}
+
+SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& current, bool coarse,
+                                const Progress& progress) {
+    SensitivityAnalysis analysis{.scale = quality_scale(search.table(), progress)};
+    const std::size_t count = search.space().parameters.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        progress.report(static_cast<double>(i) / static_cast<double>(count), "measuring");
+        analysis.curves.push_back(quality_curve(search, i, current, coarse, progress));
+    }
+    return analysis;
+}
+
+std::vector<QualityBar> quality_bars(const SensitivityAnalysis& analysis, BarOrder order) {
+    std::vector<QualityBar> bars;
+    const auto add = [&](std::size_t curve, QualityMeasure measure) {
+        QualityBar bar{curve, measure, {}};
+        for (const CurvePoint& point : analysis.curves[curve].points)
+            bar.goodness.push_back(goodness_of(point, measure));
+        bars.push_back(std::move(bar));
+    };
+    if (order == BarOrder::Parameter)
+        for (std::size_t i = 0; i < analysis.curves.size(); ++i)
+            for (const QualityMeasure measure : kMeasures) add(i, measure);
+    else
+        for (const QualityMeasure measure : kMeasures)
+            for (std::size_t i = 0; i < analysis.curves.size(); ++i) add(i, measure);
+    return bars;
+}
+
+}  // namespace vesselbench
