@@ -76,6 +76,9 @@ bool same_triangles(const Surface& a, const Surface& b) {
 ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference) {
     if (surface.empty() || reference.empty())
         throw InvalidInput("a comparison needs two surfaces with at least one triangle each");
+    if (!(area(surface) > 0.0) || !(area(reference) > 0.0))
+        throw InvalidInput(
+            "a comparison needs two surfaces with an area: all triangles of one have none");
     const double spacing = 0.5 * std::min(mean_edge_length(surface), mean_edge_length(reference));
     const OneWay there = one_way(surface, reference, spacing);
     const OneWay back = one_way(reference, surface, spacing);

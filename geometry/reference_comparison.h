@@ -25,7 +25,7 @@ struct ReferenceComparison {
 
 /// Point-to-surface distances from all vertices and from regular samples inside the triangles, no
 /// wider apart than half the mean edge of the finer surface.
-/// \throw InvalidInput if one of them has no triangle
+/// \throw InvalidInput if one of them has no triangle, or none with an area
 [[nodiscard]] ReferenceComparison compare_with_reference(const Surface& surface,
                                                          const Surface& reference);
 

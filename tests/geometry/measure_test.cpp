@@ -164,6 +164,13 @@ SCENARIO("Concentric spheres differ by their radii", "[geometry][measure]") {
     }
 }
 
-SCENARIO("An empty surface cannot be measured", "[geometry][measure]") {
+SCENARIO("An empty surface cannot be measured, nor one without area compared",
+         "[geometry][measure]") {
     CHECK_THROWS_AS(measure(Surface{}), InvalidInput);
+    const Surface sphere = icosphere(1.0, 1);
+    for (const Vec3& far : {Vec3(3, 0, 0), Vec3(0, 0, 0)}) {
+        const Surface flat = make_surface({{0, 0, 0}, 0.5 * far, far}, {{0, 1, 2}});
+        CHECK_THROWS_WITH(compare_with_reference(flat, sphere), Catch::Contains("an area"));
+        CHECK_THROWS_WITH(compare_with_reference(sphere, flat), Catch::Contains("an area"));
+    }
 }
