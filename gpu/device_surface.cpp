@@ -103,4 +103,10 @@ const DeviceRows& DeviceSurface::corners() const {
     return *corners_;
 }
 
+const Program& DeviceSurface::program(const std::string& name) const {
+    const auto made = programs_.find(name);
+    if (made != programs_.end()) return made->second;
+    return programs_.emplace(name, make_compute_program(device_, name)).first->second;
+}
+
 }  // namespace vesselbench

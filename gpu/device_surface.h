@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "geometry/surface.h"
 #include "gpu/compute.h"
@@ -51,6 +53,10 @@ public:
     /// highest bit of an offset is set where the vertex lies on a boundary.
     [[nodiscard]] const DeviceRows& corners() const;
 
+    /// The compute program of a name, compiled once for everything that works on the surface.
+    /// \throw GpuUnavailable as make_compute_program
+    [[nodiscard]] const Program& program(const std::string& name) const;
+
 private:
     Device device_;
     Surface surface_;
@@ -58,6 +64,7 @@ private:
     Buffer anchors_, shifts_;
     mutable std::optional<DeviceRows> rings_[2], corners_;
     mutable std::optional<Buffer> anchor_umbrellas_[2];
+    mutable std::map<std::string, Program> programs_;
 };
 
 /// A point relative to a centre, in two numbers of single precision each.

@@ -28,12 +28,7 @@ CompressedRows rim_rows(const Topology& topology) {
 }  // namespace
 
 GpuMeter::GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t states, bool planes)
-    : surface_(std::move(surface)),
-      planes_(planes),
-      shape_(make_compute_program(surface_->device(), "shape")),
-      rim_volume_(make_compute_program(surface_->device(), "rim_volume")),
-      local_error_(make_compute_program(surface_->device(), "local_error")),
-      total_(make_compute_program(surface_->device(), "total")) {
+    : surface_(std::move(surface)), planes_(planes) {
     const Device& device = surface_->device();
     const std::size_t count = surface_->vertex_count();
     const Topology& topology = *surface_->surface().topology;
@@ -59,40 +54,63 @@ void GpuMeter::find_shape(const Buffer& shifts) {
     const DeviceRows& corners = surface_->corners();
     bind_storage({&shifts, &normals_, &parts_, &corners.offsets, &corners.values, nullptr,
                   &surface_->anchors()});
-    dispatch(surface_->device(), shape_, surface_->vertex_count());
+    dispatch(surface_->device(), surface_->program("shape"), surface_->vertex_count());
 }
 
 void GpuMeter::add_rims(const Buffer& shifts) {
     if (rim_count_ == 0) return;
     bind_storage(
         {&shifts, nullptr, &parts_, &rims_.offsets, &rims_.values, nullptr, &surface_->anchors()});
-    glUseProgram(rim_volume_.id());
+    const Program& program = surface_->program("rim_volume");
+    glUseProgram(program.id());
     glUniform1ui(1, static_cast<unsigned>(group_count(surface_->vertex_count())));
-    dispatch(surface_->device(), rim_volume_, rim_count_ * kGroupSize);
+    dispatch(surface_->device(), program, rim_count_ * kGroupSize);
 }
 
-void GpuMeter::find_error(const Buffer& shifts) {
+void GpuMeter::find_error(const Buffer& shifts, const Buffer& references, bool follow) {
     const DeviceRows& corners = surface_->corners();
     bind_storage({&shifts, &errors_, &parts_, &corners.offsets, &corners.values,
-                  &surface_->shifts(), &surface_->anchors(), &references_});
-    glUseProgram(local_error_.id());
+                  &surface_->shifts(), &surface_->anchors(), &references});
+    const Program& program = surface_->program("local_error");
+    glUseProgram(program.id());
     glUniform1i(1, planes_ ? 1 : 0);
-    dispatch(surface_->device(), local_error_, surface_->vertex_count());
+    glUniform1i(2, follow ? 1 : 0);
+    dispatch(surface_->device(), program, surface_->vertex_count());
 }
 
 void GpuMeter::total(std::size_t parts, std::size_t place) {
     bind_storage({&parts_, &results_});
-    glUseProgram(total_.id());
+    const Program& program = surface_->program("total");
+    glUseProgram(program.id());
     glUniform1ui(1, static_cast<unsigned>(place));
-    dispatch_group(total_, parts);
+    dispatch_group(program, parts);
+}
+
+Buffer GpuMeter::make_references() const {
+    const std::size_t bytes = surface_->vertex_count() * sizeof(VertexId);
+    Buffer references = make_storage(surface_->device(), bytes, "references");
+    copy_storage(own_references_, references, bytes);
+    return references;
+}
+
+void GpuMeter::follow(const Buffer& shifts, const Buffer& references) {
+    const DeviceRows& corners = surface_->corners();
+    bind_storage({&shifts, nullptr, nullptr, &corners.offsets, &corners.values, &surface_->shifts(),
+                  &surface_->anchors(), &references});
+    dispatch(surface_->device(), surface_->program("follow_drift"), surface_->vertex_count());
 }
 
 void GpuMeter::measure(const Buffer& shifts, std::size_t state) {
+    measure(shifts, references_, true, state);
+}
+
+void GpuMeter::measure(const Buffer& shifts, const Buffer& references, bool follow,
+                       std::size_t state) {
     const std::size_t groups = group_count(surface_->vertex_count());
     find_shape(shifts);
     add_rims(shifts);
     total(groups + rim_count_, 2 * state);
-    find_error(shifts);
+    find_error(shifts, references, follow);
     total(groups, 2 * state + 1);
 }
 

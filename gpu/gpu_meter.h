@@ -37,6 +37,17 @@ public:
     /// \pre state is below the number of states
     void measure(const Buffer& shifts, std::size_t state = 0);
 
+    /// References of another run: every vertex its own.
+    [[nodiscard]] Buffer make_references() const;
+
+    /// Moves a run's references on with its vertices, and measures nothing.
+    void follow(const Buffer& shifts, const Buffer& references);
+
+    /// Measures a state by the references of its run.
+    /// \param follow moves them on first, for good
+    void measure(const Buffer& shifts, const Buffer& references, bool follow,
+                 std::size_t state = 0);
+
     /// Unit vertex normals and mean curvature alone, for drawing.
     void measure_shape(const Buffer& shifts);
 
@@ -52,13 +63,12 @@ public:
 
 private:
     void find_shape(const Buffer& shifts);
-    void find_error(const Buffer& shifts);
+    void find_error(const Buffer& shifts, const Buffer& references, bool follow);
     void add_rims(const Buffer& shifts);
     void total(std::size_t parts, std::size_t place);
 
     std::shared_ptr<const DeviceSurface> surface_;
     bool planes_;
-    Program shape_, rim_volume_, local_error_, total_;
     Buffer own_references_, references_, normals_, errors_, parts_, results_;
     DeviceRows rims_;  ///< vertices of each boundary loop: uint
     std::size_t rim_count_ = 0;

@@ -56,24 +56,38 @@ GpuSmoother::GpuSmoother(std::shared_ptr<const DeviceSurface> surface,
     : surface_(std::move(surface)), rings_(settings.rings), constraint_(settings.constraint) {
     const std::vector<Vector4f> start = weighted_start(*surface_, settings);
     const std::size_t bytes = start.size() * sizeof(Vector4f);
-    start_ = make_storage(surface_->device(), std::span<const Vector4f>(start), "start");
+    start_ = std::make_shared<const Buffer>(
+        make_storage(surface_->device(), std::span<const Vector4f>(start), "start"));
     for (Buffer& values : values_) values = make_storage(surface_->device(), bytes, "shifts");
-    copy_storage(start_, values_[0], bytes);
+    copy_storage(*start_, values_[0], bytes);
 }
 
-const Program& GpuSmoother::program(const std::string& name) {
-    const auto made =
-        std::ranges::find_if(programs_, [&](const auto& entry) { return entry.first == name; });
-    if (made != programs_.end()) return *made->second;
-    programs_.emplace_back(
-        name, std::make_unique<Program>(make_compute_program(surface_->device(), name)));
-    return *programs_.back().second;
+GpuSmoother GpuSmoother::copy() const {
+    const Device& device = surface_->device();
+    GpuSmoother other;
+    other.surface_ = surface_;
+    other.rings_ = rings_;
+    other.constraint_ = constraint_;
+    other.start_ = start_;
+    other.passes_ = passes_;
+    other.steps_done_ = steps_done_;
+    other.iterations_done_ = iterations_done_;
+    const auto copied = [&](const Buffer& from, std::size_t bytes) {
+        Buffer to = make_storage(device, bytes, "copy of a run");
+        copy_storage(from, to, bytes);
+        return to;
+    };
+    const std::size_t count = surface_->vertex_count();
+    for (std::size_t i : {0, 1}) other.values_[i] = copied(values_[i], count * sizeof(Vector4f));
+    if (first_iterations_.id() != 0)
+        other.first_iterations_ = copied(first_iterations_, count * sizeof(std::int32_t));
+    return other;
 }
 
 void GpuSmoother::plan_linear(const std::vector<detail::LinearStep>& steps) {
     bool of_positions = true;
     for (const detail::LinearStep& step : steps) {
-        passes_.push_back({.program = &program("linear_step"),
+        passes_.push_back({.program = &surface_->program("linear_step"),
                            .factors = {step.umbrella, step.source, step.target, step.start},
                            .onto = static_cast<int>(step.onto),
                            .of_positions = of_positions});
@@ -96,7 +110,7 @@ void GpuSmoother::plan(const TaubinParameters& parameters) {
 void GpuSmoother::plan(const MeanCurvatureFlowParameters& parameters) {
     detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
     detail::require_one_ring("mean curvature flow", {.rings = rings_});
-    passes_.push_back({.program = &program("mean_curvature_flow"),
+    passes_.push_back({.program = &surface_->program("mean_curvature_flow"),
                        .factors = {parameters.lambda},
                        .by_corners = true});
 }
@@ -108,7 +122,7 @@ void GpuSmoother::plan(const AnisotropicParameters& parameters) {
     const double feature = parameters.feature_curvature.value_or(
         default_feature_curvature(*surface.topology, surface.points()));
     detail::require_positive("feature_curvature", feature);
-    const Program& smooth = program("anisotropic");
+    const Program& smooth = surface_->program("anisotropic");
     glUseProgram(smooth.id());
     glUniform1d(kFeatureCurvature, feature);
     passes_.push_back({.program = &smooth, .factors = {parameters.lambda}, .by_corners = true});
@@ -121,7 +135,8 @@ void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
         default_trigger_curvature(*surface.topology, surface.points()));
     detail::require_positive("trigger_curvature", trigger);
     find_first_iterations(trigger);
-    passes_.push_back({.program = &program("triggered_laplace"), .factors = {parameters.lambda}});
+    passes_.push_back(
+        {.program = &surface_->program("triggered_laplace"), .factors = {parameters.lambda}});
 }
 
 void GpuSmoother::find_first_iterations(double trigger) {
@@ -131,9 +146,9 @@ void GpuSmoother::find_first_iterations(double trigger) {
                                          "first iterations");
     const Buffer exact = exact_positions(*surface_);
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&exact, nullptr, &start_, &corners.offsets, &corners.values, nullptr, nullptr,
-                  &first_iterations_});
-    const Program& find = program("trigger");
+    bind_storage({&exact, nullptr, start_.get(), &corners.offsets, &corners.values, nullptr,
+                  nullptr, &first_iterations_});
+    const Program& find = surface_->program("trigger");
     glUseProgram(find.id());
     glUniform1d(1, trigger);
     dispatch(device, find, surface_->vertex_count());
@@ -144,14 +159,14 @@ void GpuSmoother::start(const FilterParameters& parameters) {
     passes_.clear();
     steps_done_ = 0;
     iterations_done_ = 0;
-    copy_storage(start_, values_[0], surface_->vertex_count() * sizeof(Vector4f));
+    copy_storage(*start_, values_[0], surface_->vertex_count() * sizeof(Vector4f));
     std::visit([&](const auto& filter) { plan(filter); }, parameters);
 }
 
 void GpuSmoother::run_pass(const Pass& pass, bool last) {
     const DeviceRows& rows = pass.by_corners ? surface_->corners() : surface_->rings(rings_);
     bind_storage(
-        {&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], &start_, &rows.offsets,
+        {&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], start_.get(), &rows.offsets,
          &rows.values, pass.by_corners ? nullptr : &surface_->anchor_umbrellas(rings_),
          &surface_->anchors(), first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
     glUseProgram(pass.program->id());

@@ -3,8 +3,6 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "geometry/progress.h"
@@ -24,6 +22,9 @@ public:
     /// \throw InvalidInput if the settings do not fit the surface; GpuUnavailable if it does not
     /// fit the device
     GpuSmoother(std::shared_ptr<const DeviceSurface> surface, const FilterSettings& settings);
+
+    /// Another one that stands where this one does, and goes on by itself.
+    [[nodiscard]] GpuSmoother copy() const;
 
     /// Puts all vertices back to the start, for a filter.
     /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile
@@ -47,6 +48,8 @@ public:
     [[nodiscard]] const DeviceSurface& surface() const { return *surface_; }
 
 private:
+    GpuSmoother() = default;
+
     /// A pass over all vertices: a program and what its uniforms are.
     struct Pass {
         const Program* program = nullptr;
@@ -66,15 +69,14 @@ private:
     void find_first_iterations(double trigger);
     void run_pass(const Pass& pass, bool last);
     static void set_constraint(const PositionConstraint& constraint);
-    const Program& program(const std::string& name);
 
     std::shared_ptr<const DeviceSurface> surface_;
     int rings_ = 1;
     std::optional<PositionConstraint> constraint_;
-    Buffer start_;      ///< the surface's shifts; w is the weight, or -1 where fixed
+    std::shared_ptr<const Buffer>
+        start_;         ///< the surface's shifts; w is the weight, or -1 where fixed
     Buffer values_[2];  ///< read and written in turn
     Buffer first_iterations_;
-    std::vector<std::pair<std::string, std::unique_ptr<Program>>> programs_;
     std::vector<Pass> passes_;
     std::size_t steps_done_ = 0;
     int iterations_done_ = 0;

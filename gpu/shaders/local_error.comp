@@ -8,46 +8,14 @@
 #include "corners.glsl"
 #include "reduce.glsl"
 #include "closest_point.glsl"
+#include "drift.glsl"
 
 layout(std430, binding = 1) writeonly buffer Distances { float distances[]; };
 layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
-layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
-layout(std430, binding = 7) buffer References { uint references[]; };
 layout(location = 1) uniform bool planes;  // y, the thesis' form, is wanted
+layout(location = 2) uniform bool follow;  // the references move on for good
 
 const float infinite = 3e38;
-
-// From a vertex to where another one was.
-vec3 way_to(uint v, uint u) {
-    return (anchors[u].xyz - anchors[v].xyz) + (original_shifts[u].xyz - shifts[v].xyz);
-}
-
-vec3 original_edge(uint from, uint to) {
-    return (anchors[to].xyz - anchors[from].xyz) + (original_shifts[to].xyz - original_shifts[from].xyz);
-}
-
-float squared_to(uint u, uint v) {
-    vec3 way = way_to(v, u);
-    return dot(way, way);
-}
-
-// Every step comes strictly closer, so it ends.
-uint drifted(uint reference, uint v) {
-    float closest = squared_to(reference, v);
-    for (bool closer = true; closer;) {
-        closer = false;
-        uint from = reference, end = first_corner(from + 1u);
-        for (uint i = first_corner(from); i < end; ++i)
-            for (int k = 0; k < 2; ++k) {
-                float squared = squared_to(corners[i][k], v);
-                if (squared >= closest) continue;
-                closest = squared;
-                reference = corners[i][k];
-                closer = true;
-            }
-    }
-    return reference;
-}
 
 struct RingPlace {
     float squared;
@@ -99,7 +67,7 @@ float to_planes(uint reference, uint v) {
 
 vec4 error_of(uint v) {
     uint reference = drifted(references[v], v);
-    references[v] = reference;
+    if (follow) references[v] = reference;
     float distance = to_ring(reference, v);
     distances[v] = distance;
     return vec4(distance, planes ? to_planes(reference, v) : 0.0, 0.0, distance);

@@ -142,3 +142,29 @@ SCENARIO("Many states are measured before one reading", "[gpu][meter]") {
         if (i > 0) CHECK(together[i].volume < together[i - 1].volume);
     }
 }
+
+SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") {
+    const auto test = test_device();
+    if (!test) return;
+    const auto device = uploaded(*test, varied_surfaces().front().surface);
+    const std::size_t count = device->vertex_count();
+    GpuSmoother smoother(device, {});
+    GpuMeter meter(device);
+    smoother.start(LaplaceParameters{1.0});
+    smoother.run(30);
+    const Buffer references = meter.make_references();
+    const auto own = read_storage<VertexId>(references, count);
+    CHECK(own == own_references(*device->surface().topology));
+    meter.measure(smoother.shifts(), references, false);
+    const double unfollowed = meter.read().front().error;
+    CHECK(read_storage<VertexId>(references, count) == own);
+    meter.follow(smoother.shifts(), references);
+    const auto followed = read_storage<VertexId>(references, count);
+    CHECK(followed != own);
+    std::vector<VertexId> wanted = own;
+    follow_drift(*device->surface().topology, device->surface().points(), smoother.positions(),
+                 wanted);
+    CHECK(followed == wanted);
+    meter.measure(smoother.shifts(), references, true);
+    CHECK(meter.read().front().error == Approx(unfollowed));
+}

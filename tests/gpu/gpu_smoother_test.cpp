@@ -163,3 +163,22 @@ SCENARIO("The device refuses what the CPU refuses", "[gpu][smoother]") {
     CHECK_THROWS_AS(wide.start(MeanCurvatureFlowParameters{}), InvalidInput);
     CHECK_THROWS_AS(DeviceSurface(test->device, Surface{}), InvalidInput);
 }
+
+SCENARIO("A copy of a run goes on by itself", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface sphere = icosphere(5.0, 3);
+    for (const FilterParameters& filter : std::vector<FilterParameters>{
+             TaubinParameters{}, CurvatureTriggeredParameters{0.5, 0.15}}) {
+        GpuSmoother first(uploaded(*test, sphere), {});
+        first.start(filter);
+        first.run(3);
+        GpuSmoother second = first.copy();
+        const Positions there = first.positions();
+        first.run(4);
+        CHECK(second.positions() == there);
+        second.run(4);
+        CHECK(second.positions() == first.positions());
+        CHECK(second.iterations_done() == 7);
+    }
+}

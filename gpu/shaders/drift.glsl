@@ -1,0 +1,36 @@
+// The reference of each moved vertex: the original vertex that it drifts to along the original's edges
+// (geometry/local_error.h).
+layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
+layout(std430, binding = 7) buffer References { uint references[]; };
+
+// From a vertex to where another one was.
+vec3 way_to(uint v, uint u) {
+    return (anchors[u].xyz - anchors[v].xyz) + (original_shifts[u].xyz - shifts[v].xyz);
+}
+
+vec3 original_edge(uint from, uint to) {
+    return (anchors[to].xyz - anchors[from].xyz) + (original_shifts[to].xyz - original_shifts[from].xyz);
+}
+
+float squared_to(uint u, uint v) {
+    vec3 way = way_to(v, u);
+    return dot(way, way);
+}
+
+// Every step comes strictly closer, so it ends.
+uint drifted(uint reference, uint v) {
+    float closest = squared_to(reference, v);
+    for (bool closer = true; closer;) {
+        closer = false;
+        uint from = reference, end = first_corner(from + 1u);
+        for (uint i = first_corner(from); i < end; ++i)
+            for (int k = 0; k < 2; ++k) {
+                float squared = squared_to(corners[i][k], v);
+                if (squared >= closest) continue;
+                closest = squared;
+                reference = corners[i][k];
+                closer = true;
+            }
+    }
+    return reference;
+}
