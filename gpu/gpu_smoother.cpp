@@ -154,6 +154,15 @@ void GpuSmoother::find_first_iterations(double trigger) {
     dispatch(device, find, surface_->vertex_count());
 }
 
+void GpuSmoother::set_weights(const Buffer& weights) {
+    const std::size_t bytes = surface_->vertex_count() * sizeof(Vector4f);
+    Buffer start = make_storage(surface_->device(), bytes, "start");
+    copy_storage(*start_, start, bytes);
+    bind_storage({&start, &weights});
+    dispatch(surface_->device(), surface_->program("set_weights"), surface_->vertex_count());
+    start_ = std::make_shared<const Buffer>(std::move(start));
+}
+
 void GpuSmoother::start(const FilterParameters& parameters) {
     require_context(surface_->device());
     passes_.clear();

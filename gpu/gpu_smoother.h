@@ -26,6 +26,9 @@ public:
     /// Another one that stands where this one does, and goes on by itself.
     [[nodiscard]] GpuSmoother copy() const;
 
+    /// Gives the runs that start from now on other weights in [0, 1]: float, #V.
+    void set_weights(const Buffer& weights);
+
     /// Puts all vertices back to the start, for a filter.
     /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile
     void start(const FilterParameters& parameters);

@@ -1,0 +1,144 @@
+#include "gpu/gpu_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "geometry/errors.h"
+#include "smoothing/filter_support.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kUnreached = 3.1e38;  // gpu/shaders/distance_weight.comp
+
+enum Kind { kStaircases, kLinear, kExponential };
+
+Buffer upload(const Device& device, std::span<const double> values, const std::string& label) {
+    std::vector<float> single(values.size());
+    std::ranges::transform(values, single.begin(), [](double value) {
+        return static_cast<float>(std::min(value, kUnreached));
+    });
+    return make_storage(device, std::span<const float>(single), label);
+}
+
+void require_distances(std::span<const double> distances, const DistanceParameters& parameters) {
+    [[maybe_unused]] const auto none = distance_weights({}, parameters);  // checks the parameters
+    for (const double d : distances)
+        if (!(d >= 0.0) || !std::isfinite(d))
+            throw InvalidInput("distances to neighbours must be finite and not negative");
+}
+
+Vec3 unit_axis(const Vec3& stack_axis) {
+    const double length = stack_axis.norm();
+    if (!(length > 0.0) || !std::isfinite(length))
+        throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
+    return stack_axis / length;
+}
+
+}  // namespace
+
+GpuWeights::GpuWeights(std::shared_ptr<const DeviceSurface> surface)
+    : surface_(std::move(surface)) {
+    const Device& device = surface_->device();
+    const std::size_t count = surface_->vertex_count();
+    const std::vector<double> none(count, 0.0), ones(count, 1.0);
+    changes_ = make_storage(device, std::span<const double>(none), "orientation changes");
+    ones_ = upload(device, ones, "ones");
+    weights_ = make_storage(device, count * sizeof(float), "weights");
+    restart();
+}
+
+void GpuWeights::restart() {
+    copy_storage(ones_, weights_, surface_->vertex_count() * sizeof(float));
+}
+
+void GpuWeights::find_orientation_change(const Vec3& stack_axis) {
+    const Vec3 axis = unit_axis(stack_axis);
+    const Device& device = surface_->device();
+    const Surface& surface = surface_->surface();
+    const CompressedRows& rows = surface.topology->triangles_at();
+    const Buffer exact =
+        make_storage(device, std::span<const Vec3>(surface.points()), "exact positions");
+    const Buffer triangles = make_storage(device, surface.triangles(), "triangles");
+    const Buffer offsets =
+        make_storage(device, std::span<const std::uint32_t>(rows.offsets), "triangle offsets");
+    const Buffer at =
+        make_storage(device, std::span<const std::uint32_t>(rows.values), "triangles at vertices");
+    const Buffer orientations =
+        make_storage(device, surface.triangle_count() * sizeof(double), "orientations");
+    const Program& of_faces = surface_->program("face_orientation");
+    bind_storage({&exact, &triangles, &orientations});
+    glUseProgram(of_faces.id());
+    glUniform3d(1, axis.x(), axis.y(), axis.z());
+    dispatch(device, of_faces, surface.triangle_count());
+    bind_storage({&orientations, &changes_, nullptr, &offsets, &at});
+    dispatch(device, surface_->program("orientation_change"), surface.vertex_count());
+    search_.reset();
+}
+
+std::vector<double> GpuWeights::orientation_change() const {
+    auto changes = read_storage<double>(changes_, surface_->vertex_count());
+    require_context(surface_->device());
+    return changes;
+}
+
+void GpuWeights::search_staircases(const StaircaseParameters& parameters) {
+    const Surface& surface = surface_->surface();
+    std::vector<double> distances =
+        staircase_distances(*surface.topology, surface.points(), orientation_change(), parameters);
+    std::vector<double> free(distances.size(), 1.0);
+    for (std::size_t v = 0; v < parameters.caps.size(); ++v)
+        if (parameters.caps[v] != 0) free[v] = 0.0;
+    largest_distance_ = 0.0;
+    for (const double d : distances)
+        if (std::isfinite(d)) largest_distance_ = std::max(largest_distance_, d);
+    staircase_distances_ = upload(surface_->device(), distances, "staircase distances");
+    free_of_caps_ = upload(surface_->device(), free, "free of caps");
+}
+
+void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,
+                          std::span<const float> scale, int kind) {
+    const Program& program = surface_->program("distance_weight");
+    bind_storage({&distances, &weights_, &factors});
+    glUseProgram(program.id());
+    glUniform4fv(1, 1, scale.data());
+    glUniform1i(2, kind);
+    dispatch(surface_->device(), program, surface_->vertex_count());
+}
+
+void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
+    const Search wanted{
+        parameters.tau_theta, parameters.tau_max, {parameters.caps.begin(), parameters.caps.end()}};
+    detail::require_range("beta_min", parameters.beta_min, 0.0, 1.0);
+    if (search_ != wanted) {
+        search_staircases(parameters);
+        search_ = wanted;
+    }
+    const double largest =
+        parameters.scaling == StaircaseScaling::Thesis ? largest_distance_ : parameters.tau_max;
+    const std::array scale = {static_cast<float>(largest), static_cast<float>(parameters.beta_min),
+                              0.0F, 0.0F};
+    multiply(staircase_distances_, free_of_caps_, scale, kStaircases);
+}
+
+void GpuWeights::multiply_distances(std::span<const double> distances,
+                                    const DistanceParameters& parameters) {
+    require_distances(distances, parameters);
+    if (distances.size() != surface_->vertex_count())
+        throw InvalidInput("got " + std::to_string(distances.size()) + " distances for " +
+                           std::to_string(surface_->vertex_count()) + " vertices");
+    const auto [least, most] = std::ranges::minmax(distances);
+    const double from = parameters.scaling == DistanceScaling::Margin ? parameters.margin : least;
+    const std::array scale = {static_cast<float>(from), static_cast<float>(most - from),
+                              static_cast<float>(parameters.omega), 0.0F};
+    multiply(upload(surface_->device(), distances, "distances"), ones_, scale,
+             parameters.scaling == DistanceScaling::Exponential ? kExponential : kLinear);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/device_surface.h"
+#include "smoothing/distance_weights.h"
+#include "smoothing/staircase_weights.h"
+
+namespace vesselbench {
+
+/// Weights for smoothing, made where they are used (thesis 5.2, 5.3, 7.2): staircases are detected
+/// and caps left out on the device, and distances become weights there. The distances themselves
+/// are the CPU's: those to neighbours are searched in a tree of triangles, and which staircase
+/// reaches a vertex (Eq. 5.5) is decided by paths, one after the other. The surface's context must
+/// be current whenever it is used and when it goes.
+class GpuWeights {
+public:
+    /// 1 everywhere. \throw GpuUnavailable if the buffers do not fit
+    explicit GpuWeights(std::shared_ptr<const DeviceSurface> surface);
+
+    /// Finds the orientation change of every vertex (Eqs. 5.3-5.4), in double precision, so that
+    /// the same vertices exceed a threshold as on the CPU. \throw InvalidInput if the axis has no
+    /// direction
+    void find_orientation_change(const Vec3& stack_axis);
+
+    /// Reads the orientation changes [-], #V; all 0 before they are found.
+    [[nodiscard]] std::vector<double> orientation_change() const;
+
+    /// Puts all weights back to 1.
+    void restart();
+
+    /// Multiplies by staircase weights (Eqs. 5.5-5.6) of the orientation changes; caps are no
+    /// staircases and get weight 0. Other scalings and beta_min need no new search.
+    /// \throw InvalidInput as staircase_weights
+    void multiply_staircases(const StaircaseParameters& parameters = {});
+
+    /// Multiplies by weights from distances to neighbours [mm] (5.2, Eq. 5.2).
+    /// \throw InvalidInput as distance_weights
+    void multiply_distances(std::span<const double> distances,
+                            const DistanceParameters& parameters = {});
+
+    /// The weights in [0, 1]: float, #V.
+    [[nodiscard]] const Buffer& weights() const { return weights_; }
+
+private:
+    struct Search {
+        double tau_theta = 0.0, tau_max = 0.0;
+        std::vector<std::uint8_t> caps;
+        bool operator==(const Search&) const = default;
+    };
+
+    void search_staircases(const StaircaseParameters& parameters);
+    void multiply(const Buffer& distances, const Buffer& factors, std::span<const float> scale,
+                  int kind);
+
+    std::shared_ptr<const DeviceSurface> surface_;
+    Buffer changes_, weights_, ones_;
+    std::optional<Search> search_;  ///< what the next three are of
+    Buffer staircase_distances_, free_of_caps_;
+    double largest_distance_ = 0.0;  ///< of those within reach [mm]
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,23 @@
+#version 430 core
+// Orientation change of every vertex (thesis Eq. 5.4): the largest less the smallest orientation of
+// the triangles around it; those without a normal do not count.
+// 0 orientations, 1 out: changes, 3 offsets and 4 triangles at every vertex
+#include "elements.glsl"
+
+layout(std430, binding = 0) readonly buffer Orientations { double orientations[]; };
+layout(std430, binding = 1) writeonly buffer Changes { double changes[]; };
+layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
+layout(std430, binding = 4) readonly buffer TrianglesAt { uint triangles_at[]; };
+
+void main() {
+    uint v = element();
+    if (v >= element_count) return;
+    double smallest = 2.0lf, largest = -1.0lf;
+    for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
+        double orientation = orientations[triangles_at[i]];
+        if (orientation < 0.0lf) continue;
+        smallest = min(smallest, orientation);
+        largest = max(largest, orientation);
+    }
+    changes[v] = largest < 0.0lf ? 0.0lf : largest - smallest;
+}

@@ -1,0 +1,133 @@
+#include "gpu/gpu_weights.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "gpu/gpu_smoother.h"
+#include "smoothing/caps.h"
+#include "smoothing/staircases.h"
+#include "tests/gpu/device_support.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+const Vec3 kAxis(0.3, -0.2, 2.0);
+
+double largest_difference(const Buffer& weights, const std::vector<double>& wanted) {
+    const auto found = read_storage<float>(weights, wanted.size());
+    double largest = 0.0;
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+        largest = std::max(largest, std::abs(found[v] - wanted[v]));
+    return largest;
+}
+
+std::vector<double> distances_to_plane(const Surface& surface) {
+    std::vector<double> distances;
+    for (const Vec3& p : surface.points()) distances.push_back(std::abs(p.x() - 90.0));
+    return distances;
+}
+
+}  // namespace
+
+SCENARIO("The device detects the staircases that the CPU detects", "[gpu][weights]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const auto& [name, surface] : varied_surfaces()) {
+        INFO(name);
+        GpuWeights weights(uploaded(*test, surface));
+        weights.find_orientation_change(kAxis);
+        const auto found = weights.orientation_change();
+        const auto wanted = orientation_change(*surface.topology, surface.points(), kAxis);
+        for (const double tau_theta : {0.05, 0.2, 0.7}) {
+            std::size_t others = 0;
+            for (std::size_t v = 0; v < found.size(); ++v) {
+                if ((found[v] > tau_theta) == (wanted[v] > tau_theta)) continue;
+                ++others;
+                CHECK(std::abs(wanted[v] - tau_theta) <= 1e-5);
+            }
+            CHECK(others <= found.size() / 1000);
+        }
+        for (std::size_t v = 0; v < found.size(); ++v)
+            if (std::abs(found[v] - wanted[v]) > 1e-9) CHECK(found[v] == wanted[v]);
+    }
+}
+
+SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][weights]") {
+    const auto test = test_device();
+    if (!test) return;
+    const auto surfaces = varied_surfaces();
+    const Surface& surface = surfaces.back().surface;
+    const auto caps = cap_vertices({}, surface.vertex_count());
+    std::vector<std::uint8_t> some_caps = caps;
+    for (std::size_t v = 0; v < some_caps.size(); v += 11) some_caps[v] = 1;
+    GpuWeights weights(uploaded(*test, surface));
+    weights.find_orientation_change(kAxis);
+    const auto change = orientation_change(*surface.topology, surface.points(), kAxis);
+    for (const auto scaling : {StaircaseScaling::TauMax, StaircaseScaling::Thesis})
+        for (const double beta_min : {0.0, 0.3})
+            for (const double tau_theta : {0.1, 0.3, 2.0 / 3.0}) {
+                const StaircaseParameters parameters{.tau_theta = tau_theta,
+                                                     .tau_max = 4.0,
+                                                     .beta_min = beta_min,
+                                                     .scaling = scaling,
+                                                     .caps = some_caps};
+                weights.restart();
+                weights.multiply_staircases(parameters);
+                CHECK(largest_difference(weights.weights(),
+                                         staircase_weights(*surface.topology, surface.points(),
+                                                           change, parameters)) <= 1e-6);
+            }
+}
+
+SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface sphere = varied_surfaces().front().surface;
+    const auto distances = distances_to_plane(sphere);
+    GpuWeights weights(uploaded(*test, sphere));
+    for (const auto scaling :
+         {DistanceScaling::Linear, DistanceScaling::Margin, DistanceScaling::Exponential})
+        for (const double omega : {0.06, 3.0}) {
+            const DistanceParameters parameters{.scaling = scaling, .margin = 4.0, .omega = omega};
+            weights.restart();
+            weights.multiply_distances(distances, parameters);
+            CHECK(largest_difference(weights.weights(), distance_weights(distances, parameters)) <=
+                  1e-5);
+        }
+    THEN("a margin that nothing exceeds leaves nothing to move") {
+        weights.restart();
+        weights.multiply_distances(distances,
+                                   {.scaling = DistanceScaling::Margin, .margin = 500.0});
+        CHECK(largest_difference(weights.weights(), std::vector<double>(distances.size(), 0.0)) ==
+              0.0);
+    }
+    CHECK_THROWS_AS(weights.multiply_distances(distances, {.omega = 0.0}), InvalidInput);
+    CHECK_THROWS_AS(weights.find_orientation_change(Vec3::Zero()), InvalidInput);
+}
+
+SCENARIO("Weights made on the device smooth as the CPU's do", "[gpu][weights]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface tube = varied_surfaces()[1].surface;
+    const auto device = uploaded(*test, tube);
+    const StaircaseParameters parameters{.tau_theta = 0.01, .tau_max = 1.0, .beta_min = 0.2};
+    GpuWeights weights(device);
+    weights.find_orientation_change(kAxis);
+    weights.multiply_staircases(parameters);
+    GpuSmoother smoother(device, {});
+    smoother.set_weights(weights.weights());
+    smoother.start(LaplaceParameters{});
+    smoother.run(50);
+    const auto on_cpu =
+        staircase_weights(*tube.topology, tube.points(),
+                          orientation_change(*tube.topology, tube.points(), kAxis), parameters);
+    const Positions wanted = apply_filter(*tube.topology, tube.points(), LaplaceParameters{},
+                                          {.iterations = 50, .weights = on_cpu});
+    CHECK(relative_distances(wanted, smoother.positions()).back() <= 2e-6);
+    CHECK(relative_distances(tube.points(), wanted).back() > 1e-4);
+}
