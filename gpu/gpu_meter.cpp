@@ -125,12 +125,12 @@ std::vector<DeviceMeasures> GpuMeter::read(std::size_t states) const {
     std::vector<DeviceMeasures> measures(states);
     for (std::size_t i = 0; i < states; ++i) {
         const Vector4f &shape = totals[2 * i], &error = totals[2 * i + 1];
-        measures[i] = {.error = error.x() / count,
-                       .largest_error = error.w(),
-                       .error_thesis = error.y() / count,
-                       .curvature = shape.x(),
-                       .curvature_abs = shape.y(),
-                       .volume = shape.z()};
+        measures[i].quality = {.error = error.x() / count,
+                               .error_thesis = error.y() / count,
+                               .curvature = shape.x(),
+                               .curvature_abs = shape.y(),
+                               .volume = shape.z()};
+        measures[i].largest_error = error.w();
     }
     return measures;
 }

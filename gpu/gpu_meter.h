@@ -3,28 +3,26 @@
 #include <memory>
 #include <vector>
 
+#include "quality/surface_meter.h"
+
 #include "gpu/device_surface.h"
 
 namespace vesselbench {
 
 /// What smoothing does to a surface, in a few numbers (thesis 6.4-6.5).
 struct DeviceMeasures {
-    double error = 0.0;          ///< mean local error against the start [mm] (6.4.1)
+    QualityMeasures quality;
     double largest_error = 0.0;  ///< largest local error [mm]
-    double error_thesis = 0.0;   ///< mean error as Eq. 6.2 prints it [mm]; 0 unless asked for
-    double curvature = 0.0;      ///< integral of the mean curvature H [mm] (Eq. 6.4)
-    double curvature_abs = 0.0;  ///< integral of |H| [mm]
-    double volume = 0.0;         ///< [mm^3], openings closed in thought (Eq. 6.5)
 };
 
 /// Measures states of a surface on the device, where their positions are: nothing but the few
 /// numbers comes back, and these when they are asked for. Measures are those of
-/// geometry/local_error.h and geometry/measure.h, in single precision; sums have a fixed order.
+/// quality/surface_meter.h, in single precision; sums have a fixed order.
 /// The surface's context must be current whenever it is used and when it goes.
 class GpuMeter {
 public:
     /// \param states how many states can be measured before their numbers are read
-    /// \param planes measures error_thesis too
+    /// \param planes measures quality.error_thesis too
     /// \throw GpuUnavailable if a shader does not compile or the buffers do not fit
     explicit GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t states = 1,
                       bool planes = false);

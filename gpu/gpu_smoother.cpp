@@ -163,6 +163,15 @@ void GpuSmoother::set_weights(const Buffer& weights) {
     start_ = std::make_shared<const Buffer>(std::move(start));
 }
 
+void GpuSmoother::set_weights(std::span<const double> weights) {
+    if (weights.size() != surface_->vertex_count())
+        throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
+                           std::to_string(surface_->vertex_count()) + " vertices");
+    for (const double weight : weights) detail::require_range("weight", weight, 0.0, 1.0);
+    const std::vector<float> single(weights.begin(), weights.end());
+    set_weights(make_storage(surface_->device(), std::span<const float>(single), "weights"));
+}
+
 void GpuSmoother::start(const FilterParameters& parameters) {
     require_context(surface_->device());
     passes_.clear();

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/progress.h"
@@ -28,6 +29,9 @@ public:
 
     /// Gives the runs that start from now on other weights in [0, 1]: float, #V.
     void set_weights(const Buffer& weights);
+
+    /// The same from the CPU's weights. \throw InvalidInput unless they are #V in [0, 1]
+    void set_weights(std::span<const double> weights);
 
     /// Puts all vertices back to the start, for a filter.
     /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile

@@ -14,14 +14,21 @@
 layout(std430, binding = 1) writeonly buffer Normals { vec4 normals[]; };
 layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
 
+// Component of the flow along the normal (Eq. 6.3); what is less than rounding of the areas is none.
+float along(vec3 flow, vec3 normal, float doubled_areas) {
+    float size = length(normal);
+    return size > 1e-5 * doubled_areas ? dot(flow, normal) / size : 0.0;
+}
+
 vec4 shape_of(uint v) {
     vec3 flow = vec3(0.0), outward = vec3(0.0), normal = vec3(0.0);
-    float area = 0.0;
+    float area = 0.0, doubled_areas = 0.0;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i) {
         CornerShare share = corner_share(edge(v, corners[i].x), edge(v, corners[i].y));
         flow += share.flow;
         area += share.area;
+        doubled_areas += share.across;
         normal += share.normal;
         if (share.across > 0.0) outward += angle_of(share.across, share.along) / share.across * share.normal;
     }
@@ -30,8 +37,8 @@ vec4 shape_of(uint v) {
     outward = size > 1e-5 ? outward / size : vec3(0.0);
     if (area > 0.0 && !on_boundary(v)) curvature = mean_of(flow, outward, area);
     normals[v] = vec4(outward, curvature);
-    float part = curvature == 0.0 ? 0.0 : sign(curvature) * length(flow) / 4.0;
-    return vec4(part, abs(part), dot(position_of(v), normal) / 18.0, 0.0);  // each triangle counts at 3 corners
+    vec2 integrals = on_boundary(v) ? vec2(0.0) : vec2(along(flow, normal, doubled_areas), length(flow)) / 4.0;
+    return vec4(integrals, dot(position_of(v), normal) / 18.0, 0.0);  // each triangle counts at 3 corners
 }
 
 void main() {

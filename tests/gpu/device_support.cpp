@@ -8,9 +8,19 @@
 #include "geometry/errors.h"
 #include "geometry/io/surface_file.h"
 #include "geometry/measure.h"
+#include "geometry/repair.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {
+
+namespace {
+
+/// Without triangles that lie on each other, whose normals are what rounding leaves of their sum.
+Surface repaired(const Surface& surface) {
+    return repair(surface).surface;
+}
+
+}  // namespace
 
 std::optional<TestDevice> test_device() {
     try {
@@ -37,7 +47,7 @@ std::vector<NamedSurface> varied_surfaces() {
     for (const char* name : {"v4a_ideal_bifurcation_aneurysm.stl", "vampy_left_atrium.vtp",
                              "jk_carotid_left_lumen_raw.stl", "vmtk_aorta_surface_open_ends.stl"})
         if (const std::string path = shared_data(std::string("surfaces/") + name); !path.empty())
-            all.push_back({name, read_surface(path).surface});
+            all.push_back({name, repaired(read_surface(path).surface)});
     return all;
 }
 

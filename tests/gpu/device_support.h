@@ -30,8 +30,8 @@ struct NamedSurface {
     Surface surface;
 };
 
-/// A noisy sphere far from the origin, an open tube, and surfaces from ../shared/data where they
-/// are.
+/// A noisy sphere far from the origin, an open tube, and repaired surfaces from ../shared/data
+/// where they are.
 [[nodiscard]] std::vector<NamedSurface> varied_surfaces();
 
 /// Distances of corresponding vertices by the diagonal of the first one's bounding box, ascending.

@@ -19,20 +19,13 @@ namespace {
 
 /// The CPU's measures of a state, its error against `original`.
 DeviceMeasures on_cpu(const Surface& original, const Positions& moved) {
-    const Surface state = original.with_positions(moved);
-    const LocalError error = local_error(*original.topology, original.points(), moved);
-    const LocalError thesis =
-        local_error(*original.topology, original.points(), moved, LocalErrorForm::Thesis);
-    DeviceMeasures measures{.error = error.mean,
-                            .largest_error = error.largest,
-                            .error_thesis = thesis.mean,
-                            .volume = volume(state)};
-    const MeanCurvature curvature = mean_curvature(state);
-    for (std::size_t v = 0; v < curvature.values.size(); ++v) {
-        measures.curvature += curvature.values[v] * curvature.areas[v];
-        measures.curvature_abs += std::abs(curvature.values[v]) * curvature.areas[v];
-    }
-    return measures;
+    const SurfaceMeter meter(*original.topology, original.points(), true);
+    std::vector<detail::PackRow> packs(moved.size());
+    for (std::size_t v = 0; v < packs.size(); ++v)
+        packs[v] = {{moved[v].x(), moved[v].y(), moved[v].z(), 0.0}};
+    auto references = meter.own_references();
+    return {meter.follow_and_measure(packs, references),
+            local_error(*original.topology, original.points(), moved).largest};
 }
 
 void check_close(const char* what, double device, double cpu, double diagonal) {
@@ -41,12 +34,14 @@ void check_close(const char* what, double device, double cpu, double diagonal) {
 }
 
 void check_all(const DeviceMeasures& device, const DeviceMeasures& cpu, double diagonal) {
-    check_close("error", device.error, cpu.error, diagonal);
+    check_close("error", device.quality.error, cpu.quality.error, diagonal);
     check_close("largest error", device.largest_error, cpu.largest_error, diagonal);
-    check_close("error of the thesis", device.error_thesis, cpu.error_thesis, diagonal);
-    check_close("curvature", device.curvature, cpu.curvature, diagonal);
-    check_close("absolute curvature", device.curvature_abs, cpu.curvature_abs, diagonal);
-    check_close("volume", device.volume, cpu.volume, 0.0);
+    check_close("error of the thesis", device.quality.error_thesis, cpu.quality.error_thesis,
+                diagonal);
+    check_close("curvature", device.quality.curvature, cpu.quality.curvature, diagonal);
+    check_close("absolute curvature", device.quality.curvature_abs, cpu.quality.curvature_abs,
+                diagonal);
+    check_close("volume", device.quality.volume, cpu.quality.volume, 0.0);
 }
 
 }  // namespace
@@ -113,7 +108,7 @@ SCENARIO("A sphere measures as a sphere on the device", "[gpu][meter]") {
     const auto device = uploaded(*test, icosphere(radius, 5, Vec3(300.0, -20.0, 5.0)));
     GpuMeter meter(device);
     meter.measure(device->shifts());
-    const DeviceMeasures measures = meter.read().front();
+    const QualityMeasures measures = meter.read().front().quality;
     CHECK(measures.error == Approx(0.0).margin(1e-5));
     CHECK(measures.curvature == Approx(4.0 * pi * radius).epsilon(2e-3));
     CHECK(measures.curvature_abs == Approx(measures.curvature));
@@ -127,19 +122,19 @@ SCENARIO("Many states are measured before one reading", "[gpu][meter]") {
     GpuSmoother smoother(device, {.keep_boundary = false});
     GpuMeter many(device, 4), one(device);
     smoother.start(LaplaceParameters{});
-    std::vector<DeviceMeasures> singly;
+    std::vector<QualityMeasures> singly;
     for (std::size_t i = 0; i < 4; ++i) {
         many.measure(smoother.shifts(), i);
         one.measure(smoother.shifts());
-        singly.push_back(one.read().front());
+        singly.push_back(one.read().front().quality);
         smoother.run(5);
     }
     const auto together = many.read(4);
     for (std::size_t i = 0; i < 4; ++i) {
-        CHECK(together[i].error == singly[i].error);
-        CHECK(together[i].volume == singly[i].volume);
-        if (i > 0) CHECK(together[i].error > together[i - 1].error);
-        if (i > 0) CHECK(together[i].volume < together[i - 1].volume);
+        CHECK(together[i].quality.error == singly[i].error);
+        CHECK(together[i].quality.volume == singly[i].volume);
+        if (i > 0) CHECK(together[i].quality.error > together[i - 1].quality.error);
+        if (i > 0) CHECK(together[i].quality.volume < together[i - 1].quality.volume);
     }
 }
 
@@ -156,7 +151,7 @@ SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") 
     const auto own = read_storage<VertexId>(references, count);
     CHECK(own == own_references(*device->surface().topology));
     meter.measure(smoother.shifts(), references, false);
-    const double unfollowed = meter.read().front().error;
+    const double unfollowed = meter.read().front().quality.error;
     CHECK(read_storage<VertexId>(references, count) == own);
     meter.follow(smoother.shifts(), references);
     const auto followed = read_storage<VertexId>(references, count);
@@ -166,5 +161,5 @@ SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") 
                  wanted);
     CHECK(followed == wanted);
     meter.measure(smoother.shifts(), references, true);
-    CHECK(meter.read().front().error == Approx(unfollowed));
+    CHECK(meter.read().front().quality.error == Approx(unfollowed));
 }

@@ -1,0 +1,235 @@
+#include "gpu/gpu_engine.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "gpu/gpu_meter.h"
+#include "gpu/gpu_smoother.h"
+
+namespace vesselbench {
+
+namespace {
+
+Surface surface_of(const FilterGround& ground) {
+    Surface surface;
+    surface.topology = ground.topology;
+    surface.positions = ground.start;
+    surface.patch_labels = std::make_shared<const PatchLabels>(ground.topology->triangle_count(),
+                                                               PatchLabels::value_type{0});
+    return surface;
+}
+
+/// What runs have in common.
+struct Common {
+    HeldDevice held;
+    std::shared_ptr<const DeviceSurface> surface;
+    GpuMeter meter;
+};
+
+class GpuRun final : public MeasuredRun {
+public:
+    GpuRun(std::shared_ptr<Common> common, GpuSmoother smoother)
+        : common_(std::move(common)),
+          smoother_(std::move(smoother)),
+          references_(common_->meter.make_references()) {}
+
+    void advance_to(int iterations, const Progress& progress) override {
+        while (smoother_.iterations_done() < iterations) {
+            follow();
+            const int done = smoother_.iterations_done();
+            const int next = (done / kFollowEvery + 1) * kFollowEvery;
+            smoother_.run(std::min(next, iterations) - done, progress);
+            followed_ = false;
+            progress.check_cancelled();
+        }
+    }
+
+    [[nodiscard]] int iterations() const override { return smoother_.iterations_done(); }
+
+    [[nodiscard]] QualityMeasures measure() override {
+        const bool follows = !followed_ && at_stop();
+        common_->meter.measure(smoother_.shifts(), references_, follows);
+        followed_ = followed_ || follows;
+        return common_->meter.read().front().quality;
+    }
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
+        auto other = std::make_unique<GpuRun>(common_, smoother_.copy());
+        copy_storage(references_, other->references_,
+                     common_->surface->vertex_count() * sizeof(VertexId));
+        other->followed_ = followed_;
+        return other;
+    }
+
+private:
+    [[nodiscard]] bool at_stop() const { return iterations() % kFollowEvery == 0; }
+
+    void follow() {
+        if (!followed_ && at_stop()) common_->meter.follow(smoother_.shifts(), references_);
+        followed_ = true;
+    }
+
+    std::shared_ptr<Common> common_;
+    GpuSmoother smoother_;
+    Buffer references_;
+    bool followed_ = true;  ///< the references passed the last stop
+};
+
+class GpuEngine final : public SmoothingEngine {
+public:
+    GpuEngine(HeldDevice held, const FilterGround& ground, bool planes)
+        : common_(make_common(std::move(held), ground, planes)),
+          prototype_(common_->surface, {.fixed = ground.fixed,
+                                        .keep_boundary = ground.keep_boundary,
+                                        .rings = ground.rings,
+                                        .constraint = ground.constraint}),
+          mean_edge_(mean_edge_length(common_->surface->surface())) {
+        common_->meter.measure(common_->surface->shifts());
+        original_ = common_->meter.read().front().quality;
+    }
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
+        GpuSmoother smoother = prototype_.copy();
+        if (choice.weights) smoother.set_weights(*choice.weights);
+        smoother.start(choice.filter);
+        return std::make_unique<GpuRun>(common_, std::move(smoother));
+    }
+
+    [[nodiscard]] const QualityMeasures& original() const override { return original_; }
+
+    [[nodiscard]] double mean_edge() const override { return mean_edge_; }
+
+    [[nodiscard]] bool concurrent() const override { return false; }
+
+    [[nodiscard]] std::size_t run_bytes() const override {
+        return common_->surface->vertex_count() * 56;
+    }
+
+private:
+    static std::shared_ptr<Common> make_common(HeldDevice held, const FilterGround& ground,
+                                               bool planes) {
+        auto surface = std::make_shared<const DeviceSurface>(held.device, surface_of(ground));
+        GpuMeter meter(surface, 1, planes);
+        return std::make_shared<Common>(
+            Common{std::move(held), std::move(surface), std::move(meter)});
+    }
+
+    std::shared_ptr<Common> common_;
+    GpuSmoother prototype_;
+    double mean_edge_ = 0.0;
+    QualityMeasures original_;
+};
+
+/// The GPU's engine with the CPU's behind it.
+class SafeEngine final : public SmoothingEngine, public std::enable_shared_from_this<SafeEngine> {
+public:
+    SafeEngine(std::shared_ptr<const SmoothingEngine> gpu, FilterGround ground, bool planes)
+        : gpu_(std::move(gpu)), ground_(std::move(ground)), planes_(planes) {}
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override;
+
+    [[nodiscard]] const QualityMeasures& original() const override { return gpu_->original(); }
+
+    [[nodiscard]] double mean_edge() const override { return gpu_->mean_edge(); }
+
+    [[nodiscard]] bool concurrent() const override { return false; }
+
+    [[nodiscard]] std::size_t run_bytes() const override { return gpu_->run_bytes(); }
+
+    /// A run on the CPU that stands where another one stood; there is no way back to the GPU.
+    [[nodiscard]] std::unique_ptr<MeasuredRun> cpu_run(const SmoothingChoice& choice,
+                                                       int iterations) const {
+        if (!cpu_) cpu_ = make_cpu_engine(ground_, planes_);
+        auto run = cpu_->start(choice);
+        run->advance_to(iterations, {});
+        return run;
+    }
+
+private:
+    std::shared_ptr<const SmoothingEngine> gpu_;
+    FilterGround ground_;
+    bool planes_;
+    mutable std::shared_ptr<const SmoothingEngine> cpu_;  ///< once the device has failed
+};
+
+class SafeRun final : public MeasuredRun {
+public:
+    SafeRun(std::shared_ptr<const SafeEngine> engine, SmoothingChoice choice,
+            std::unique_ptr<MeasuredRun> run)
+        : engine_(std::move(engine)), choice_(std::move(choice)), run_(std::move(run)) {}
+
+    void advance_to(int iterations, const Progress& progress) override {
+        try {
+            run_->advance_to(iterations, progress);
+        } catch (const GpuUnavailable&) {
+            take_over(done_);
+            run_->advance_to(iterations, progress);
+        }
+        done_ = run_->iterations();
+    }
+
+    [[nodiscard]] int iterations() const override { return done_; }
+
+    [[nodiscard]] QualityMeasures measure() override {
+        try {
+            return run_->measure();
+        } catch (const GpuUnavailable&) {
+            take_over(done_);
+            return run_->measure();
+        }
+    }
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
+        std::unique_ptr<MeasuredRun> other;
+        try {
+            other = run_->copy();
+        } catch (const GpuUnavailable&) {
+            other = engine_->cpu_run(choice_, done_);
+        }
+        auto safe = std::make_unique<SafeRun>(engine_, choice_, std::move(other));
+        safe->done_ = done_;
+        return safe;
+    }
+
+private:
+    void take_over(int iterations) { run_ = engine_->cpu_run(choice_, iterations); }
+
+    std::shared_ptr<const SafeEngine> engine_;
+    SmoothingChoice choice_;
+    std::unique_ptr<MeasuredRun> run_;
+    int done_ = 0;
+};
+
+std::unique_ptr<MeasuredRun> SafeEngine::start(const SmoothingChoice& choice) const {
+    std::unique_ptr<MeasuredRun> run;
+    if (!cpu_) try {
+            run = gpu_->start(choice);
+        } catch (const GpuUnavailable&) {
+        }
+    if (!run) run = cpu_run(choice, 0);
+    return std::make_unique<SafeRun>(shared_from_this(), choice, std::move(run));
+}
+
+}  // namespace
+
+std::shared_ptr<const SmoothingEngine> make_gpu_engine(HeldDevice device,
+                                                       const FilterGround& ground, bool planes) {
+    return std::make_shared<GpuEngine>(std::move(device), ground, planes);
+}
+
+ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground, bool planes,
+                         const DeviceSource& source) {
+    ChosenDevice chosen = choose_device(choice, source);
+    if (chosen.device) try {
+            const std::string name = chosen.device->device.limits.renderer;
+            auto gpu = make_gpu_engine(std::move(*chosen.device), ground, planes);
+            return {std::make_shared<SafeEngine>(std::move(gpu), ground, planes), true, name, ""};
+        } catch (const GpuUnavailable& error) {
+            chosen.reason = error.what();
+        }
+    return {make_cpu_engine(ground, planes), false, "", chosen.reason};
+}
+
+}  // namespace vesselbench

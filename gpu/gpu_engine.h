@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "quality/smoothing_engine.h"
+
+#include "gpu/device_choice.h"
+
+namespace vesselbench {
+
+/// The engine of GpuSmoother and GpuMeter on a device; single precision.
+/// The engine and its runs are used and go on the thread where the device is current; a second one
+/// on another thread needs a context of its own.
+/// \param planes measures error_thesis too
+/// \throw InvalidInput if the ground does not fit together; GpuUnavailable if it does not fit the
+/// device. Runs throw GpuUnavailable when the context is lost.
+[[nodiscard]] std::shared_ptr<const SmoothingEngine> make_gpu_engine(HeldDevice device,
+                                                                     const FilterGround& ground,
+                                                                     bool planes = false);
+
+/// The engine that a choice stands for.
+struct ChosenEngine {
+    std::shared_ptr<const SmoothingEngine> engine;
+    bool on_gpu = false;
+    std::string device_name;  ///< the driver's name; empty on the CPU
+    std::string reason;       ///< why the CPU serves where it was not asked for; else empty
+};
+
+/// The GPU's engine or the CPU's. Where the device fails half-way, the CPU takes over: runs go on
+/// from where they were, and later ones start there.
+/// \throw InvalidInput if the ground does not fit together
+[[nodiscard]] ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground,
+                                       bool planes = false,
+                                       const DeviceSource& source = offscreen_device);
+
+}  // namespace vesselbench
