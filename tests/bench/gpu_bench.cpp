@@ -1,0 +1,178 @@
+// Times smoothing, measures and the exhaustive search on the GPU, and prints a row each. Renderers
+// that compute on the CPU are named and skipped.
+//   bench_gpu [--any-device] [VERTICES]...     250000 and 7000000 vertices when none are given
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "quality/quality_table.h"
+
+#include "geometry/errors.h"
+#include "gpu/device_choice.h"
+#include "gpu/gpu_engine.h"
+#include "gpu/gpu_meter.h"
+#include "gpu/gpu_smoother.h"
+#include "tests/bench/organ.h"
+#include "tests/bench/stopwatch.h"
+
+namespace vesselbench::bench {
+
+namespace {
+
+constexpr int kIterations = 20;
+constexpr int kRepeats = 11;
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+/// Milliseconds that the device is busy with some work: the median of several times, after two to
+/// warm up. By the clock where the driver does not time its commands, as llvmpipe.
+double device_milliseconds(const std::function<void()>& work) {
+    const DeviceTimer timer;
+    std::vector<double> times;
+    for (int repeat = -2; repeat < kRepeats; ++repeat) {
+        finish_device();
+        const Stopwatch watch;
+        timer.start();
+        work();
+        timer.stop();
+        finish_device();
+        const double by_clock = 1e3 * watch.seconds(), time = timer.milliseconds();
+        if (repeat >= 0) times.push_back(time > 0.01 * by_clock ? time : by_clock);
+    }
+    return median(times);
+}
+
+/// Bytes a second that a copy from buffer to buffer reads and writes together.
+double copy_bandwidth(const Device& device) {
+    const std::size_t bytes =
+        std::min(device.limits.largest_storage_block, std::size_t{1} << 30) & ~std::size_t{4095};
+    const Buffer from = make_storage(device, bytes, "copied from");
+    const Buffer to = make_storage(device, bytes, "copied to");
+    const double time = device_milliseconds([&] { copy_storage(from, to, bytes); });
+    return 2.0 * static_cast<double>(bytes) / (1e-3 * time);
+}
+
+/// What 20 iterations of Laplace+HC and the measures cannot do without [bytes]: every array that a
+/// pass needs read once, and written once.
+double least_bytes(const Topology& topology) {
+    const auto vertices = static_cast<double>(topology.vertex_count());
+    const double neighbours = 4.0 * static_cast<double>(topology.rings().values.size());
+    const double corners = 8.0 * static_cast<double>(topology.triangles_at().values.size());
+    const double shifts = 16.0 * vertices, offsets = 4.0 * vertices;
+    // own shifts and the anchors' umbrella or what the last pass left in; moved ones out
+    const double pass = 3.0 * shifts + offsets + neighbours;
+    // shifts and anchors in, normals out
+    const double shape = 3.0 * shifts + offsets + corners;
+    // both shifts, anchors and references in, references and errors out
+    const double error = 3.0 * shifts + offsets + corners + 12.0 * vertices;
+    return 2.0 * kIterations * pass + shape + error;
+}
+
+void time_smoothing(const HeldDevice& held, const Surface& surface, double bandwidth) {
+    const auto on_device = std::make_shared<const DeviceSurface>(held.device, surface);
+    GpuSmoother smoother(on_device, {});
+    GpuMeter meter(on_device);
+    const auto vertices = static_cast<double>(surface.vertex_count());
+    const double target = vertices < 1e6 ? 1.0 : 20.0;
+    const double whole = device_milliseconds([&] {
+        smoother.start(LaplaceHcParameters{});
+        meter.restart();
+        smoother.run(kIterations);
+        meter.measure(smoother.shifts());
+    });
+    const double filter = device_milliseconds([&] {
+        smoother.start(LaplaceHcParameters{});
+        smoother.run(kIterations);
+    });
+    const double share = least_bytes(*surface.topology) / (1e-3 * whole) / bandwidth;
+    std::printf(
+        "%9.0f vertices, 20 iterations of Laplace+HC, normals, error, curvature, volume: "
+        "%.3f ms (filter alone %.3f ms), target < %.0f: %s\n",
+        vertices, whole, filter, target, whole < target ? "met" : "not met");
+    std::printf("          %.0f %% of the copy bandwidth%s\n", 100.0 * share,
+                vertices < 1e6 ? ""
+                : share >= 0.4 ? ", target >= 40: met"
+                               : ", target >= 40: not met");
+    std::fflush(stdout);
+}
+
+std::vector<ParameterSet> all_sets() {
+    std::vector<ParameterSet> sets;
+    for (int lambda = 0; lambda <= 10; ++lambda)
+        for (int iterations = 0; iterations <= 50; iterations += 5)
+            sets.push_back({0.1 * lambda, static_cast<double>(iterations)});
+    return sets;
+}
+
+void time_search(const HeldDevice& held, const Surface& surface) {
+    const auto engine =
+        make_gpu_engine(held, {.topology = surface.topology, .start = surface.positions});
+    const Chooser laplace = [](std::span<const double> values) {
+        return SmoothingChoice{LaplaceParameters{values[0]}, nullptr};
+    };
+    std::vector<double> times;
+    for (int repeat = -1; repeat < kRepeats; ++repeat) {
+        QualityTable table(engine, laplace, 0);
+        const Stopwatch watch;
+        table.find(all_sets());
+        if (repeat >= 0) times.push_back(1e3 * watch.seconds());
+    }
+    std::printf("%9zu vertices, exhaustive suggestion of 11 x 11 sets: %.1f ms%s\n",
+                surface.vertex_count(), median(times),
+                surface.vertex_count() > 300'000 ? ""
+                : median(times) < 30.0           ? ", target < 30: met"
+                                                 : ", target < 30: not met");
+    std::fflush(stdout);
+}
+
+void time_all(bool any_device, const std::vector<double>& sizes) {
+    const ChosenDevice chosen = choose_device(any_device ? DeviceChoice::Gpu : DeviceChoice::Auto);
+    if (!chosen.device) {
+        std::printf("GPU rows skipped: %s\n", chosen.reason.c_str());
+        return;
+    }
+    const HeldDevice& held = *chosen.device;
+    const double bandwidth = copy_bandwidth(held.device);
+    std::printf("%s, OpenGL %d.%d, copies %.0f GB/s (read and written), medians of %d\n",
+                held.device.limits.renderer.c_str(), held.device.limits.major,
+                held.device.limits.minor, 1e-9 * bandwidth, kRepeats);
+    for (const double size : sizes) {
+        const Surface surface = organ(size);
+        time_smoothing(held, surface, bandwidth);
+        time_search(held, surface);
+    }
+}
+
+}  // namespace
+
+}  // namespace vesselbench::bench
+
+int main(int count, char** words) {
+    bool any_device = false;
+    std::vector<double> sizes;
+    for (int i = 1; i < count; ++i) {
+        if (std::strcmp(words[i], "--any-device") == 0) {
+            any_device = true;
+        } else if (const double size = std::atof(words[i]); size >= 1000.0) {
+            sizes.push_back(size);
+        } else {
+            std::fprintf(stderr, "usage: bench_gpu [--any-device] [VERTICES]...\n");
+            return 2;
+        }
+    }
+    if (sizes.empty()) sizes = {250e3, 7e6};
+    try {
+        vesselbench::bench::time_all(any_device, sizes);
+    } catch (const vesselbench::GpuUnavailable& error) {
+        std::printf("GPU rows end here: %s\n", error.what());
+    }
+    return 0;
+}
