@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/picture.h"
 
@@ -12,9 +13,16 @@ Colour diverging_colour(double value) {
 }
 
 Colour heated_colour(double value) {
-    const auto v = static_cast<float>(std::clamp(value, 0.0, 1.0)) * 3.0F;
-    return {std::clamp(v, 0.0F, 1.0F), std::clamp(v - 1.0F, 0.0F, 1.0F),
-            std::clamp(v - 2.0F, 0.0F, 1.0F)};
+    // Luminances of full red, green and blue (sRGB); of a CIE 1976 lightness of 100 * value.
+    constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;
+    const double lightness = 100.0 * std::clamp(value, 0.0, 1.0);
+    const double luminance =
+        lightness > 8.0 ? std::pow((lightness + 16.0) / 116.0, 3.0) : lightness / 903.3;
+    const auto part = [](double amount) {
+        return static_cast<float>(std::clamp(amount, 0.0, 1.0));
+    };
+    return {part(luminance / kRed), part((luminance - kRed) / kGreen),
+            part((luminance - kRed - kGreen) / kBlue)};
 }
 
 }  // namespace vesselbench

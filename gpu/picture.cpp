@@ -67,6 +67,14 @@ std::vector<Corner> corners(const Surface& surface, const Vec3& centre,
     return list;
 }
 
+/// Corners of another surface, whose colours do not count.
+std::vector<Corner> wire_corners(const Surface& wires, const Vec3& centre,
+                                 const PictureOptions& options) {
+    PictureOptions plain = options;
+    plain.vertex_colours.clear();
+    return corners(wires, centre, plain);
+}
+
 struct Camera {
     Eigen::Matrix4f to_clip = Eigen::Matrix4f::Identity();
     Eigen::Matrix3f to_eye = Eigen::Matrix3f::Identity();
@@ -88,7 +96,8 @@ Camera camera_for(const Surface& surface, const Vec3& centre, const PictureOptio
         radius = std::max(radius, (p - centre).norm());
     }
     const double aspect = static_cast<double>(options.width) / options.height;
-    const double half_height = 1.06 * std::max(reach.y(), reach.x() / aspect) / options.zoom;
+    const double fitting = 1.06 * std::max(reach.y(), reach.x() / aspect) / options.zoom;
+    const double half_height = options.half_height > 0.0 ? options.half_height : fitting;
     Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
     clip.topLeftCorner<3, 3>() =
         Vec3(1.0 / (half_height * aspect), 1.0 / half_height, -0.5 / radius).asDiagonal() * eye;
@@ -146,6 +155,21 @@ VertexArray describe_corners() {
     return array;
 }
 
+// How far edges are pulled towards the eye, by the depth of the model: over their own triangles,
+// and over a smoothed surface that rose above the original.
+constexpr float kOwnPull = 2e-4F, kWirePull = 1e-2F;
+
+/// The edges of the corners that are bound.
+void draw_edges(GLsizei count, const Camera& camera, float pull) {
+    const Program lines = make_program("lines");
+    set_matrices(lines, camera);
+    glUniform4f(glGetUniformLocation(lines.id(), "line_colour"), 0.1F, 0.1F, 0.12F, 1.0F);
+    glUniform1f(glGetUniformLocation(lines.id(), "pull"), pull);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    glDrawArrays(GL_TRIANGLES, 0, count);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
 void draw_corners(const std::vector<Corner>& list, const Camera& camera, bool edges) {
     const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "surface corners");
     const VertexArray array = describe_corners();
@@ -153,12 +177,14 @@ void draw_corners(const std::vector<Corner>& list, const Camera& camera, bool ed
     const Program surface = make_program("surface");
     set_matrices(surface, camera);
     glDrawArrays(GL_TRIANGLES, 0, count);
-    if (!edges) return;
-    const Program lines = make_program("lines");
-    set_matrices(lines, camera);
-    glUniform4f(glGetUniformLocation(lines.id(), "line_colour"), 0.1F, 0.1F, 0.12F, 1.0F);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glDrawArrays(GL_TRIANGLES, 0, count);
+    if (edges) draw_edges(count, camera, kOwnPull);
+}
+
+/// Edges of another surface over what is drawn already.
+void draw_wires(const std::vector<Corner>& list, const Camera& camera) {
+    const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "wire corners");
+    const VertexArray array = describe_corners();
+    draw_edges(static_cast<GLsizei>(list.size()), camera, kWirePull);
 }
 
 Picture read_back(int width, int height) {
@@ -187,9 +213,10 @@ void check(const Surface& surface, const PictureOptions& options) {
 
 Picture draw(const Surface& surface, const PictureOptions& options) {
     check(surface, options);
+    const Surface& frame = options.frame ? *options.frame : surface;
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : surface.points()) box.extend(p);
-    const Camera camera = camera_for(surface, box.center(), options);
+    for (const Vec3& p : frame.points()) box.extend(p);
+    const Camera camera = camera_for(frame, box.center(), options);
     const OffscreenContext context;
     const Target multisampled(options.width, options.height, kSamples);
     glViewport(0, 0, options.width, options.height);
@@ -197,6 +224,7 @@ Picture draw(const Surface& surface, const PictureOptions& options) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
     draw_corners(corners(surface, box.center(), options), camera, options.edges);
+    if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
     const Target plain(options.width, options.height, 0);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled.frame.id());
     glBlitFramebuffer(0, 0, options.width, options.height, 0, 0, options.width, options.height,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,11 @@ struct PictureOptions {
     bool edges = false;  ///< draw the triangles' edges
     std::vector<Colour> vertex_colours;  ///< #V; empty: by patch (wall, inlet, outlets)
     bool sharp = false;                  ///< one normal per triangle instead of smooth shading
+    /// What the camera is set up for in place of the surface: pictures side by side show the same.
+    std::shared_ptr<const Surface> frame = nullptr;
+    double half_height = 0.0;  ///< what the picture shows above its middle [mm]; 0: as zoom says
+    /// Another surface whose edges are drawn over this one, where they are not far behind it.
+    std::shared_ptr<const Surface> wires = nullptr;
 };
 
 /// Draws a surface off the screen, 4 samples a pixel, orthographic, on white.
@@ -40,8 +46,8 @@ struct PictureOptions {
 /// Blue - white - red for -1...0...1, for signed deviations.
 [[nodiscard]] Colour diverging_colour(double value);
 
-/// The linearised heated-object scale (black - red - yellow - white) for 0...1, after Levkowitz and
-/// Herman 1992.
+/// The linearised heated-object scale (black - red - yellow - white) for 0...1: equal steps are
+/// equal steps of lightness. Source: Levkowitz, Herman, "Color scales for image data", 1992.
 [[nodiscard]] Colour heated_colour(double value);
 
 /// The picture as a PNG file's bytes.

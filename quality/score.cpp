@@ -34,7 +34,7 @@ ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures, S
         return {ratio(measures.curvature, original.curvature, 1.0),
                 measures.error_thesis / (original.error_thesis + 1.0), volume};
     return {ratio(measures.curvature_abs, original.curvature_abs, 1.0),
-            ratio(measures.error, base.mean_edge, 0.0), volume};
+            kErrorWeight * ratio(measures.error, base.mean_edge, 0.0), kVolumeWeight * volume};
 }
 
 double score(const ScoreTerms& terms, double tau) {

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 /// How curvature, error and volume become one number.
 enum class ScoreForm : std::uint8_t {
-    Default,  ///< no unit: integral of |H|, error by the mean edge
+    Default,  ///< no unit: integral of |H|, 4 errors by the mean edge, 8 volume changes
     Thesis    ///< `score-thesis`: Eq. 6.6 as printed, signed curvature and an error in mm
 };
 
@@ -22,12 +22,17 @@ struct ScoreSettings {
     double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth
 };
 
-/// The parts of a score, each the smaller the better [-] (score-thesis: the error in mm).
+/// The parts of a score, weighted as its form does it, each the smaller the better [-]
+/// (score-thesis: the error in mm).
 struct ScoreTerms {
     double curvature = 1.0;  ///< by the original's
     double error = 0.0;
     double volume = 0.0;  ///< change, by the original's
 };
+
+/// What the default score multiplies error and volume change with: so tau 0.5 ends nearest to the
+/// true surface on noisy spheres, tori, furcations and aneurysms (docs/experiments-suggestions.md).
+constexpr double kErrorWeight = 4.0, kVolumeWeight = 8.0;
 
 /// What measures are compared with.
 struct ScoreBase {

@@ -92,7 +92,7 @@ Suggestion ParameterSearch::best_of(const std::vector<ParameterSet>& sets,
     return *best;
 }
 
-Suggestion ParameterSearch::exhaustive(bool coarse, const Progress& progress) {
+std::vector<ParameterSet> ParameterSearch::grid(bool coarse) const {
     std::vector<std::vector<double>> rows;
     for (const SearchParameter& parameter : space_.parameters)
         rows.push_back(chosen_values(parameter, coarse));
@@ -102,7 +102,11 @@ Suggestion ParameterSearch::exhaustive(bool coarse, const Progress& progress) {
         for (std::size_t i = 0; i < at.size(); ++i) set.push_back(rows[i][at[i]]);
         sets.push_back(std::move(set));
     });
-    return best_of(sets, progress);
+    return sets;
+}
+
+Suggestion ParameterSearch::exhaustive(bool coarse, const Progress& progress) {
+    return best_of(grid(coarse), progress);
 }
 
 std::vector<ParameterSet> ParameterSearch::neighbourhood(const Place& centre,

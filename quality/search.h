@@ -40,7 +40,10 @@ public:
     ParameterSearch(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
                     ScoreSettings settings);
 
-    /// All sets of the grid, or of its coarse values. \throw Cancelled
+    /// All sets of the grid, or of its coarse values.
+    [[nodiscard]] std::vector<ParameterSet> grid(bool coarse) const;
+
+    /// The best of them. \throw Cancelled
     [[nodiscard]] Suggestion exhaustive(bool coarse, const Progress& progress = {});
 
     /// From n starts, each near the largest value of one of the n parameters and near the smallest
@@ -64,6 +67,8 @@ public:
     [[nodiscard]] const SearchSpace& space() const { return space_; }
 
     [[nodiscard]] QualityTable& table() { return table_; }
+
+    [[nodiscard]] const QualityTable& table() const { return table_; }
 
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 

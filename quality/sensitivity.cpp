@@ -54,11 +54,14 @@ std::string to_string(QualityMeasure measure) {
 QualityScale quality_scale(QualityTable& table, const Progress& progress) {
     const QualityMeasures& original = table.engine().original();
     const QualityMeasures& strong = table.strong(progress);
-    return {original.curvature_abs, strong.error, strong.volume - original.volume, original.volume};
+    const bool lessens = strong.curvature_abs < original.curvature_abs;
+    return {original.curvature_abs, lessens ? strong.curvature_abs : 0.0, strong.error,
+            strong.volume - original.volume, original.volume};
 }
 
 ScaledQuality scaled_quality(const QualityScale& scale, const QualityMeasures& measures) {
-    return {scale.curvature_abs != 0.0 ? measures.curvature_abs / scale.curvature_abs : 1.0,
+    const double whole = scale.curvature_abs - scale.curvature_zero;
+    return {whole != 0.0 ? (measures.curvature_abs - scale.curvature_zero) / whole : 1.0,
             share(measures.error, scale.error),
             share(measures.volume - scale.original_volume, scale.volume)};
 }

@@ -10,9 +10,11 @@ namespace vesselbench {
 
 /// Measures scaled for graphs and bars (thesis 6.5.3) [-].
 struct ScaledQuality {
-    double curvature = 1.0;  ///< integral of |H| by the original's
-    double error = 0.0;      ///< mean local error by that of very strong smoothing
-    double volume = 0.0;     ///< size of the volume change by that of very strong smoothing
+    /// Integral of |H|: 1 of the original, 0 of very strong smoothing; by the original's where
+    /// strong smoothing does not lessen it.
+    double curvature = 1.0;
+    double error = 0.0;   ///< mean local error by that of very strong smoothing
+    double volume = 0.0;  ///< size of the volume change by that of very strong smoothing
 };
 
 /// What one value of a parameter gives while the others stay; empty where the set is left out.
@@ -35,6 +37,7 @@ struct QualityCurve {
 /// What 100 % of a graph stands for.
 struct QualityScale {
     double curvature_abs = 0.0;    ///< of the original [mm]
+    double curvature_zero = 0.0;   ///< of very strong smoothing, what 0 % stands for [mm]
     double error = 0.0;            ///< of very strong smoothing [mm]
     double volume = 0.0;           ///< change by very strong smoothing [mm^3], with its sign
     double original_volume = 0.0;  ///< [mm^3]

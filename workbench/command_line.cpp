@@ -40,6 +40,19 @@ constexpr const char* kPictureFooter =
     "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
     "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
 
+constexpr const char* kSuggestFooter =
+    "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by "
+    "tau;\n"
+    "the rows below the first one are little, medium and strong smoothing.\n\n"
+    "  vesselbench suggest aorta.vbench --filter laplace --tau 0.4\n"
+    "  vesselbench suggest aorta.vbench staircase=true";
+
+constexpr const char* kQualityFooter =
+    "Graphs and bars start from the given arguments of smooth (or its defaults) and change one\n"
+    "parameter at a time. Errors and volumes are shares of what 50 iterations of Laplace with\n"
+    "lambda 1 do; curvature is a share of the original's.\n\n"
+    "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png";
+
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
     "'vesselbench COMMAND --help' explains a command, 'vesselbench operations' the operations.";
@@ -245,6 +258,84 @@ void add_picture(CommandLine& line) {
     command.footer(kPictureFooter);
 }
 
+void add_subject(CLI::App& command, std::string& source, std::vector<std::string>& arguments,
+                 std::string& filter) {
+    command.add_option("SOURCE", source, "Project (.vbench) or surface file")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("parameter=value", arguments,
+                    "Arguments of the operation smooth that stay; staircase=true searches its "
+                    "thresholds, too")
+        ->type_name("");
+    command.add_option("--filter", filter, "Filter (default: what smooth takes)")
+        ->type_name("NAME");
+}
+
+void add_suggest(CommandLine& line) {
+    const auto options = std::make_shared<SuggestOptions>();
+    CLI::App& command =
+        add_command(line, "suggest", "Suggest parameters for smoothing a surface",
+                    [options, &line] { return suggest_parameters(*options, line.progress), 0; });
+    add_subject(command, options->source, options->arguments, options->filter);
+    command.add_option("--tau", options->tau, "Target smoothness, from 0 (accurate) to 1 (smooth)")
+        ->capture_default_str()
+        ->type_name("TAU");
+    command.add_option("--score", options->score, "default, or thesis: its Eq. 6.6 as printed")
+        ->capture_default_str()
+        ->type_name("FORM");
+    command
+        .add_option("--search", options->search,
+                    "automatic, coarse (steps of 0.1 and 5 iterations), exhaustive (0.05 and 1) or "
+                    "pattern")
+        ->capture_default_str()
+        ->type_name("WAY");
+    command.add_flag("--json", options->json, "Print one JSON document");
+    command.add_flag("--grid", options->grid, "With --json: the measures of all coarse sets, too");
+    command
+        .add_option("--truth", options->truth,
+                    "With --grid: how far each set ends from this surface, which is known to be "
+                    "true")
+        ->type_name("FILE");
+    command
+        .add_option("--units", options->units, "Unit of surface files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.footer(kSuggestFooter);
+}
+
+void add_quality(CommandLine& line) {
+    const auto options = std::make_shared<QualityOptions>();
+    CLI::App& command =
+        add_command(line, "quality", "Draw how smoothing parameters change a surface's quality",
+                    [options, &line] { return draw_quality(*options, line.progress), 0; });
+    add_subject(command, options->source, options->arguments, options->filter);
+    command
+        .add_option("--out", options->out,
+                    "Where to: an .svg gets graphs, or bars if its name holds that word; a .png "
+                    "gets the gallery of three suggestions; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    command
+        .add_option("--tau", options->tau,
+                    "Target smoothness of the suggestions in graphs and bars")
+        ->capture_default_str()
+        ->type_name("TAU");
+    command.add_option("--sort", options->sort, "Bars by parameter or by measure")
+        ->capture_default_str()
+        ->type_name("ORDER");
+    command
+        .add_option("--at", options->at,
+                    "Place that the gallery magnifies [mm] (default: where smoothing moves most)")
+        ->delimiter(',')
+        ->expected(3)
+        ->type_name("X,Y,Z");
+    command
+        .add_option("--units", options->units, "Unit of surface files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.add_flag("--json", options->json, "Print the graphs' figures as one JSON document");
+    command.footer(kQualityFooter);
+}
+
 void add_centerlines(CommandLine& line) {
     const auto options = std::make_shared<CenterlineOptions>();
     CLI::App& command =
@@ -289,6 +380,8 @@ void set_up(CommandLine& line) {
     add_export(line);
     add_measure(line);
     add_picture(line);
+    add_suggest(line);
+    add_quality(line);
     add_centerlines(line);
     add_operations(line);
     add_phantom(line);

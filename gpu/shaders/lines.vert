@@ -2,8 +2,9 @@
 // Draws the triangles' edges, pulled towards the eye a little so that they win over their own surface.
 layout(location = 0) in vec3 position;
 uniform mat4 to_clip;
+uniform float pull;  // by the depth of the model
 
 void main() {
     gl_Position = to_clip * vec4(position, 1.0);
-    gl_Position.z -= 2e-4 * gl_Position.w;
+    gl_Position.z -= pull * gl_Position.w;
 }

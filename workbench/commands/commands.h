@@ -77,6 +77,37 @@ struct PictureArguments {
 /// Draws a surface, coloured by patch or by its deviation from a reference.
 void draw_picture(const PictureArguments& arguments);
 
+struct SuggestOptions {
+    std::string source;                  ///< project or surface file
+    std::vector<std::string> arguments;  ///< "parameter=value" of smooth
+    std::string filter;                  ///< empty: as smooth decides
+    double tau = 0.5;                    ///< target smoothness
+    std::string score = "default";
+    std::string search = "automatic";
+    std::string truth;  ///< surface file; empty: none
+    std::string units;  ///< of surface files; empty: mm
+    bool grid = false;  ///< adds all coarse sets to the JSON document
+    bool json = false;
+};
+
+/// Suggests parameters for smoothing a surface.
+void suggest_parameters(const SuggestOptions& options, const Progress& progress);
+
+struct QualityOptions {
+    std::string source;
+    std::vector<std::string> arguments;
+    std::vector<std::string> out;  ///< .svg (graphs, or bars if its name holds that) and .png
+    std::string filter;
+    double tau = 0.5;
+    std::string sort = "parameter";  ///< of bars: parameter or measure
+    std::vector<double> at;          ///< artifact of the gallery, 3 numbers [mm]; empty: found
+    std::string units;
+    bool json = false;
+};
+
+/// Draws how smoothing parameters change a surface's quality.
+void draw_quality(const QualityOptions& options, const Progress& progress);
+
 struct CenterlineOptions {
     std::string surface;
     std::string out;    ///< .vtp

@@ -1,0 +1,108 @@
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/io/surface_file.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+ProgramRun program(const std::vector<std::string>& arguments) {
+    return run_program(VESSELBENCH_BINARY, arguments);
+}
+
+/// A noisy ball as a file.
+std::string ball_file(const std::string& folder) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> deviate(0.0, 0.2);
+    const Surface ball = mapped(icosphere(10.0, 3), [&](const Vec3& p) {
+        return Vec3(p + Vec3(deviate(random), deviate(random), deviate(random)));
+    });
+    const std::string file = folder + "/ball.vtp";
+    write_surface(ball, file);
+    return file;
+}
+
+std::string text_of(const std::string& file) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+}  // namespace
+
+SCENARIO("The command line suggests parameters", "[workbench][suggest]") {
+    const std::string folder = temporary_folder(), ball = ball_file(folder);
+    GIVEN("a surface file") {
+        const ProgramRun run = program({"suggest", ball, "--filter", "laplace", "--json"});
+        REQUIRE(run.exit_code == 0);
+        const Json json = Json::parse(run.out);
+        CHECK(json["suggestion"]["tau"] == 0.5);
+        CHECK(json["suggestion"]["parameters"]["iterations"] > 0);
+        CHECK(json["suggestion"]["curvature_abs_mm"] < json["original"]["curvature_abs_mm"]);
+        CHECK(json["suggestion"]["arguments"]["filter"] == "laplace");
+        CHECK(json["presets"].size() == 3);
+        CHECK(json["presets"][2]["tau"] == 1.0);
+    }
+    GIVEN("tau 0") {
+        const ProgramRun run = program({"suggest", ball, "--filter", "laplace", "--tau", "0"});
+        CHECK(run.exit_code == 0);
+        CHECK(run.out.find("do not smooth") != std::string::npos);
+    }
+    GIVEN("the grid and the truth") {
+        const std::string truth = folder + "/truth.vtp";
+        write_surface(icosphere(10.0, 3), truth);
+        const ProgramRun run = program({"suggest", ball, "--filter", "laplace", "--search",
+                                        "coarse", "--json", "--grid", "--truth", truth});
+        REQUIRE(run.exit_code == 0);
+        const Json grid = Json::parse(run.out)["grid"];
+        CHECK(grid.size() == 121);
+        CHECK(grid[0]["truth_mm"] > 0.05);
+    }
+    GIVEN("a project") {
+        const std::string project = folder + "/ball.vbench";
+        REQUIRE(program({"new", project, ball, "--units", "mm"}).exit_code == 0);
+        const ProgramRun run = program({"suggest", project, "--filter", "laplace"});
+        REQUIRE(run.exit_code == 0);
+        const auto at = run.out.find("vesselbench apply ball.vbench smooth filter=laplace");
+        CHECK(at != std::string::npos);
+    }
+    GIVEN("nonsense") {
+        CHECK(program({"suggest", ball, "--tau", "2"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--search", "fast"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "lambda=7"}).exit_code == 2);
+        CHECK(program({"suggest", folder + "/none.vtp"}).exit_code == 3);
+        CHECK(program({"suggest", ball, "--truth", ball}).exit_code == 2);
+        CHECK(program({"quality", ball}).exit_code == 2);
+        CHECK(program({"quality", ball, "--out", folder + "/x.pdf"}).exit_code == 2);
+    }
+}
+
+SCENARIO("The command line draws model quality graphs and bars", "[workbench][suggest]") {
+    const std::string folder = temporary_folder(), ball = ball_file(folder);
+    const std::string graphs = folder + "/graphs.svg", bars = folder + "/bars.svg";
+    const ProgramRun run = program({"quality", ball, "--filter", "taubin", "--out", graphs, "--out",
+                                    bars, "--sort", "measure", "--json"});
+    REQUIRE(run.exit_code == 0);
+    const std::string text = text_of(graphs);
+    for (const char* words : {"lambda [-]", "mu [-]", "iterations", "measure [%]", "curvature"})
+        CHECK(text.find(words) != std::string::npos);
+    CHECK(text_of(bars).find("volume change, mu") != std::string::npos);
+    const Json curves = Json::parse(run.out)["curves"];
+    REQUIRE(curves.size() == 3);
+    CHECK(curves[2]["parameter"] == "iterations");
+    CHECK(curves[2]["points"].size() == 51);
+    CHECK(curves[2]["points"][0]["error"] == 0.0);
+    CHECK(curves[2]["points"][0]["curvature"] == 1.0);
+}

@@ -1,0 +1,156 @@
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "quality/sensitivity.h"
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/wording.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+#include "workbench/pending_files.h"
+#include "workbench/report/quality_gallery.h"
+#include "workbench/report/quality_svg.h"
+#include "workbench/suggest/search_subject.h"
+#include "workbench/suggest/suggestion_search.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+BarOrder order_from(const std::string& name) {
+    if (name == "parameter") return BarOrder::Parameter;
+    if (name == "measure") return BarOrder::Measure;
+    throw UsageError("--sort: '" + name + "' is neither parameter nor measure");
+}
+
+void check(const QualityOptions& options) {
+    if (options.out.empty() && !options.json)
+        throw UsageError("say where to draw: --out graphs.svg, bars.svg or gallery.png, or --json");
+    for (const std::string& out : options.out)
+        if (!out.ends_with(".svg") && !out.ends_with(".png"))
+            throw UsageError("--out: '" + out + "' ends neither in .svg nor in .png");
+    static_cast<void>(order_from(options.sort));
+}
+
+bool wants_bars(const std::string& out) {
+    return fs::path(out).stem().string().find("bar") != std::string::npos;
+}
+
+std::string number(double value, const char* format = "%.3g") {
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+QualityTitle title_of(const SearchSubject& subject, double tau) {
+    return {subject.name + (subject.state.empty() ? "" : ", " + subject.state) + ", " +
+                counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices"),
+            subject.arguments.text("filter"), tau};
+}
+
+Json json_of(const SensitivityAnalysis& analysis) {
+    Json json = {{"scale",
+                  {{"curvature_abs_mm", analysis.scale.curvature_abs},
+                   {"curvature_zero_mm", analysis.scale.curvature_zero},
+                   {"error_mm", analysis.scale.error},
+                   {"volume_mm3", analysis.scale.volume},
+                   {"original_volume_mm3", analysis.scale.original_volume}}},
+                 {"curves", Json::array()}};
+    for (const QualityCurve& curve : analysis.curves) {
+        Json one = {{"parameter", curve.name},
+                    {"unit", curve.unit},
+                    {"current", curve.current},
+                    {"suggested", curve.suggested},
+                    {"points", Json::array()}};
+        for (const CurvePoint& point : curve.points)
+            if (point.measures)
+                one["points"].push_back({{"value", point.value},
+                                         {"curvature", point.scaled.curvature},
+                                         {"error", point.scaled.error},
+                                         {"volume", point.scaled.volume},
+                                         {"score", point.score}});
+        json["curves"].push_back(std::move(one));
+    }
+    return json;
+}
+
+SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
+                                const Progress& progress) {
+    const SearchSpace space = space_for(subject, true);
+    ParameterSearch search(make_cpu_engine(subject.ground), space, {.tau = tau});
+    return sensitivity(search, given_set(subject, space), false, progress);
+}
+
+std::string caption(const SearchSpace& space, const ParameterSet& set) {
+    if (set.back() == 0.0) return "do not smooth";
+    std::string text;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        text += (i == 0 ? "" : ", ") + space.parameters[i].name + " " + number(set[i], "%g");
+    return text;
+}
+
+/// The surface as it is drawn: some files' triangles face inward.
+Surface outward(const Surface& surface, double volume) {
+    if (volume >= 0.0) return surface;
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : surface.triangles()) triangles.push_back({a, c, b});
+    return make_surface(surface.points(), std::move(triangles));
+}
+
+std::string gallery_of(const SearchSubject& subject, const QualityOptions& options,
+                       const Progress& progress) {
+    SuggestionSearch search(subject, {}, SearchWay::Automatic);
+    std::vector<GalleryModel> models;
+    for (const double tau : kPresetTaus) {
+        const Suggestion found = search.suggest(tau, progress);
+        const QualityMeasures& original = search.original();
+        const double volume = 100.0 * (found.measures.volume / original.volume - 1.0);
+        const double curvature = 100.0 * found.measures.curvature_abs / original.curvature_abs;
+        models.push_back(
+            {outward(search.smoothed(found.values, progress), original.volume),
+             {"tau " + number(tau, "%g") + ": " + caption(search.space(), found.values),
+              "volume " + number(volume, "%+.2f") + " %, curvature " + number(curvature, "%.0f") +
+                  " %",
+              "mean distance " + number(found.measures.error, "%.2g") + " mm"}});
+    }
+    std::optional<Vec3> at;
+    if (!options.at.empty()) at = Vec3(options.at[0], options.at[1], options.at[2]);
+    return png(quality_gallery(outward(surface_of(subject.scene), search.original().volume), models,
+                               subject.name + ", filter " + subject.arguments.text("filter") +
+                                   ": little, medium and strong smoothing",
+                               at));
+}
+
+}  // namespace
+
+void draw_quality(const QualityOptions& options, const Progress& progress) {
+    check(options);
+    const SearchSubject subject = search_subject(
+        {options.source, options.units, options.filter, options.arguments}, progress);
+    for (const std::string& note : subject.notes) remark(note);
+    std::optional<SensitivityAnalysis> analysis;
+    const auto figures = [&]() -> const SensitivityAnalysis& {
+        if (!analysis) analysis = analysis_of(subject, options.tau, progress.part(0.1, 0.6));
+        return *analysis;
+    };
+    PendingFiles files;
+    for (const std::string& out : options.out) {
+        const QualityTitle title = title_of(subject, options.tau);
+        files.add_text(
+            out, out.ends_with(".png") ? gallery_of(subject, options, progress.part(0.6, 0.9))
+                 : wants_bars(out) ? quality_bars_svg(figures(), title, order_from(options.sort))
+                                   : quality_graphs_svg(figures(), title));
+    }
+    if (options.json) std::cout << json_of(figures()).dump(2) << "\n";
+    files.commit();
+    if (options.json) return;
+    for (const std::string& out : options.out) std::cout << "wrote " << out << "\n";
+}
+
+}  // namespace vesselbench

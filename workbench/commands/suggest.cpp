@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/surface_distance.h"
+#include "geometry/wording.h"
+#include "workbench/argument_texts.h"
+#include "workbench/arguments_json.h"
+#include "workbench/commands/commands.h"
+#include "workbench/console.h"
+#include "workbench/foreign_surface.h"
+#include "workbench/operation.h"
+#include "workbench/suggest/search_subject.h"
+#include "workbench/suggest/suggestion_search.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value, const char* format = "%.3g") {
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+double volume_percent(const QualityMeasures& original, const QualityMeasures& measures) {
+    return original.volume != 0.0 ? 100.0 * (measures.volume / original.volume - 1.0) : 0.0;
+}
+
+/// The arguments that the search found, without those that stay.
+Json found_json(const SearchSpace& space, const ParameterSet& set) {
+    Json json;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        if (space.parameters[i].name == "iterations")
+            json[space.parameters[i].name] = static_cast<int>(set[i]);
+        else
+            json[space.parameters[i].name] = set[i];
+    return json;
+}
+
+Json measures_json(const QualityMeasures& original, const QualityMeasures& measures) {
+    return {{"error_mm", measures.error},
+            {"error_thesis_mm", measures.error_thesis},
+            {"curvature_mm", measures.curvature},
+            {"curvature_abs_mm", measures.curvature_abs},
+            {"volume_mm3", measures.volume},
+            {"volume_change_percent", volume_percent(original, measures)}};
+}
+
+Json suggestion_json(const SuggestionSearch& search, double tau, const Suggestion& suggestion) {
+    Json json = {{"tau", tau},
+                 {"parameters", found_json(search.space(), suggestion.values)},
+                 {"score", suggestion.score},
+                 {"terms",
+                  {{"curvature", suggestion.terms.curvature},
+                   {"error", suggestion.terms.error},
+                   {"volume", suggestion.terms.volume}}}};
+    json.update(measures_json(search.original(), suggestion.measures));
+    return json;
+}
+
+/// Mean distance of a smoothed surface's vertices from a surface known to be true [mm].
+double distance_from(const SurfaceDistance& truth, const Surface& surface) {
+    double sum = 0.0;
+    for (const SurfacePoint& closest : truth.closest_points(surface.points()))
+        sum += closest.distance;
+    return sum / static_cast<double>(std::max<std::size_t>(1, surface.vertex_count()));
+}
+
+Json grid_json(SuggestionSearch& search, const SuggestOptions& options, const Progress& progress) {
+    std::optional<SurfaceDistance> truth;
+    if (!options.truth.empty()) truth.emplace(read_foreign_surface(options.truth, options.units));
+    Json list = Json::array();
+    for (const ParameterSet& set : search.coarse_sets()) {
+        const auto measures = search.measures(set, progress);
+        if (!measures) continue;
+        Json one = {{"parameters", found_json(search.space(), set)}};
+        one.update(measures_json(search.original(), *measures));
+        if (truth) one["truth_mm"] = distance_from(*truth, search.smoothed(set, progress));
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+std::string set_text(const SearchSpace& space, const ParameterSet& set) {
+    std::string text;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        text += (i == 0 ? "" : " ") + space.parameters[i].name + "=" + number(set[i], "%g");
+    return text;
+}
+
+void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
+                       const std::vector<std::pair<double, Suggestion>>& found) {
+    std::vector<std::vector<std::string>> rows = {
+        {"tau", "suggestion", "curvature", "mean distance [mm]", "volume", "score"}};
+    for (const auto& [tau, one] : found) {
+        const bool nothing = one.values.back() == 0.0;
+        const double kept =
+            search.original().curvature_abs > 0.0
+                ? 100.0 * one.measures.curvature_abs / search.original().curvature_abs
+                : 100.0;
+        rows.push_back({number(tau, "%g"),
+                        nothing ? "do not smooth" : set_text(search.space(), one.values),
+                        number(kept, "%.1f") + " %", number(one.measures.error),
+                        number(volume_percent(search.original(), one.measures), "%+.2f") + " %",
+                        number(one.score, "%.4f")});
+    }
+    std::cout << as_columns(rows);
+    const Suggestion& first = found.front().second;
+    if (first.values.back() == 0.0) return;
+    const Arguments arguments = typed_arguments(subject, search.space(), first.values);
+    const std::string project = subject.is_project ? subject.name : "PROJECT";
+    std::cout << "\nvesselbench apply " << project << " smooth "
+              << argument_summary(find_operation("smooth"), arguments) << "\n";
+}
+
+Json work_json(const QualityTable::Work& work, double seconds) {
+    return {{"evaluations", work.evaluations},
+            {"runs", work.runs},
+            {"sweeps", work.sweeps},
+            {"seconds", seconds}};
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void print_json(SuggestionSearch& search, const SearchSubject& subject,
+                const SuggestOptions& options,
+                const std::vector<std::pair<double, Suggestion>>& found, const Json& work,
+                const Progress& progress) {
+    Json json = {{"source", subject.name},
+                 {"filter", subject.arguments.text("filter")},
+                 {"score_form", options.score},
+                 {"search", options.search},
+                 {"vertices", surface_of(subject.scene).vertex_count()},
+                 {"mean_edge_mm", search.mean_edge()},
+                 {"original", measures_json(search.original(), search.original())}};
+    json["suggestion"] = suggestion_json(search, found.front().first, found.front().second);
+    const Arguments arguments = arguments_of(subject, search.space(), found.front().second.values);
+    for (const auto& [name, value] : arguments.values())
+        json["suggestion"]["arguments"][name] = to_json(value);
+    for (std::size_t i = 1; i < found.size(); ++i)
+        json["presets"].push_back(suggestion_json(search, found[i].first, found[i].second));
+    json["work"] = work;
+    if (options.grid) json["grid"] = grid_json(search, options, progress);
+    std::cout << json.dump(2) << "\n";
+}
+
+}  // namespace
+
+void suggest_parameters(const SuggestOptions& options, const Progress& progress) {
+    if (!options.truth.empty() && !(options.json && options.grid))
+        throw UsageError("--truth goes with --json --grid: it adds a distance to each set");
+    const SearchSubject subject = search_subject(
+        {options.source, options.units, options.filter, options.arguments}, progress);
+    const auto start = std::chrono::steady_clock::now();
+    SuggestionSearch search(subject, {.form = score_form_from(options.score), .tau = options.tau},
+                            search_way_from(options.search), options.grid);
+    std::vector<std::pair<double, Suggestion>> found;
+    found.emplace_back(options.tau, search.suggest(options.tau, progress.part(0.1, 0.6)));
+    const Json work = work_json(search.work(), seconds_since(start));
+    for (const double tau : kPresetTaus)
+        found.emplace_back(tau, search.suggest(tau, progress.part(0.6, 1.0)));
+    for (const std::string& note : subject.notes) remark(note);
+    if (options.json) return print_json(search, subject, options, found, work, progress);
+    std::cout << subject.name << (subject.state.empty() ? "" : ", " + subject.state) << ": "
+              << counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices")
+              << ", mean edge " << number(search.mean_edge()) << " mm; filter "
+              << subject.arguments.text("filter") << ", score " << options.score << "\n\n";
+    print_suggestions(search, subject, found);
+    std::cout
+        << "\ncurvature: integral of |H|, of the original's; mean distance: from the original "
+           "surface\nsearched: "
+        << work["evaluations"] << " parameter sets, " << work["sweeps"] << " iterations, "
+        << number(work["seconds"].get<double>()) << " s\n";
+}
+
+}  // namespace vesselbench

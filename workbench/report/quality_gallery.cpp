@@ -1,0 +1,178 @@
+#include "workbench/report/quality_gallery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geometry/measure.h"
+#include "geometry/surface_distance.h"
+#include "workbench/report/stroke_text.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kCell = 460, kGap = 10, kHead = 56, kCaption = 88, kFoot = 84;
+constexpr double kText = 13.0;
+
+Picture blank(int width, int height) {
+    return {width, height,
+            std::vector<std::uint8_t>(
+                3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 255)};
+}
+
+void paste(Picture& page, const Picture& picture, int left, int top) {
+    for (int y = 0; y < picture.height; ++y) {
+        const auto* row = picture.rgb.data() + 3 * static_cast<std::size_t>(y * picture.width);
+        std::copy_n(row, 3 * static_cast<std::size_t>(picture.width),
+                    page.rgb.data() + 3 * static_cast<std::size_t>((top + y) * page.width + left));
+    }
+}
+
+/// Looks along the shortest side of the model, so that as much as possible shows.
+Vec3 sight(const Surface& surface) {
+    const Bounds box = bounds(surface);
+    const Vec3 size = box.max - box.min;
+    if (size.x() < size.y() && size.x() < size.z()) return {-1, 0, 0};
+    return size.z() < 0.6 * size.y() ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
+}
+
+Vec3 up_for(const Vec3& view) {
+    return std::abs(view.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
+}
+
+/// The deviation that 98 of 100 vertices stay below [mm].
+double full_colour(std::vector<double> deviations) {
+    for (double& deviation : deviations) deviation = std::abs(deviation);
+    const auto place =
+        deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
+    std::ranges::nth_element(deviations, place);
+    return std::max(*place, 1e-6);
+}
+
+/// Where the surface was taken away most, within the middle of what deviates: the largest mean
+/// deviation of a vertex and its neighbours, away from open rims.
+VertexId most_changed(const Surface& surface, const std::vector<double>& deviations) {
+    const CompressedRows& rings = surface.topology->rings();
+    const auto& rim = surface.topology->boundary_vertices();
+    VertexId best = 0;
+    double largest = -1.0;
+    for (VertexId v = 0; v < deviations.size(); ++v) {
+        double sum = std::abs(deviations[v]);
+        bool near_rim = rim[v] != 0;
+        for (const VertexId u : rings.row(v)) {
+            sum += std::abs(deviations[u]);
+            near_rim = near_rim || rim[u] != 0;
+        }
+        sum /= 1.0 + static_cast<double>(rings.row(v).size());
+        if (near_rim || sum <= largest) continue;
+        largest = sum;
+        best = v;
+    }
+    return best;
+}
+
+/// The vertex of the original nearest to a place.
+VertexId nearest(const Surface& surface, const Vec3& at) {
+    VertexId best = 0;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if ((surface.points()[v] - at).squaredNorm() < (surface.points()[best] - at).squaredNorm())
+            best = v;
+    return best;
+}
+
+/// Camera on a vertex of the original, from outside, so near that its edges can be told apart.
+PictureOptions magnified(const Surface& original, VertexId v) {
+    constexpr double kEdgesAcross = 22.0;
+    PictureOptions options{.width = kCell, .height = kCell};
+    Vec3 normal = vertex_normals(original)[v];
+    if (!(normal.norm() > 0.5)) normal = Vec3(0, -1, 0);
+    options.view = -normal;
+    options.up = up_for(options.view);
+    options.shift = original.points()[v] - bounds(original).centre();
+    options.frame = std::make_shared<const Surface>(original);
+    options.half_height = 0.5 * kEdgesAcross * mean_edge_length(original);
+    return options;
+}
+
+std::vector<Colour> colours_of(const std::vector<double>& deviations, double full) {
+    std::vector<Colour> colours;
+    for (const double deviation : deviations)
+        colours.push_back(diverging_colour(std::clamp(deviation / full, -1.0, 1.0)));
+    return colours;
+}
+
+std::string millimetres(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%+.2g", value);
+    return value == 0.0 ? "0" : text;
+}
+
+void add_scale(Picture& page, double full) {
+    const int left = page.width / 2 - 200, top = page.height - kFoot + 30;
+    for (int x = 0; x < 400; ++x) {
+        const Colour linear = diverging_colour(x / 199.5 - 1.0);
+        PixelColour colour;
+        for (int i = 0; i < 3; ++i)
+            colour[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
+                std::lround(255.0 * std::pow(std::clamp(linear[i], 0.0F, 1.0F), 1.0F / 2.2F)));
+        draw_stroke(page, {left + x + 0.5, top}, {left + x + 0.5, top + 14.0}, 1.2, colour);
+    }
+    for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+        const double x = left + 200.0 * (share + 1.0);
+        draw_stroke(page, {x, top + 16.0}, {x, top + 21.0}, 1.2, {34, 34, 34});
+        const std::string text = millimetres(share * full);
+        write_text(page, x - 0.5 * text_width(text, kText), top + 40.0, text, kText);
+    }
+    const std::string words =
+        "deviation from the original [mm]: blue inside, red outside (full colours: or more)";
+    write_text(page, 0.5 * (page.width - text_width(words, kText)), top - 12.0, words, kText);
+}
+
+}  // namespace
+
+Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>& models,
+                        const std::string& title, const std::optional<Vec3>& at) {
+    const auto count = static_cast<int>(models.size());
+    Picture page = blank(count * (kCell + kGap) + kGap, kHead + 2 * kCell + kCaption + kFoot);
+    const SurfaceDistance distance(original);
+    std::vector<std::vector<double>> deviations;
+    for (const GalleryModel& model : models)
+        deviations.push_back(distance.signed_distances(model.surface.points()));
+    // The middle one of the models decides the scale: strong smoothing would leave the others pale.
+    std::vector<double> fulls;
+    for (const auto& one : deviations) fulls.push_back(full_colour(one));
+    std::ranges::sort(fulls);
+    const double full = fulls[fulls.size() / 2];
+    const VertexId place =
+        at ? nearest(original, *at) : most_changed(original, deviations[deviations.size() / 2]);
+    const auto frame = std::make_shared<const Surface>(original);
+    const Vec3 view = sight(original);
+    write_text(page, 2.0 * kGap, 34.0, title, 17.0);
+    for (int i = 0; i < count; ++i) {
+        const GalleryModel& model = models[static_cast<std::size_t>(i)];
+        const auto colours = colours_of(deviations[static_cast<std::size_t>(i)], full);
+        const int left = kGap + i * (kCell + kGap);
+        paste(page,
+              draw(model.surface, {.width = kCell,
+                                   .height = kCell,
+                                   .view = view,
+                                   .up = up_for(view),
+                                   .vertex_colours = colours,
+                                   .frame = frame}),
+              left, kHead);
+        double y = kHead + kCell + 20.0;
+        for (const std::string& line : model.captions) {
+            write_text(page, left + 8.0, y, line, kText);
+            y += 22.0;
+        }
+        PictureOptions near = magnified(original, place);
+        near.vertex_colours = colours;
+        near.wires = frame;
+        paste(page, draw(model.surface, near), left, kHead + kCell + kCaption);
+    }
+    add_scale(page, full);
+    return page;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "gpu/picture.h"
+
+namespace vesselbench {
+
+using PixelColour = std::array<std::uint8_t, 3>;  ///< as pictures hold it
+
+/// Writes a text into a picture, in plain strokes: lower-case letters (capitals are written so),
+/// digits and the usual marks; others leave a gap.
+/// \param x, y left end of the base line [pixels], y from the top
+/// \param size height of a digit [pixels]
+void write_text(Picture& picture, double x, double y, const std::string& text, double size,
+                const PixelColour& colour = {34, 34, 34});
+
+/// How wide that is [pixels].
+[[nodiscard]] double text_width(const std::string& text, double size);
+
+/// A straight stroke with round ends.
+void draw_stroke(Picture& picture, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                 double width, const PixelColour& colour);
+
+}  // namespace vesselbench
