@@ -1,6 +1,7 @@
 #include "gpu/context.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -33,7 +34,7 @@ std::vector<EGLDisplay> displays() {
     return found;
 }
 
-EGLContext make_context(EGLDisplay display) {
+EGLContext make_context(EGLDisplay display, EGLContext shared) {
     const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                              4,
                              EGL_CONTEXT_MINOR_VERSION,
@@ -42,19 +43,22 @@ EGLContext make_context(EGLDisplay display) {
                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                              EGL_NONE};
     eglBindAPI(EGL_OPENGL_API);
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared, wanted);
 }
+
+/// What is current on this thread.
+struct Current {
+    EGLDisplay display = eglGetCurrentDisplay();
+    EGLContext context = eglGetCurrentContext();
+    EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
+};
 
 }  // namespace
 
 struct OffscreenContext::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
-    /// What was current before.
-    EGLDisplay last_display = eglGetCurrentDisplay();
-    EGLContext last_context = eglGetCurrentContext();
-    EGLSurface last_draw = eglGetCurrentSurface(EGL_DRAW),
-               last_read = eglGetCurrentSurface(EGL_READ);
+    Current before;
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -62,38 +66,70 @@ struct OffscreenContext::Impl {
 
     ~Impl() {
         if (context == EGL_NO_CONTEXT) return;
-        if (last_context != EGL_NO_CONTEXT)
-            eglMakeCurrent(last_display, last_draw, last_read, last_context);
-        else
-            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        release();
         eglDestroyContext(display, context);
     }
 
-    bool use(EGLDisplay candidate) {
+    void release() const {
+        if (eglGetCurrentContext() != context) return;
+        if (before.context != EGL_NO_CONTEXT)
+            eglMakeCurrent(before.display, before.draw, before.read, before.context);
+        else
+            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+
+    bool make_current() {
+        if (eglGetCurrentContext() != context) before = {};
+        eglBindAPI(EGL_OPENGL_API);
+        return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE;
+    }
+
+    bool use(EGLDisplay candidate, EGLContext shared) {
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr))
             return false;
-        const EGLContext made = make_context(candidate);
-        if (made == EGL_NO_CONTEXT) return false;
-        if (!eglMakeCurrent(candidate, EGL_NO_SURFACE, EGL_NO_SURFACE, made)) {
-            eglDestroyContext(candidate, made);
-            return false;
-        }
         display = candidate;
-        context = made;
-        return true;
+        context = make_context(candidate, shared);
+        if (context == EGL_NO_CONTEXT) return false;
+        if (make_current()) return true;
+        eglDestroyContext(display, std::exchange(context, EGL_NO_CONTEXT));
+        return false;
+    }
+
+    void use_any() {
+        const std::vector<EGLDisplay> candidates = displays();
+        if (candidates.empty())
+            throw GpuUnavailable(
+                "EGL has neither a device nor the surfaceless platform here (Debian: "
+                "libegl-mesa0, libgl1-mesa-dri)");
+        for (EGLDisplay candidate : candidates)
+            if (use(candidate, EGL_NO_CONTEXT)) return;
+        throw GpuUnavailable(
+            "no driver offers an OpenGL 4.3 core context without a display (Debian: "
+            "libgl1-mesa-dri)");
+    }
+
+    void share_with_current() {
+        if (before.context == EGL_NO_CONTEXT)
+            throw GpuUnavailable("there is no context of EGL on this thread to share with");
+        if (!use(before.display, before.context))
+            throw GpuUnavailable("the driver gives no context that shares with the current one");
     }
 };
 
-OffscreenContext::OffscreenContext() : impl_(std::make_unique<Impl>()) {
-    const std::vector<EGLDisplay> candidates = displays();
-    if (candidates.empty())
-        throw GpuUnavailable(
-            "EGL has neither a device nor the surfaceless platform here (Debian: libegl-mesa0, "
-            "libgl1-mesa-dri)");
-    for (EGLDisplay candidate : candidates)
-        if (impl_->use(candidate)) return;
-    throw GpuUnavailable(
-        "no driver offers an OpenGL 4.3 core context without a display (Debian: libgl1-mesa-dri)");
+OffscreenContext::OffscreenContext(Sharing sharing) : impl_(std::make_unique<Impl>()) {
+    if (sharing == Sharing::WithCurrent)
+        impl_->share_with_current();
+    else
+        impl_->use_any();
+}
+
+void OffscreenContext::release() {
+    impl_->release();
+}
+
+void OffscreenContext::make_current() {
+    if (!impl_->make_current())
+        throw GpuUnavailable("the OpenGL context cannot be made current on this thread");
 }
 
 OffscreenContext::~OffscreenContext() = default;

@@ -1,0 +1,55 @@
+#include "gpu/context.h"
+
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "gpu/gpu_smoother.h"
+#include "tests/gpu/device_support.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+SCENARIO("A context that goes leaves the one before it current", "[gpu][context]") {
+    const auto test = test_device();
+    if (!test) return;
+    const std::vector<float> values = {1.0F, 2.0F};
+    const Buffer buffer = make_storage(test->device, std::span<const float>(values), "values");
+    {
+        const OffscreenContext other;
+        CHECK(current_device().limits.renderer == test->context.renderer());
+    }
+    CHECK(read_storage<float>(buffer, 2) == values);
+    OffscreenContext third;
+    third.release();
+    CHECK(read_storage<float>(buffer, 2) == values);
+}
+
+SCENARIO("Another thread smooths what the first one sees", "[gpu][context]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface sphere = icosphere(5.0, 3);
+    OffscreenContext shared(Sharing::WithCurrent);
+    shared.release();
+    const auto on_device = uploaded(*test, sphere);
+    GpuSmoother smoother(on_device, {});
+    finish_device();
+    std::thread worker([&] {
+        shared.make_current();
+        smoother.start(LaplaceParameters{});
+        smoother.run(10);
+        finish_device();
+        shared.release();
+    });
+    worker.join();
+    const Positions wanted =
+        apply_filter(*sphere.topology, sphere.points(), LaplaceParameters{}, {.iterations = 10});
+    CHECK(relative_distances(wanted, smoother.positions()).back() <= 2e-6);
+    CHECK(relative_distances(sphere.points(), smoother.positions()).back() > 1e-3);
+}
+
+SCENARIO("Without a context there is none to share with", "[gpu][context]") {
+    CHECK_THROWS_AS(OffscreenContext(Sharing::WithCurrent), GpuUnavailable);
+}
