@@ -19,13 +19,16 @@ std::uint32_t node_count(std::uint32_t count) {
     return 1 + node_count(left) + node_count(count - left);
 }
 
+template <class Scalar>
 struct Builder {
-    const std::vector<BoxTree::Box>& boxes;
-    std::vector<BoxTree::Node>& nodes;
+    using Tree = BasicBoxTree<Scalar>;
+
+    const std::vector<typename Tree::Box>& boxes;
+    std::vector<typename Tree::Node>& nodes;
     std::vector<std::uint32_t>& items;
 
     void build(std::uint32_t at, std::uint32_t begin, std::uint32_t end) {
-        BoxTree::Node& node = nodes[at];
+        typename Tree::Node& node = nodes[at];
         node.begin = begin;
         node.end = end;
         if (end - begin <= kLeafSize) {
@@ -48,7 +51,7 @@ struct Builder {
 
     /// Halves the items along the longest axis of their centres; equal centres go by index.
     void split(std::uint32_t begin, std::uint32_t middle, std::uint32_t end) {
-        BoxTree::Box centres;
+        typename Tree::Box centres;
         for (std::uint32_t i = begin; i < end; ++i) centres.extend(boxes[items[i]].center());
         int axis = 0;
         centres.sizes().maxCoeff(&axis);
@@ -57,7 +60,7 @@ struct Builder {
         };
         std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
                          [&](std::uint32_t a, std::uint32_t b) {
-                             const double ka = key(a), kb = key(b);
+                             const Scalar ka = key(a), kb = key(b);
                              return ka < kb || (ka == kb && a < b);
                          });
     }
@@ -65,14 +68,18 @@ struct Builder {
 
 }  // namespace
 
-BoxTree::BoxTree(const std::vector<Box>& boxes) {
+template <class Scalar>
+BasicBoxTree<Scalar>::BasicBoxTree(const std::vector<Box>& boxes) {
     if (boxes.empty()) return;
     const auto count = static_cast<std::uint32_t>(boxes.size());
     items_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) items_[i] = i;
     nodes_.resize(node_count(count));
-    Builder{boxes, nodes_, items_}.build(0, 0, count);
+    Builder<Scalar>{boxes, nodes_, items_}.build(0, 0, count);
 }
+
+template class BasicBoxTree<double>;
+template class BasicBoxTree<float>;
 
 std::vector<BoxTree::Box> triangle_boxes(const Positions& positions,
                                          std::span<const Triangle> triangles) {

@@ -14,9 +14,11 @@ namespace vesselbench {
 /// Tree of axis-parallel boxes over a set of boxed items (triangles, edges, points), split at the
 /// median of the longest axis: the same input gives the same tree on any number of threads.
 /// Building block of SurfaceDistance and self_intersections; use those where they serve.
-class BoxTree {
+/// \tparam Scalar double, or float where memory counts and boxes may be a little too large
+template <class Scalar>
+class BasicBoxTree {
 public:
-    using Box = Eigen::AlignedBox3d;
+    using Box = Eigen::AlignedBox<Scalar, 3>;
 
     struct Node {
         Box box;
@@ -25,8 +27,8 @@ public:
         std::uint32_t right = 0;  ///< right child; 0: a leaf. The left child is the next node.
     };
 
-    BoxTree() = default;
-    explicit BoxTree(const std::vector<Box>& boxes);
+    BasicBoxTree() = default;
+    explicit BasicBoxTree(const std::vector<Box>& boxes);
 
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
@@ -56,6 +58,9 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> items_;
 };
+
+using BoxTree = BasicBoxTree<double>;
+using SmallBoxTree = BasicBoxTree<float>;
 
 /// The box of every triangle [mm], #T.
 [[nodiscard]] std::vector<BoxTree::Box> triangle_boxes(const Positions& positions,

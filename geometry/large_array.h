@@ -8,13 +8,20 @@ namespace vesselbench {
 
 namespace detail {
 
-struct FreeMemory {
-    void operator()(void* memory) const;
-};
-
 /// Memory for `bytes`, aligned to 64 bytes or more; in large pages where the system has them and
-/// the array fills some. \throw std::bad_alloc
+/// the array fills some. Some of what was given back is kept and given out again: the system fills
+/// new pages with zeros, which takes as long as an iteration of a filter for every few of them.
+/// \throw std::bad_alloc
 [[nodiscard]] void* large_memory(std::size_t bytes);
+
+/// \param bytes as it was asked for
+void give_back_large_memory(void* memory, std::size_t bytes) noexcept;
+
+struct GiveBack {
+    std::size_t bytes = 0;
+
+    void operator()(void* memory) const { give_back_large_memory(memory, bytes); }
+};
 
 }  // namespace detail
 
@@ -29,7 +36,9 @@ public:
     LargeArray() = default;
 
     explicit LargeArray(std::size_t size)
-        : memory_(static_cast<T*>(detail::large_memory(size * sizeof(T)))), size_(size) {}
+        : memory_(static_cast<T*>(detail::large_memory(size * sizeof(T))),
+                  detail::GiveBack{size * sizeof(T)}),
+          size_(size) {}
 
     [[nodiscard]] T* data() const { return memory_.get(); }
 
@@ -38,7 +47,7 @@ public:
     [[nodiscard]] T& operator[](std::size_t i) const { return memory_.get()[i]; }
 
 private:
-    std::unique_ptr<T, detail::FreeMemory> memory_;
+    std::unique_ptr<T, detail::GiveBack> memory_;
     std::size_t size_ = 0;
 };
 

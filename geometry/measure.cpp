@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
@@ -18,6 +20,19 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Calls visit(v, triangle) for the triangles at each vertex, ascending; different vertices at the
+/// same time. A degenerate triangle may come twice.
+template <class Visit>
+void visit_triangles_by_vertex(const Surface& surface, const Visit& visit) {
+    const CompressedRows& rows = surface.topology->triangles_at();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.vertex_count(), 1024),
+                      [&](const auto& range) {
+                          for (std::size_t v = range.begin(); v != range.end(); ++v)
+                              for (const TriangleId t : rows.row(v))
+                                  visit(static_cast<VertexId>(v), t);
+                      });
 }
 
 /// Collects one value after the other.
@@ -186,16 +201,16 @@ double radius_ratio(const Positions& positions, const Triangle& triangle) {
 Positions vertex_normals(const Surface& surface) {
     const Positions& points = surface.points();
     Positions normals(points.size(), Vec3::Zero());
-    for (const Triangle& t : surface.triangles()) {
+    visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId triangle) {
+        const Triangle& t = surface.triangles()[triangle];
+        const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         const Vec3 normal = area_normal(points, t);
         const double length = normal.norm();
-        if (!(length > 0.0)) continue;
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 u = points[t[(k + 1) % 3]] - points[t[k]],
-                       v = points[t[(k + 2) % 3]] - points[t[k]];
-            normals[t[k]] += angle_between(u, v) / length * normal;
-        }
-    }
+        if (!(length > 0.0)) return;
+        const Vec3 to_next = points[t[(k + 1) % 3]] - points[v],
+                   to_previous = points[t[(k + 2) % 3]] - points[v];
+        normals[v] += angle_between(to_next, to_previous) / length * normal;
+    });
     // Less is what rounding leaves of triangles that lie on each other: no normal.
     constexpr double kLeastAngle = 1e-9;
     for (Vec3& n : normals) n = n.norm() > kLeastAngle ? n.normalized() : Vec3::Zero();
@@ -205,12 +220,11 @@ Positions vertex_normals(const Surface& surface) {
 std::vector<double> normal_curvature(const Surface& surface) {
     const Positions normals = vertex_normals(surface);
     std::vector<double> largest(normals.size(), 0.0);
-    for (const Triangle& t : surface.triangles()) {
-        const Vec3 normal = area_normal(surface.points(), t);
-        if (!(normal.squaredNorm() > 0.0)) continue;
-        for (const VertexId v : t)
-            largest[v] = std::max(largest[v], kDegrees * angle_between(normals[v], normal));
-    }
+    visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId t) {
+        const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
+        if (!(normal.squaredNorm() > 0.0)) return;
+        largest[v] = std::max(largest[v], kDegrees * angle_between(normals[v], normal));
+    });
     return largest;
 }
 

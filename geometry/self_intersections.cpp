@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -106,11 +108,11 @@ private:
 };
 
 /// 1 at the nodes that hold a wanted place of the items' order.
-std::vector<std::uint8_t> nodes_with(std::span<const BoxTree::Node> nodes,
+std::vector<std::uint8_t> nodes_with(std::span<const SmallBoxTree::Node> nodes,
                                      std::span<const std::uint8_t> wanted) {
     std::vector<std::uint8_t> found(nodes.size(), 0);
     for (std::size_t at = nodes.size(); at-- > 0;) {  // children stand behind their parents
-        const BoxTree::Node& node = nodes[at];
+        const SmallBoxTree::Node& node = nodes[at];
         if (node.right != 0)
             found[at] = found[at + 1] | found[node.right];
         else
@@ -125,15 +127,15 @@ std::vector<std::uint8_t> nodes_with(std::span<const BoxTree::Node> nodes,
 /// Calls test(i, j), i < j, for the places of items in leaves whose boxes meet the leaf's box and
 /// one of which is wanted, by the flags of all nodes.
 template <class Test>
-void for_pairs_of(std::span<const BoxTree::Node> nodes, std::span<const std::uint8_t> wanted,
+void for_pairs_of(std::span<const SmallBoxTree::Node> nodes, std::span<const std::uint8_t> wanted,
                   std::size_t leaf_at, Test&& test) {
-    const BoxTree::Node& leaf = nodes[leaf_at];
+    const SmallBoxTree::Node& leaf = nodes[leaf_at];
     std::uint32_t stack[64];  // the tree is balanced: twice its depth is far below
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
         const std::uint32_t at = stack[--depth];
-        const BoxTree::Node& node = nodes[at];
+        const SmallBoxTree::Node& node = nodes[at];
         if (wanted[leaf_at] == 0 && wanted[at] == 0) continue;
         if (node.end <= leaf.begin || !node.box.intersects(leaf.box)) continue;
         if (node.right != 0) {
@@ -143,6 +145,37 @@ void for_pairs_of(std::span<const BoxTree::Node> nodes, std::span<const std::uin
         }
         for (std::uint32_t i = leaf.begin; i < leaf.end; ++i)
             for (std::uint32_t j = std::max(node.begin, i + 1); j < node.end; ++j) test(i, j);
+    }
+}
+
+/// Not smaller than the box of the triangle: a pair that does not meet costs time only.
+SmallBoxTree::Box small_box(const Positions& positions, const Triangle& triangle) {
+    constexpr float kEnd = std::numeric_limits<float>::infinity();
+    SmallBoxTree::Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax({positions[triangle[0]][axis], positions[triangle[1]][axis],
+                         positions[triangle[2]][axis]});
+        box.min()[axis] = std::nextafter(static_cast<float>(low), -kEnd);
+        box.max()[axis] = std::nextafter(static_cast<float>(high), kEnd);
+    }
+    return box;
+}
+
+/// Puts values[order[i]] to place i, without a second array.
+template <class Value>
+void put_in_order(std::vector<Value>& values, std::span<const std::uint32_t> order) {
+    std::vector<bool> done(values.size(), false);
+    for (std::uint32_t start = 0; start < values.size(); ++start) {
+        if (done[start]) continue;
+        const Value first = values[start];
+        std::uint32_t at = start;
+        for (; order[at] != start; at = order[at]) {
+            values[at] = values[order[at]];
+            done[at] = true;
+        }
+        values[at] = first;
+        done[at] = true;
     }
 }
 
@@ -156,21 +189,22 @@ std::vector<TrianglePair> self_intersections_with(const Positions& positions,
         throw InvalidInput("got " + std::to_string(chosen.size()) + " flags for " +
                            std::to_string(triangles.size()) + " triangles");
     const Tester tester(positions, triangles);
-    const auto boxes = triangle_boxes(positions, triangles);
-    const BoxTree tree(boxes);
+    std::vector<SmallBoxTree::Box> boxes(triangles.size());
+    tbb::parallel_for(std::size_t{0}, boxes.size(),
+                      [&](std::size_t t) { boxes[t] = small_box(positions, triangles[t]); });
+    const SmallBoxTree tree(boxes);
     const auto items = tree.items();
     // In the order of the leaves neighbours lie close together in memory, and each pair is met from
     // its first triangle only.
-    std::vector<BoxTree::Box> leaf_boxes(boxes.size());
+    put_in_order(boxes, items);
     std::vector<std::uint8_t> flat(boxes.size()), wanted(boxes.size());
     tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
-        leaf_boxes[i] = boxes[items[i]];
         flat[i] = tester.degenerate(items[i]) ? 1 : 0;
         wanted[i] = chosen[items[i]];
     });
     const std::vector<std::uint8_t> wanted_nodes = nodes_with(tree.nodes(), wanted);
-    std::vector<std::size_t> leaves;
-    for (std::size_t at = 0; at < tree.nodes().size(); ++at)
+    std::vector<std::uint32_t> leaves;
+    for (std::uint32_t at = 0; at < tree.nodes().size(); ++at)
         if (tree.nodes()[at].right == 0) leaves.push_back(at);
     // Fixed blocks keep the order of the result whatever the number of threads.
     constexpr std::size_t kBlock = 1024;
@@ -179,7 +213,7 @@ std::vector<TrianglePair> self_intersections_with(const Positions& positions,
         progress.check_cancelled();
         const auto test = [&](std::uint32_t i, std::uint32_t j) {
             if ((wanted[i] | wanted[j]) != 0 && !flat[i] && !flat[j] &&
-                leaf_boxes[i].intersects(leaf_boxes[j]) && tester.intersect(items[i], items[j]))
+                boxes[i].intersects(boxes[j]) && tester.intersect(items[i], items[j]))
                 found[block].push_back(std::minmax({items[i], items[j]}));
         };
         const std::size_t end = std::min(leaves.size(), (block + 1) * kBlock);

@@ -1,9 +1,15 @@
 #include "geometry/topology.h"
 
+#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "geometry/corners.h"
 #include "geometry/errors.h"
 #include "geometry/one_rings.h"
 
@@ -12,16 +18,39 @@ namespace vesselbench {
 namespace {
 
 CompressedRows triangles_by_vertex(std::span<const Triangle> triangles, std::size_t vertex_count) {
+    const detail::Corners corners(triangles);
+    const auto shares = detail::shares(vertex_count);
     CompressedRows rows;
     rows.offsets.assign(vertex_count + 1, 0);
-    for (const Triangle& t : triangles)
-        for (const VertexId v : t) ++rows.offsets[v + 1];
+    tbb::parallel_for(std::size_t{0}, shares.size(), [&](std::size_t i) {
+        corners.visit_at(shares[i],
+                         [&, offsets = rows.offsets.data()](VertexId v, VertexId, VertexId,
+                                                            TriangleId) { ++offsets[v + 1]; });
+    });
     for (std::size_t v = 0; v < vertex_count; ++v) rows.offsets[v + 1] += rows.offsets[v];
     rows.values.resize(rows.offsets.back());
-    std::vector<std::uint32_t> next(rows.offsets.begin(), rows.offsets.end() - 1);
-    for (TriangleId t = 0; t < triangles.size(); ++t)
-        for (const VertexId v : triangles[t]) rows.values[next[v]++] = t;
+    tbb::parallel_for(std::size_t{0}, shares.size(), [&](std::size_t i) {
+        const auto [first, last] = shares[i];
+        std::vector<std::uint32_t> next(rows.offsets.begin() + first, rows.offsets.begin() + last);
+        corners.visit_at(
+            shares[i],
+            [&, first = first, place = next.data(), values = rows.values.data()](
+                VertexId v, VertexId, VertexId, TriangleId t) { values[place[v - first]++] = t; });
+    });
     return rows;
+}
+
+VertexId largest_id(std::span<const Triangle> triangles) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, triangles.size(), 8192), VertexId{0},
+        [&](const auto& range, VertexId largest) {
+            Triangle by_corner{largest, largest, largest};  // they do not wait for each other
+            for (std::size_t t = range.begin(); t != range.end(); ++t)
+                for (std::size_t k = 0; k < 3; ++k)
+                    by_corner[k] = std::max(by_corner[k], triangles[t][k]);
+            return *std::ranges::max_element(by_corner);
+        },
+        [](VertexId a, VertexId b) { return std::max(a, b); });
 }
 
 }  // namespace
@@ -30,6 +59,7 @@ Topology::~Topology() = default;
 
 Topology::Topology(std::vector<Triangle> triangles, std::size_t vertex_count)
     : triangles_(std::move(triangles)), vertex_count_(vertex_count) {
+    if (triangles_.empty() || largest_id(triangles_) < vertex_count_) return;
     for (std::size_t t = 0; t < triangles_.size(); ++t)
         for (const VertexId v : triangles_[t])
             if (v >= vertex_count_)

@@ -1,6 +1,7 @@
 #include "smoothing/filter_support.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <sstream>
 
@@ -16,6 +17,17 @@ void require_length(const char* what, std::size_t length, std::size_t vertices) 
                        std::to_string(vertices) + " vertices");
 }
 
+bool all_finite(const Positions& positions) {
+    std::atomic<bool> finite = true;
+    const tbb::blocked_range<std::size_t> all(0, positions.size(), 16384);
+    tbb::parallel_for(all, [&](const auto& range) {
+        Vec3 sum = Vec3::Zero();  // of zeros, or not numbers
+        for (std::size_t v = range.begin(); v != range.end(); ++v) sum += 0.0 * positions[v];
+        if (!sum.allFinite()) finite = false;
+    });
+    return finite;
+}
+
 void require_fitting(const Topology& topology, const Positions& positions,
                      const FilterSettings& settings) {
     const std::size_t count = topology.vertex_count();
@@ -28,9 +40,10 @@ void require_fitting(const Topology& topology, const Positions& positions,
     if (!settings.weights.empty()) require_length("weights", settings.weights.size(), count);
     if (!settings.fixed.empty()) require_length("fixed flags", settings.fixed.size(), count);
     for (const double weight : settings.weights) require_range("weight", weight, 0.0, 1.0);
-    for (std::size_t v = 0; v < count; ++v)
-        if (!positions[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    if (!all_finite(positions))
+        for (std::size_t v = 0; v < count; ++v)
+            if (!positions[v].allFinite())
+                throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
     if (settings.constraint) require_valid(*settings.constraint);
     if (!settings.earlier) return;
     if (settings.earlier->start == nullptr || settings.earlier->iterations < 0)

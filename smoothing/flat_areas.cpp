@@ -54,7 +54,7 @@ FlatVertices find_flat_vertices(const CompressedRows& rows, std::span<const Face
 /// Connected flat vertices, by their first one. They are flat no longer: once looked at is enough.
 CompressedRows connected_parts(const CompressedRows& rings, std::vector<std::uint8_t>& flat) {
     CompressedRows parts{{0}, {}};
-    std::vector<VertexId>& queue = parts.values;
+    auto& queue = parts.values;
     for (VertexId first = 0; first < flat.size(); ++first) {
         if (flat[first] == 0) continue;
         flat[first] = 0;

@@ -6,27 +6,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 namespace vesselbench::detail {
 
 namespace {
-
-/// Largest difference of the numbers of two neighbours.
-std::size_t bandwidth(const CompressedRows& rows, std::size_t count) {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, count, 8192), std::size_t{0},
-        [&](const auto& range, std::size_t largest) {
-            for (std::size_t v = range.begin(); v != range.end(); ++v) {
-                const auto row = rows.row(v);  // ascending: its ends are the farthest
-                if (row.empty()) continue;
-                if (row.front() < v) largest = std::max(largest, v - row.front());
-                if (row.back() > v) largest = std::max(largest, row.back() - v);
-            }
-            return largest;
-        },
-        [](std::size_t a, std::size_t b) { return std::max(a, b); });
-}
 
 /// A band this wide comes with any sensible numbering of a surface's vertices by slices or fronts.
 std::size_t usual_bandwidth(std::size_t count) {
@@ -62,18 +45,42 @@ std::vector<VertexId> order_along_mesh(const CompressedRows& rows, std::size_t c
     return order;
 }
 
+constexpr std::uint32_t kMany = 31;  // neighbours: as many or more are sorted at the end
+
 /// Fills `members` with 0 ... count - 1 by valence; a counting sort, as most valences are small.
 template <class Valence>
-void sort_by_valence(std::uint16_t* members, std::size_t count, const Valence& valence) {
-    constexpr std::uint32_t kMany = 31;  // as large or larger: sorted at the end
+std::vector<BlockGroup> sort_by_valence(std::uint16_t* members, std::size_t count,
+                                        const Valence& valence) {
     std::array<std::uint16_t, kMany + 2> starts{};
     for (std::size_t i = 0; i < count; ++i) ++starts[std::min(valence(i), kMany) + 1];
+    std::vector<BlockGroup> groups;
+    for (std::uint32_t n = 0; n < kMany; ++n)
+        if (starts[n + 1] > 0) groups.push_back({n, starts[n + 1]});
     for (std::size_t n = 1; n < starts.size(); ++n) starts[n] += starts[n - 1];
     const std::uint16_t many = starts[kMany];
     for (std::size_t i = 0; i < count; ++i)
         members[starts[std::min(valence(i), kMany)]++] = static_cast<std::uint16_t>(i);
     std::stable_sort(members + many, members + count,
                      [&](std::uint16_t a, std::uint16_t b) { return valence(a) < valence(b); });
+    for (std::size_t i = many; i < count; ++i) {
+        const std::uint32_t n = valence(members[i]);
+        if (groups.empty() || groups.back().valence != n) groups.push_back({n, 0});
+        ++groups.back().count;
+    }
+    return groups;
+}
+
+/// Writes a row's neighbours by four times their number. Rows of up to eight are written as eight,
+/// without a branch for their size, where both arrays have the room.
+/// \param room behind `out`, which rows that come later overwrite
+void copy_row(std::span<const VertexId> row, const VertexId* rows_end, std::uint32_t* out,
+              std::ptrdiff_t room) {
+    constexpr std::ptrdiff_t kUsual = 8;
+    using Eight = std::uint32_t __attribute__((vector_size(32), may_alias, aligned(4)));
+    if (std::ssize(row) <= kUsual && room >= kUsual && rows_end - row.data() >= kUsual)
+        *reinterpret_cast<Eight*>(out) = *reinterpret_cast<const Eight*>(row.data()) * 4;
+    else
+        for (const VertexId u : row) *out++ = 4 * u;
 }
 
 std::vector<std::uint32_t> inverse(const std::vector<VertexId>& order) {
@@ -85,64 +92,96 @@ std::vector<std::uint32_t> inverse(const std::vector<VertexId>& order) {
 }  // namespace
 
 NeighbourBlocks::NeighbourBlocks(const CompressedRows& rows)
-    : vertex_count_(rows.offsets.empty() ? 0 : rows.offsets.size() - 1) {
-    std::size_t band = bandwidth(rows, vertex_count_);
-    std::vector<std::uint32_t> places;
+    : vertex_count_(rows.offsets.empty() ? 0 : rows.offsets.size() - 1),
+      members_((vertex_count_ + kBlock - 1) / kBlock * kBlock),
+      neighbours_(rows.values.size()) {
+    std::size_t band = fill(rows, {});
     if (band > usual_bandwidth(vertex_count_)) {
         order_ = order_along_mesh(rows, vertex_count_);
-        places = inverse(order_);
-        band = 0;
-        for (std::size_t v = 0; v < vertex_count_; ++v)
-            for (const VertexId u : rows.row(v))
-                band = std::max<std::size_t>(
-                    band, std::max(places[u], places[v]) - std::min(places[u], places[v]));
+        band = fill(rows, inverse(order_));
     }
     reach_ = (band + kBlock - 1) / kBlock;
-    const std::size_t blocks = (vertex_count_ + kBlock - 1) / kBlock;
-    group_offsets_.assign(blocks + 1, 0);
+}
+
+/// Fills everything for the order that there is.
+/// \param places of all vertices; empty: their numbers
+/// \return largest distance of the places of two neighbours
+std::size_t NeighbourBlocks::fill(const CompressedRows& rows,
+                                  std::span<const std::uint32_t> places) {
+    const std::size_t blocks = members_.size() / kBlock;
     neighbour_offsets_.assign(blocks + 1, 0);
-    members_.resize(blocks * kBlock);
-    neighbours_ = LargeArray<std::uint32_t>(rows.values.size());
     for (std::size_t block = 0; block < blocks; ++block) {
         std::size_t size = 0;
-        const std::size_t end = std::min(vertex_count_, (block + 1) * kBlock);
+        const std::size_t first = block * kBlock, end = std::min(vertex_count_, first + kBlock);
         if (order_.empty())
-            size = rows.offsets[end] - rows.offsets[block * kBlock];
+            size = rows.offsets[end] - rows.offsets[first];
         else
-            for (std::size_t p = block * kBlock; p < end; ++p) size += rows.row(order_[p]).size();
+            for (std::size_t p = first; p < end; ++p) size += rows.row(order_[p]).size();
         neighbour_offsets_[block + 1] =
             neighbour_offsets_[block] + static_cast<std::uint32_t>(size);
     }
     std::vector<std::vector<BlockGroup>> groups(blocks);
-    tbb::parallel_for(std::size_t{0}, blocks,
-                      [&](std::size_t block) { groups[block] = fill_block(rows, places, block); });
-    for (std::size_t block = 0; block < blocks; ++block) {
-        groups_.insert(groups_.end(), groups[block].begin(), groups[block].end());
-        group_offsets_[block + 1] = static_cast<std::uint32_t>(groups_.size());
+    std::vector<std::size_t> bands(blocks, 0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 8), [&](const auto& range) {
+        for (std::size_t block = range.begin(); block != range.end(); ++block) {
+            groups[block] = fill_groups(rows, block);
+            bands[block] = places.empty() ? fill_neighbours(rows, block)
+                                          : fill_neighbours(rows, places, block);
+        }
+    });
+    groups_.clear();
+    group_offsets_.assign(1, 0);
+    for (const auto& some : groups) {
+        groups_.insert(groups_.end(), some.begin(), some.end());
+        group_offsets_.push_back(static_cast<std::uint32_t>(groups_.size()));
     }
+    return bands.empty() ? 0 : *std::ranges::max_element(bands);
 }
 
-std::vector<BlockGroup> NeighbourBlocks::fill_block(const CompressedRows& rows,
-                                                    std::span<const std::uint32_t> places,
-                                                    std::size_t block) {
+std::vector<BlockGroup> NeighbourBlocks::fill_groups(const CompressedRows& rows,
+                                                     std::size_t block) {
     const std::size_t first = block * kBlock;
-    const std::size_t count = std::min(vertex_count_, first + kBlock) - first;
-    const auto valence = [&](std::size_t i) {
-        const std::size_t v = vertex_at(first + i);
-        return rows.offsets[v + 1] - rows.offsets[v];
-    };
-    std::uint16_t* members = members_.data() + first;
-    sort_by_valence(members, count, valence);
-    std::vector<BlockGroup> groups;
+    return sort_by_valence(members_.data() + first, std::min(vertex_count_ - first, kBlock),
+                           [&](std::size_t i) {
+                               const std::size_t v = vertex_at(first + i);
+                               return rows.offsets[v + 1] - rows.offsets[v];
+                           });
+}
+
+/// Where places are vertices. \return largest distance of two neighbours
+std::size_t NeighbourBlocks::fill_neighbours(const CompressedRows& rows, std::size_t block) {
+    const std::size_t first = block * kBlock, count = std::min(vertex_count_ - first, kBlock);
     std::uint32_t* out = neighbours_.data() + neighbour_offsets_[block];
+    const std::uint32_t* end = neighbours_.data() + neighbour_offsets_[block + 1];
+    const VertexId* rows_end = rows.values.data() + rows.values.size();
+    std::size_t band = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto row = rows.row(vertex_at(first + members[i]));
-        if (groups.empty() || groups.back().valence != row.size())
-            groups.push_back({static_cast<std::uint32_t>(row.size()), 0});
-        ++groups.back().count;
-        for (const VertexId u : row) *out++ = 4 * (places.empty() ? u : places[u]);
+        const std::size_t v = first + members_[first + i];
+        const auto row = rows.row(v);  // ascending: its ends are the farthest
+        if (row.empty()) continue;
+        band = std::max({band, v - std::min<std::size_t>(v, row.front()),
+                         std::max<std::size_t>(v, row.back()) - v});
+        copy_row(row, rows_end, out, end - out);
+        out += row.size();
     }
-    return groups;
+    return band;
+}
+
+std::size_t NeighbourBlocks::fill_neighbours(const CompressedRows& rows,
+                                             std::span<const std::uint32_t> places,
+                                             std::size_t block) {
+    const std::size_t first = block * kBlock, count = std::min(vertex_count_ - first, kBlock);
+    std::uint32_t* out = neighbours_.data() + neighbour_offsets_[block];
+    std::size_t band = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t place = first + members_[first + i];
+        for (const VertexId u : rows.row(order_[place])) {
+            band = std::max(band, std::max<std::size_t>(place, places[u]) -
+                                      std::min<std::size_t>(place, places[u]));
+            *out++ = 4 * places[u];
+        }
+    }
+    return band;
 }
 
 }  // namespace vesselbench::detail

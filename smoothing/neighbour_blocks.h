@@ -60,15 +60,18 @@ public:
     }
 
 private:
-    std::vector<BlockGroup> fill_block(const CompressedRows& rows,
-                                       std::span<const std::uint32_t> places, std::size_t block);
+    std::size_t fill(const CompressedRows& rows, std::span<const std::uint32_t> places);
+    std::vector<BlockGroup> fill_groups(const CompressedRows& rows, std::size_t block);
+    std::size_t fill_neighbours(const CompressedRows& rows, std::size_t block);
+    std::size_t fill_neighbours(const CompressedRows& rows, std::span<const std::uint32_t> places,
+                                std::size_t block);
 
     std::size_t vertex_count_ = 0;
     std::size_t reach_ = 0;
     std::vector<VertexId> order_;
     std::vector<BlockGroup> groups_;
     std::vector<std::uint32_t> group_offsets_;  ///< #blocks + 1
-    std::vector<std::uint16_t> members_;        ///< #blocks * kBlock
+    LargeArray<std::uint16_t> members_;         ///< #blocks * kBlock
     LargeArray<std::uint32_t> neighbours_;
     std::vector<std::uint32_t> neighbour_offsets_;  ///< #blocks + 1
 };

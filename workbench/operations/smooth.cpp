@@ -72,6 +72,23 @@ Positions filtered(const Surface& start, const FilterParameters& filter,
     return std::move(run.positions);
 }
 
+/// What the filter makes of the surface in its context, which is not needed any more afterwards.
+Positions filtered_in_context(const Scene& scene, const FilterParameters& filter, Outcome& outcome,
+                              Json& report, Progress& progress) {
+    progress.report(0.0, "looking at the context");
+    const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
+    if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
+    Surface start = surface_of(scene);
+    start.positions = context.start;
+    return filtered(start, filter,
+                    {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
+                     .weights = context.weights,
+                     .fixed = context.fixed,
+                     .rings = static_cast<int>(outcome.resolved.integer("rings")),
+                     .constraint = context.constraint},
+                    outcome, progress.part(0.1, 0.8));
+}
+
 Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     Outcome outcome;
@@ -81,19 +98,9 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     if (const std::string warning = filter_warning(filter); !warning.empty())
         outcome.warnings.push_back(warning);
     Json report;
-    progress.report(0.0, "looking at the context");
-    const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
-    Positions moved =
-        filtered(surface.with_positions(context.start), filter,
-                 {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
-                  .weights = context.weights,
-                  .fixed = context.fixed,
-                  .rings = static_cast<int>(outcome.resolved.integer("rings")),
-                  .constraint = context.constraint},
-                 outcome, progress.part(0.1, 0.8));
+    Positions moved = filtered_in_context(scene, filter, outcome, report, progress);
     keep_walls_apart(surface, moved, outcome, progress);
     Surface smoothed = surface.with_positions(std::move(moved));
-    if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
     add_changes(report, surface, smoothed);
     outcome.report = std::make_shared<Json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(smoothed));

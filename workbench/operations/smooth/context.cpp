@@ -246,7 +246,8 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
     const std::vector<Cap> caps = caps_of(surface, arguments);
     const std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
     const bool round = arguments.text("caps") == "round";
-    context.start = round ? rounded_caps(surface, caps) : surface.points();
+    context.start =
+        round ? std::make_shared<const Positions>(rounded_caps(surface, caps)) : surface.positions;
     context.fixed = round ? std::vector<std::uint8_t>() : on_caps;
     report["caps"] = caps.size();
     report["cap_vertices_kept"] = round ? 0 : std::ranges::count(on_caps, 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,9 +18,9 @@ namespace vesselbench {
 
 /// What the context says about a surface before it is smoothed.
 struct SmoothingContext {
-    Positions start;                  ///< the surface's, or with domed caps (caps=round)
-    std::vector<double> weights;      ///< product of all weights, #V; empty: 1 everywhere
-    std::vector<std::uint8_t> fixed;  ///< caps that are kept, #V
+    std::shared_ptr<const Positions> start;  ///< the surface's, or with domed caps (caps=round)
+    std::vector<double> weights;             ///< product of all weights, #V; empty: 1 everywhere
+    std::vector<std::uint8_t> fixed;         ///< caps that are kept, #V
     std::optional<PositionConstraint> constraint;
 };
 
