@@ -8,6 +8,8 @@
 
 #include <sys/mman.h>
 
+#include "geometry/kept_memory.h"
+
 namespace vesselbench::detail {
 
 namespace {
@@ -23,11 +25,14 @@ std::size_t rounded(std::size_t bytes) {
 /// Memory that was given back, for the next one who asks for about as much.
 class KeptMemory {
 public:
-    /// Null if there is none.
+    /// Null if there is none; then what there is serves other surfaces than this one, and is freed.
     [[nodiscard]] void* take(std::size_t bytes) {
         const std::lock_guard lock(mutex_);
         const auto found = std::ranges::find(blocks_, bytes, &Block::bytes);
-        if (found == blocks_.end()) return nullptr;
+        if (found == blocks_.end()) {
+            shrink_to(0);
+            return nullptr;
+        }
         void* memory = found->memory;
         blocks_.erase(found);
         total_ -= bytes;
@@ -38,14 +43,24 @@ public:
     void keep(void* memory, std::size_t bytes) {
         const std::lock_guard lock(mutex_);
         blocks_.push_back({memory, bytes});
-        for (total_ += bytes; total_ > kMost; blocks_.erase(blocks_.begin())) {
+        total_ += bytes;
+        shrink_to(kMost);
+    }
+
+    void free_all() {
+        const std::lock_guard lock(mutex_);
+        shrink_to(0);
+    }
+
+private:
+    static constexpr std::size_t kMost = std::size_t{48} << 20;
+
+    void shrink_to(std::size_t most) {
+        for (; total_ > most; blocks_.erase(blocks_.begin())) {
             std::free(blocks_.front().memory);
             total_ -= blocks_.front().bytes;
         }
     }
-
-private:
-    static constexpr std::size_t kMost = std::size_t{64} << 20;
 
     struct Block {
         void* memory;
@@ -83,3 +98,11 @@ void give_back_large_memory(void* memory, std::size_t bytes) noexcept {
 }
 
 }  // namespace vesselbench::detail
+
+namespace vesselbench {
+
+void release_kept_memory() noexcept {
+    detail::kept().free_all();
+}
+
+}  // namespace vesselbench

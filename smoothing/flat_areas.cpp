@@ -177,6 +177,14 @@ void number_plane_parts(Ground& ground, const CompressedRows& parts,
     });
 }
 
+/// Connected flat vertices, of which the plane ones get their numbers.
+CompressedRows plane_parts(Ground& ground) {
+    FlatVertices vertices = find_flat_vertices(ground.rows, ground.faces, ground.flat_cosine);
+    CompressedRows parts = connected_parts(ground.surface.topology->rings(), vertices.flat);
+    number_plane_parts(ground, parts, vertices.normals);
+    return parts;
+}
+
 /// The area of every part as if there were no other.
 std::vector<std::vector<TriangleId>> lone_areas(const Ground& ground, const CompressedRows& parts,
                                                 const AreaNumbers& unsearched) {
@@ -220,9 +228,7 @@ FlatAreas find_flat_areas(const Surface& surface, std::span<const FaceNormal> fa
                   cosine(parameters.flat_angle_deg),
                   cosine(kLargestSpread),
                   std::vector<std::uint32_t>(surface.vertex_count(), 0)};
-    FlatVertices vertices = find_flat_vertices(ground.rows, faces, ground.flat_cosine);
-    const CompressedRows parts = connected_parts(surface.topology->rings(), vertices.flat);
-    number_plane_parts(ground, parts, vertices.normals);
+    const CompressedRows parts = plane_parts(ground);
 
     FlatAreas found{AreaNumbers(surface.triangle_count(), 0), {}};
     for_each_vertex(found.numbers.size(), [&](std::size_t t) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kept_memory.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
 #include "geometry/wording.h"
@@ -99,6 +100,7 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
         outcome.warnings.push_back(warning);
     Json report;
     Positions moved = filtered_in_context(scene, filter, outcome, report, progress);
+    release_kept_memory();
     keep_walls_apart(surface, moved, outcome, progress);
     Surface smoothed = surface.with_positions(std::move(moved));
     add_changes(report, surface, smoothed);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/kept_memory.h"
 #include "smoothing/cap_rounding.h"
 #include "smoothing/distance_weights.h"
 #include "smoothing/stack_orientation.h"
@@ -243,6 +244,8 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
     static_cast<void>(given_stack_axis(arguments));
     SmoothingContext context;
     context.constraint = constraint_part(scene, arguments);
+    static_cast<void>(surface.topology->rings());  // what making them has taken is not needed again
+    release_kept_memory();
     const std::vector<Cap> caps = caps_of(surface, arguments);
     const std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
     const bool round = arguments.text("caps") == "round";
