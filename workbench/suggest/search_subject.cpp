@@ -95,7 +95,7 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     SmoothingContext context = smoothing_context(subject.scene, subject.arguments, report);
     subject.weights = shared_weights(std::move(context.weights));
     subject.ground = {.topology = surface.topology,
-                      .start = std::make_shared<const Positions>(std::move(context.start)),
+                      .start = context.start,
                       .fixed = std::move(context.fixed),
                       .constraint = context.constraint,
                       .rings = static_cast<int>(subject.arguments.integer("rings"))};
