@@ -356,7 +356,10 @@ void add_phantom(CommandLine& line) {
         add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
                     [options, &line] { return write_phantom(*options, line.progress), 0; });
     command.add_option("--seed", options->seed, "Seed of its noise; its own by default");
-    command.add_option("NAME", options->name, "One of " + joined(phantom_names()))
+    command
+        .add_option("NAME", options->name,
+                    "One of " + joined(phantom_names()) +
+                        ", or a file (.json) that describes one, as those of cases/phantoms do")
         ->required()
         ->type_name("");
     command.add_option("--out", options->out, "Folder; made if it is not there")

@@ -65,7 +65,7 @@ struct PhantomImaging {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of i, j, k
     double inside = 1000.0;                              ///< intensity of contrast agent
     double outside = 0.0;                                ///< intensity of tissue
-    double blur = 0.0;           ///< [mm] standard deviation of the scanner's point spread
+    Vec3 blur = Vec3::Zero();    ///< [mm] standard deviation of the point spread along i, j, k
     double noise = 0.0;          ///< standard deviation of the intensity noise
     double inhomogeneity = 0.0;  ///< [-] largest relative loss of contrast, varying slowly
     std::vector<Deletion> deletions;

@@ -33,7 +33,7 @@ PhantomDescription cylinder_with_cuboid() {
     description.surface_edge = 0.8;
     description.imaging.spacing = Vec3(1, 1, 3);
     description.imaging.margin = 6;
-    description.imaging.blur = 0.6;
+    description.imaging.blur.setConstant(0.6);
     return description;
 }
 

@@ -43,7 +43,7 @@ PhantomDescription described(const std::vector<PhantomPart>& parts, const Vec3& 
     PhantomDescription d;
     d.parts = parts;
     d.imaging.spacing = voxel;
-    d.imaging.blur = kBlur;
+    d.imaging.blur.setConstant(kBlur);
     return d;
 }
 
@@ -77,7 +77,7 @@ PhantomDescription random_sphere(std::uint64_t seed, const Vec3& spacing) {
     d.parts = {{"sphere", SphereShape{Vec3::Zero(), radius}, 0.0},
                {"speck", SphereShape{speck, 1e-3}, 0.0}};
     d.imaging.spacing = spacing;
-    d.imaging.blur = 0.5 * std::floor(3.0 * uniform_noise(seed, 14));  // 0, 0.5 or 1 mm
+    d.imaging.blur.setConstant(0.5 * std::floor(3.0 * uniform_noise(seed, 14)));  // 0 to 1 mm
     return d;
 }
 

@@ -27,7 +27,7 @@ std::string case_text(const PhantomDescription& description) {
 }  // namespace
 
 void write_phantom(const PhantomOptions& options, const Progress& progress) {
-    PhantomDescription description = builtin_phantom(options.name);
+    PhantomDescription description = phantom_named(options.name);
     description.seed = options.seed.value_or(description.seed);
     progress.report(0.0, "making the phantom");
     const Phantom phantom = make_phantom(description);

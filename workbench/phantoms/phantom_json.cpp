@@ -7,6 +7,7 @@
 
 #include "geometry/errors.h"
 #include "workbench/near_names.h"
+#include "workbench/pending_files.h"
 #include "workbench/phantoms/builtin.h"
 
 namespace vesselbench {
@@ -39,6 +40,14 @@ public:
         read(key, numbers);
         if (numbers.size() != 3) throw InvalidInput(place_ + "." + key + " needs three numbers");
         value = Vec3(numbers[0], numbers[1], numbers[2]);
+    }
+
+    /// Three numbers, or one for all.
+    void read_along_axes(const char* key, Vec3& value) {
+        if (!json_.contains(key) || !json_.at(key).is_number()) return read_vector(key, value);
+        double number = 0.0;
+        read(key, number);
+        value = Vec3::Constant(number);
     }
 
     [[nodiscard]] const Json* child(const char* key) {
@@ -140,7 +149,7 @@ PhantomImaging imaging_from(const Json& json) {
     node.read("margin", imaging.margin);
     node.read("inside", imaging.inside);
     node.read("outside", imaging.outside);
-    node.read("blur", imaging.blur);
+    node.read_along_axes("blur", imaging.blur);
     node.read("noise", imaging.noise);
     node.read("inhomogeneity", imaging.inhomogeneity);
     node.read("mask_slice_step", imaging.mask_slice_step);
@@ -196,6 +205,11 @@ std::vector<std::string> phantom_names() {
     std::vector<std::string> names;
     for (const auto& [name, text] : builtin_phantom_texts()) names.push_back(name);
     return names;
+}
+
+PhantomDescription phantom_named(const std::string& name) {
+    if (name.ends_with(".json")) return phantom_from_json(read_text_file(name));
+    return builtin_phantom(name);
 }
 
 PhantomDescription builtin_phantom(const std::string& name) {
