@@ -143,8 +143,7 @@ Image phantom_image(const PhantomDescription& description, const PhantomField& f
         return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
     });
     for (int axis = 0; axis < 3; ++axis)
-        if (imaging.blur[axis] > 0.0)
-            share = blurred_along(image, share, axis, imaging.blur[axis]);
+        if (imaging.blur[axis] > 0.0) share = blurred_along(image, share, axis, imaging.blur[axis]);
     const double phase = 6.283 * uniform_noise(description.seed, 0);
     image.voxels = filled(image, [&](int i, int j, int k) {
         const std::size_t at = image.offset(i, j, k);
