@@ -106,3 +106,20 @@ SCENARIO("The command line draws model quality graphs and bars", "[workbench][su
     CHECK(curves[2]["points"][0]["error"] == 0.0);
     CHECK(curves[2]["points"][0]["curvature"] == 1.0);
 }
+
+SCENARIO("A search on the GPU suggests what the CPU suggests", "[workbench][suggest][device]") {
+    const std::string ball = ball_file(temporary_folder());
+    const auto suggest = [&](const std::string& device) {
+        const ProgramRun run = program({"suggest", ball, "--filter", "laplace", "--search",
+                                        "coarse", "--json", "device=" + device});
+        REQUIRE(run.exit_code == 0);
+        return Json::parse(run.out);
+    };
+    const Json cpu = suggest("cpu"), gpu = suggest("gpu");
+    CHECK(cpu["device"] == "cpu");
+    if (gpu["device"] == "cpu") WARN("skipped: no OpenGL, the CPU served");
+    CHECK(gpu["suggestion"]["score"].get<double>() ==
+          Approx(cpu["suggestion"]["score"].get<double>()).epsilon(1e-3));
+    CHECK(gpu["suggestion"]["volume_mm3"].get<double>() ==
+          Approx(cpu["suggestion"]["volume_mm3"].get<double>()).epsilon(1e-3));
+}

@@ -83,7 +83,7 @@ Json json_of(const SensitivityAnalysis& analysis) {
 SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
                                 const Progress& progress) {
     const SearchSpace space = space_for(subject, true);
-    ParameterSearch search(make_cpu_engine(subject.ground), space, {.tau = tau});
+    ParameterSearch search(engine_for(subject).engine, space, {.tau = tau});
     return sensitivity(search, given_set(subject, space), false, progress);
 }
 

@@ -139,6 +139,7 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
                  {"filter", subject.arguments.text("filter")},
                  {"score_form", options.score},
                  {"search", options.search},
+                 {"device", search.chosen().on_gpu ? "gpu" : "cpu"},
                  {"vertices", surface_of(subject.scene).vertex_count()},
                  {"mean_edge_mm", search.mean_edge()},
                  {"original", measures_json(search.original(), search.original())}};
@@ -169,6 +170,8 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
     for (const double tau : kPresetTaus)
         found.emplace_back(tau, search.suggest(tau, progress.part(0.6, 1.0)));
     for (const std::string& note : subject.notes) remark(note);
+    if (subject.arguments.text("device") == "gpu" && !search.chosen().reason.empty())
+        remark("device=gpu: the CPU searched instead, because " + search.chosen().reason);
     if (options.json) return print_json(search, subject, options, found, work, progress);
     std::cout << subject.name << (subject.state.empty() ? "" : ", " + subject.state) << ": "
               << counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices")
@@ -179,7 +182,8 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
         << "\ncurvature: integral of |H|, of the original's; mean distance: from the original "
            "surface\nsearched: "
         << work["evaluations"] << " parameter sets, " << work["sweeps"] << " iterations, "
-        << number(work["seconds"].get<double>()) << " s\n";
+        << number(work["seconds"].get<double>()) << " s"
+        << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
 }
 
 }  // namespace vesselbench

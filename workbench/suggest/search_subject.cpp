@@ -105,6 +105,14 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     return subject;
 }
 
+ChosenEngine engine_for(const SearchSubject& subject, bool planes) {
+    const std::string& device = subject.arguments.text("device");
+    const DeviceChoice choice = device == "gpu"   ? DeviceChoice::Gpu
+                                : device == "cpu" ? DeviceChoice::Cpu
+                                                  : DeviceChoice::Auto;
+    return make_engine(choice, subject.ground, planes);
+}
+
 SearchSpace space_for(const SearchSubject& subject, bool all_parameters) {
     return smoothing_space({.filter = subject.filter,
                             .weights = subject.weights,

@@ -6,6 +6,7 @@
 
 #include "quality/smoothing_space.h"
 
+#include "gpu/gpu_engine.h"
 #include "workbench/arguments.h"
 #include "workbench/scene.h"
 
@@ -39,6 +40,11 @@ struct SearchSubject {
 /// `apply PROJECT smooth` would smooth.
 /// \throw UsageError, InvalidInput, AlgorithmFailure as `smooth` and the readers
 [[nodiscard]] SearchSubject search_subject(const SubjectOptions& options, const Progress& progress);
+
+/// What measures parameter sets, on the device that the argument `device` of `smooth` names: auto
+/// takes a GPU where there is one. Used on this thread only, if it is a GPU's. \param planes
+/// measures the error as Eq. 6.2 prints it, too
+[[nodiscard]] ChosenEngine engine_for(const SearchSubject& subject, bool planes = false);
 
 /// \param all_parameters for graphs
 [[nodiscard]] SearchSpace space_for(const SearchSubject& subject, bool all_parameters = false);

@@ -23,8 +23,8 @@ SuggestionSearch::SuggestionSearch(const SearchSubject& subject, ScoreSettings s
     : subject_(subject),
       way_(way),
       settings_(settings),
-      engine_(make_cpu_engine(subject.ground, planes || settings.form == ScoreForm::Thesis)),
-      search_(engine_, space_for(subject), settings) {
+      chosen_(engine_for(subject, planes || settings.form == ScoreForm::Thesis)),
+      search_(chosen_.engine, space_for(subject), settings) {
     if (way_ == SearchWay::Automatic && space().parameters.size() > kMostForGrid)
         way_ = SearchWay::Pattern;
 }

@@ -46,9 +46,12 @@ public:
 
     [[nodiscard]] const SearchSpace& space() const { return search_.space(); }
 
-    [[nodiscard]] const QualityMeasures& original() const { return engine_->original(); }
+    [[nodiscard]] const QualityMeasures& original() const { return chosen_.engine->original(); }
 
-    [[nodiscard]] double mean_edge() const { return engine_->mean_edge(); }
+    [[nodiscard]] double mean_edge() const { return chosen_.engine->mean_edge(); }
+
+    /// Who smooths and measures.
+    [[nodiscard]] const ChosenEngine& chosen() const { return chosen_; }
 
     [[nodiscard]] const QualityTable::Work& work() const { return search_.table().work(); }
 
@@ -56,7 +59,7 @@ private:
     const SearchSubject& subject_;
     SearchWay way_;
     ScoreSettings settings_;
-    std::shared_ptr<const SmoothingEngine> engine_;
+    ChosenEngine chosen_;
     ParameterSearch search_;
 };
 
