@@ -72,13 +72,19 @@ Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
 }
 
 Program make_program(const std::string& name) {
+    return make_program(name, name);
+}
+
+Program make_program(const std::string& vertex, const std::string& fragment) {
     Program program(glCreateProgram());
-    attach(program, GL_VERTEX_SHADER, name + ".vert");
-    attach(program, GL_FRAGMENT_SHADER, name + ".frag");
+    attach(program, GL_VERTEX_SHADER, vertex + ".vert");
+    attach(program, GL_FRAGMENT_SHADER, fragment + ".frag");
     glLinkProgram(program.id());
     int ok = 0;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
-    if (!ok) throw GpuUnavailable("the shaders " + name + " do not link");
+    if (!ok)
+        throw GpuUnavailable("the shaders " + vertex + ".vert and " + fragment +
+                             ".frag do not link");
     return program;
 }
 

@@ -54,4 +54,7 @@ using Query = GlObject<delete_query>;
 /// \throw GpuUnavailable with the compiler's message if a shader does not compile
 [[nodiscard]] Program make_program(const std::string& name);
 
+/// The same from <vertex>.vert and <fragment>.frag.
+[[nodiscard]] Program make_program(const std::string& vertex, const std::string& fragment);
+
 }  // namespace vesselbench

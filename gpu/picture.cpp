@@ -1,22 +1,17 @@
 #include "gpu/picture.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 
-#include <Eigen/LU>
 #include <epoxy/gl.h>
 
 #include "geometry/errors.h"
+#include "gpu/canvas.h"
 #include "gpu/context.h"
 #include "gpu/objects.h"
 
 namespace vesselbench {
 
 namespace {
-
-constexpr int kSamples = 4;
-constexpr int kLargestSide = 8192;
 
 /// Attributes of three corners per triangle: patches and sharp shading need corners of their own.
 struct Corner {
@@ -75,71 +70,6 @@ std::vector<Corner> wire_corners(const Surface& wires, const Vec3& centre,
     return corners(wires, centre, plain);
 }
 
-struct Camera {
-    Eigen::Matrix4f to_clip = Eigen::Matrix4f::Identity();
-    Eigen::Matrix3f to_eye = Eigen::Matrix3f::Identity();
-};
-
-/// Orthographic: the eye looks along -z of a right-handed frame; everything within the model's
-/// sphere is in depth.
-Camera camera_for(const Surface& surface, const Vec3& centre, const PictureOptions& options) {
-    const Vec3 back = -options.view.normalized();
-    const Vec3 right = options.up.cross(back).normalized();
-    Eigen::Matrix3d eye;
-    eye << right.transpose(), back.cross(right).transpose(), back.transpose();
-    if (!(eye.determinant() > 0.5))
-        throw InvalidInput("the direction of sight and the up direction must not be parallel");
-    Vec3 reach = Vec3::Constant(1e-9);
-    double radius = 0.0;
-    for (const Vec3& p : surface.points()) {
-        reach = reach.cwiseMax((eye * (p - centre)).cwiseAbs());
-        radius = std::max(radius, (p - centre).norm());
-    }
-    const double aspect = static_cast<double>(options.width) / options.height;
-    const double fitting = 1.06 * std::max(reach.y(), reach.x() / aspect) / options.zoom;
-    const double half_height = options.half_height > 0.0 ? options.half_height : fitting;
-    Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
-    clip.topLeftCorner<3, 3>() =
-        Vec3(1.0 / (half_height * aspect), 1.0 / half_height, -0.5 / radius).asDiagonal() * eye;
-    clip.topRightCorner<3, 1>() = -clip.topLeftCorner<3, 3>() * options.shift;
-    return {clip.cast<float>(), eye.cast<float>()};
-}
-
-/// A framebuffer with colour and depth of one size.
-struct Target {
-    Framebuffer frame;
-    Renderbuffer colour, depth;
-
-    Target(int width, int height, int samples) {
-        unsigned ids[3];
-        glGenFramebuffers(1, &ids[0]);
-        glGenRenderbuffers(2, &ids[1]);
-        frame = Framebuffer(ids[0]);
-        colour = Renderbuffer(ids[1]);
-        depth = Renderbuffer(ids[2]);
-        glBindFramebuffer(GL_FRAMEBUFFER, frame.id());
-        attach(colour, GL_RGBA8, GL_COLOR_ATTACHMENT0, {width, height, samples});
-        attach(depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, {width, height, samples});
-        if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            throw GpuUnavailable("the device offers no framebuffer for a picture of this size");
-    }
-
-    static void attach(const Renderbuffer& buffer, unsigned format, unsigned where,
-                       std::array<int, 3> size) {
-        glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
-        glRenderbufferStorageMultisample(GL_RENDERBUFFER, size[2], format, size[0], size[1]);
-        glFramebufferRenderbuffer(GL_FRAMEBUFFER, where, GL_RENDERBUFFER, buffer.id());
-    }
-};
-
-void set_matrices(const Program& program, const Camera& camera) {
-    glUseProgram(program.id());
-    glUniformMatrix4fv(glGetUniformLocation(program.id(), "to_clip"), 1, GL_FALSE,
-                       camera.to_clip.data());
-    glUniformMatrix3fv(glGetUniformLocation(program.id(), "to_eye"), 1, GL_FALSE,
-                       camera.to_eye.data());
-}
-
 VertexArray describe_corners() {
     unsigned id = 0;
     glGenVertexArrays(1, &id);
@@ -187,24 +117,9 @@ void draw_wires(const std::vector<Corner>& list, const Camera& camera) {
     draw_edges(static_cast<GLsizei>(list.size()), camera, kWirePull);
 }
 
-Picture read_back(int width, int height) {
-    Picture picture{width, height, {}};
-    const auto row = static_cast<std::size_t>(width) * 3;
-    std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height));
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
-    for (int y = height - 1; y >= 0; --y) {
-        const auto* first = upside_down.data() + static_cast<std::size_t>(y) * row;
-        picture.rgb.insert(picture.rgb.end(), first, first + row);
-    }
-    return picture;
-}
-
 void check(const Surface& surface, const PictureOptions& options) {
     if (surface.empty()) throw InvalidInput("there is no surface to draw");
-    if (std::min(options.width, options.height) < 1 ||
-        std::max(options.width, options.height) > kLargestSide)
-        throw InvalidInput("a picture must be 1 to 8192 pixels wide and high");
+    require_size(options);
     if (!options.vertex_colours.empty() && options.vertex_colours.size() != surface.vertex_count())
         throw InvalidInput("there must be one colour per vertex");
 }
@@ -216,21 +131,12 @@ Picture draw(const Surface& surface, const PictureOptions& options) {
     const Surface& frame = options.frame ? *options.frame : surface;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : frame.points()) box.extend(p);
-    const Camera camera = camera_for(frame, box.center(), options);
+    const Camera camera = camera_for(frame.points(), box.center(), options);
     const OffscreenContext context;
-    const Target multisampled(options.width, options.height, kSamples);
-    glViewport(0, 0, options.width, options.height);
-    glClearColor(1.0F, 1.0F, 1.0F, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glEnable(GL_DEPTH_TEST);
+    const Canvas canvas(options.width, options.height);
     draw_corners(corners(surface, box.center(), options), camera, options.edges);
     if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
-    const Target plain(options.width, options.height, 0);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled.frame.id());
-    glBlitFramebuffer(0, 0, options.width, options.height, 0, 0, options.width, options.height,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, plain.frame.id());
-    return read_back(options.width, options.height);
+    return canvas.picture();
 }
 
 }  // namespace vesselbench

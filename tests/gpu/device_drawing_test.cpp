@@ -1,0 +1,73 @@
+#include "gpu/device_drawing.h"
+
+#include <cstdlib>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/errors.h"
+#include "gpu/gpu_meter.h"
+#include "gpu/gpu_smoother.h"
+#include "tests/gpu/device_support.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+PictureOptions small() {
+    PictureOptions options;
+    options.width = 220;
+    options.height = 180;
+    return options;
+}
+
+/// Mean difference of two pictures' colours [-], 1 of black and white.
+double difference(const Picture& a, const Picture& b) {
+    REQUIRE(a.rgb.size() == b.rgb.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
+    return sum / (255.0 * static_cast<double>(a.rgb.size()));
+}
+
+}  // namespace
+
+SCENARIO("A smoothed surface is drawn from where it was smoothed", "[gpu][drawing]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface rough = varied_surfaces().front().surface;
+    const auto device = uploaded(*test, rough);
+    GpuSmoother smoother(device, {});
+    GpuMeter meter(device);
+    const DeviceDrawing drawing(device);
+    PictureOptions options = small();
+    options.frame = std::make_shared<const Surface>(rough);
+    const auto picture = [&](const Buffer* values, double most) {
+        return picture_of(*device, drawing, {smoother.shifts(), meter.normals(), values, 0.0, most},
+                          options);
+    };
+    smoother.start(LaplaceParameters{});
+    meter.measure_shape(smoother.shifts());
+    const Picture before = picture(nullptr, 1.0);
+    CHECK(difference(before, draw(rough, options)) < 0.005);
+    smoother.run(20);
+    meter.measure(smoother.shifts());
+    const Picture after = picture(nullptr, 1.0);
+    const Surface smooth = rough.with_positions(smoother.positions());
+    CHECK(difference(after, draw(smooth, options)) < 0.005);
+    CHECK(difference(before, after) > 0.02);
+    THEN("colours show a value at each vertex") {
+        const auto errors = read_storage<float>(meter.errors(), rough.vertex_count());
+        const double most = meter.read().front().largest_error;
+        PictureOptions coloured = options;
+        for (const float error : errors)
+            coloured.vertex_colours.push_back(heated_colour(error / most));
+        const Picture by_error = picture(&meter.errors(), most);
+        CHECK(difference(by_error, draw(smooth, coloured)) < 0.005);
+        CHECK(difference(by_error, after) > 0.02);
+    }
+    THEN("a size that is not usable is refused") {
+        options.width = 0;
+        CHECK_THROWS_AS(picture(nullptr, 1.0), InvalidInput);
+    }
+}
