@@ -66,7 +66,7 @@ void LiveAnalysis::answer(const Request& request) {
     known.analysis = sensitivity(search_, request.current, false, progress);
     send(request, known);
     const bool small = search_.space().parameters.size() <= 3;  // else its grid takes too long
-    known.best = small ? search_.exhaustive(true, progress) : search_.pattern(8, progress);
+    known.best = small ? search_.estimated(progress) : search_.pattern(8, progress);
     send(request, known);
     if (small) known.best = search_.refined(*known.best, kReach, progress);
     known.complete = true;

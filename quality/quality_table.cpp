@@ -23,10 +23,11 @@ bool moves_nothing(const FilterParameters& filter) {
 }  // namespace
 
 QualityTable::QualityTable(std::shared_ptr<const SmoothingEngine> engine, Chooser chooser,
-                           std::size_t kept_bytes)
+                           std::size_t kept_bytes, Fidelity fidelity)
     : engine_(std::move(engine)),
       chooser_(std::move(chooser)),
-      most_standing_(kept_bytes / std::max<std::size_t>(1, engine_->run_bytes())) {}
+      most_standing_(kept_bytes / std::max<std::size_t>(1, engine_->run_bytes())),
+      fidelity_(fidelity) {}
 
 QualityTable::Column& QualityTable::column_of(const ParameterSet& set) {
     const ParameterSet key(set.begin(), set.end() - 1);
@@ -63,7 +64,8 @@ void QualityTable::run(Task& task, std::size_t may_stand, const Progress& progre
     const auto before = column.standing.upper_bound(task.wanted.front());
     std::unique_ptr<MeasuredRun> run;
     if (before == column.standing.begin()) {
-        run = engine_->start(*column.choice);
+        run = fidelity_ == Fidelity::Full ? engine_->start(*column.choice)
+                                          : engine_->start_estimate(*column.choice);
         ++task.work.runs;
     } else {
         run = std::prev(before)->second->copy();

@@ -12,6 +12,12 @@
 
 namespace vesselbench {
 
+/// How runs are measured.
+enum class Fidelity {
+    Full,     ///< as SmoothingEngine::start
+    Estimate  ///< as SmoothingEngine::start_estimate
+};
+
 /// Values of all parameters of a search; the last one is the number of iterations.
 using ParameterSet = std::vector<double>;
 
@@ -26,7 +32,8 @@ class QualityTable {
 public:
     /// \param kept_bytes of runs to go on from [bytes]
     QualityTable(std::shared_ptr<const SmoothingEngine> engine, Chooser chooser,
-                 std::size_t kept_bytes = std::size_t{256} << 20);
+                 std::size_t kept_bytes = std::size_t{256} << 20,
+                 Fidelity fidelity = Fidelity::Full);
 
     /// Finds what is not known yet. If it is interrupted, what was found by then stays known.
     /// \throw Cancelled
@@ -71,6 +78,7 @@ private:
     std::shared_ptr<const SmoothingEngine> engine_;
     Chooser chooser_;
     std::size_t most_standing_ = 0;
+    Fidelity fidelity_ = Fidelity::Full;
     std::map<ParameterSet, Column> columns_;
     std::optional<QualityMeasures> strong_;
     Work work_;

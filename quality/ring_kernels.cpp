@@ -17,54 +17,78 @@ namespace {
 
 using Mask = long long __attribute__((vector_size(32)));
 
-/// The neighbours around a vertex in order; empty unless its triangles are one fan.
-std::vector<std::uint32_t> fan_of(const Topology& topology, VertexId v) {
-    std::vector<std::pair<VertexId, VertexId>> sides;  // from one neighbour to the next
+/// A neighbour and the next one around a vertex.
+using Side = std::pair<VertexId, VertexId>;
+
+/// Appends the neighbours around a vertex in order. \return false, and appends nothing, unless its
+/// triangles are one fan
+bool append_fan(const Topology& topology, VertexId v, std::vector<Side>& sides,
+                std::vector<std::uint32_t>& members) {
+    sides.clear();
     for (const TriangleId t : topology.triangles_at().row(v)) {
         const Triangle& c = topology.triangles()[t];
         const int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
         const VertexId from = c[(k + 1) % 3], to = c[(k + 2) % 3];
-        if (from == to || from == v || to == v) return {};
+        if (from == to || from == v || to == v) return false;
         sides.emplace_back(from, to);
     }
-    if (sides.empty()) return {};
-    const auto goes_from = [&](VertexId u) {
-        return std::ranges::find(sides, u, [](const auto& s) { return s.first; });
-    };
-    auto side = std::ranges::find_if(sides, [&](const auto& s) {  // that no other one leads to
-        return std::ranges::find(sides, s.first, [](const auto& o) { return o.second; }) ==
-               sides.end();
+    if (sides.empty()) return false;
+    auto side = std::ranges::find_if(sides, [&](const Side& s) {  // that no other one leads to
+        return std::ranges::find(sides, s.first, &Side::second) == sides.end();
     });
     if (side == sides.end()) side = sides.begin();
-    std::vector<std::uint32_t> fan = {side->first};
+    const std::size_t start = members.size();
+    members.push_back(side->first);
     while (side != sides.end()) {
-        fan.push_back(side->second);
-        sides.erase(side);
-        side = goes_from(fan.back());
+        members.push_back(side->second);
+        *side = sides.back();
+        sides.pop_back();
+        side = std::ranges::find(sides, members.back(), &Side::first);
     }
-    if (!sides.empty()) return {};
-    return fan;
+    if (!sides.empty()) members.resize(start);
+    return sides.empty();
+}
+
+/// The fans of some vertices in a row.
+struct FanPart {
+    std::vector<std::uint32_t> sizes, members;
+    std::vector<VertexId> irregular;
+};
+
+FanPart fans_of(const Topology& topology, std::size_t first, std::size_t last) {
+    FanPart part;
+    part.members.reserve(8 * (last - first));
+    std::vector<Side> sides;
+    for (std::size_t v = first; v < last; ++v) {
+        const std::size_t before = part.members.size();
+        if (!append_fan(topology, static_cast<VertexId>(v), sides, part.members)) {
+            part.irregular.push_back(static_cast<VertexId>(v));
+            part.members.push_back(static_cast<std::uint32_t>(v));
+        }
+        part.sizes.push_back(static_cast<std::uint32_t>(part.members.size() - before));
+    }
+    return part;
 }
 
 }  // namespace
 
 Fans make_fans(const Topology& topology) {
+    constexpr std::size_t kPart = 4096;
     const std::size_t count = topology.vertex_count();
-    std::vector<std::vector<std::uint32_t>> all(count);
-    tbb::parallel_for(std::size_t{0}, count,
-                      [&](std::size_t v) { all[v] = fan_of(topology, static_cast<VertexId>(v)); });
+    std::vector<FanPart> parts((count + kPart - 1) / kPart);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        parts[i] = fans_of(topology, i * kPart, std::min(count, (i + 1) * kPart));
+    });
     Fans fans;
     fans.offsets.reserve(count + 1);
     fans.offsets.push_back(0);
     fans.irregular.assign(count, 0);
-    for (std::size_t v = 0; v < count; ++v) {
-        if (all[v].empty()) {
-            fans.irregular[v] = 1;
-            fans.any_irregular = true;
-            all[v].push_back(static_cast<std::uint32_t>(v));
-        }
-        fans.members.insert(fans.members.end(), all[v].begin(), all[v].end());
-        fans.offsets.push_back(static_cast<std::uint32_t>(fans.members.size()));
+    for (const FanPart& part : parts) {
+        for (const std::uint32_t size : part.sizes)
+            fans.offsets.push_back(fans.offsets.back() + size);
+        fans.members.insert(fans.members.end(), part.members.begin(), part.members.end());
+        for (const VertexId v : part.irregular) fans.irregular[v] = 1;
+        fans.any_irregular = fans.any_irregular || !part.irregular.empty();
     }
     return fans;
 }
@@ -133,6 +157,12 @@ CurvatureSums curvature_sums(const Fans& fans, const PackRow* positions,
                              const double* interior, const PackRow& origin) {
     return wide() ? avx2::sum_curvatures(fans, positions, vertices, count, interior, origin)
                   : any_cpu::sum_curvatures(fans, positions, vertices, count, interior, origin);
+}
+
+double six_volumes(const PackRow* positions, std::span<const Triangle> triangles,
+                   const PackRow& origin) {
+    return wide() ? avx2::sum_six_volumes(positions, triangles, origin)
+                  : any_cpu::sum_six_volumes(positions, triangles, origin);
 }
 
 }  // namespace vesselbench::detail

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/topology.h"
@@ -61,5 +62,9 @@ struct CurvatureSums {
 [[nodiscard]] CurvatureSums curvature_sums(const Fans& fans, const PackRow* positions,
                                            const std::uint32_t* vertices, std::size_t count,
                                            const double* interior, const PackRow& origin);
+
+/// Six times the volume between triangles and the origin [mm^3].
+[[nodiscard]] double six_volumes(const PackRow* positions, std::span<const Triangle> triangles,
+                                 const PackRow& origin);
 
 }  // namespace vesselbench::detail

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 /// How curvature, error and volume become one number.
 enum class ScoreForm : std::uint8_t {
-    Default,  ///< no unit: integral of |H|, 4 errors by the mean edge, 8 volume changes
+    Default,  ///< no unit: integral of |H|, error by the mean edge, without the 1/2
     Thesis    ///< `score-thesis`: Eq. 6.6 as printed, signed curvature and an error in mm
 };
 
@@ -30,9 +30,10 @@ struct ScoreTerms {
     double volume = 0.0;  ///< change, by the original's
 };
 
-/// What the default score multiplies error and volume change with: so tau 0.5 ends nearest to the
-/// true surface on noisy spheres, tori, furcations and aneurysms (docs/experiments-suggestions.md).
-constexpr double kErrorWeight = 4.0, kVolumeWeight = 8.0;
+/// What the default score multiplies error and volume change with, which undoes the 1/2 of Eq. 6.6:
+/// so tau 0.5 ends all but nearest to the true surface on noisy spheres, tori, furcations and
+/// aneurysms (docs/experiments-suggestions.md).
+constexpr double kErrorWeight = 2.0, kVolumeWeight = 2.0;
 
 /// What measures are compared with.
 struct ScoreBase {

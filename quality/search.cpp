@@ -49,7 +49,10 @@ std::vector<double> chosen_values(const SearchParameter& parameter, bool coarse)
 
 ParameterSearch::ParameterSearch(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
                                  ScoreSettings settings)
-    : space_(std::move(space)), settings_(settings), table_(std::move(engine), space_.chooser) {
+    : space_(std::move(space)),
+      settings_(settings),
+      table_(engine, space_.chooser),
+      estimates_(engine, space_.chooser, 0, Fidelity::Estimate) {
     for (const SearchParameter& parameter : space_.parameters)
         if (parameter.values.empty())
             throw InvalidInput("there is no value to search for " + parameter.name);
@@ -76,11 +79,27 @@ ParameterSearch::Place ParameterSearch::place_of(const ParameterSet& values) con
 
 Suggestion ParameterSearch::best_of(const std::vector<ParameterSet>& sets,
                                     const Progress& progress) {
-    table_.find(sets, progress);
-    const ScoreBase base{table_.engine().original(), table_.engine().mean_edge()};
+    return best_in(table_, sets, progress);
+}
+
+QualityTable::Work ParameterSearch::work() const {
+    const QualityTable::Work &full = table_.work(), &rough = estimates_.work();
+    return {full.evaluations + rough.evaluations, full.runs + rough.runs,
+            full.sweeps + rough.sweeps};
+}
+
+Suggestion ParameterSearch::estimated(const Progress& progress) {
+    if (!table_.engine().estimates()) return exhaustive(true, progress);
+    return best_of({best_in(estimates_, grid(true), progress).values}, progress);
+}
+
+Suggestion ParameterSearch::best_in(QualityTable& table, const std::vector<ParameterSet>& sets,
+                                    const Progress& progress) {
+    table.find(sets, progress);
+    const ScoreBase base{table.engine().original(), table.engine().mean_edge()};
     std::optional<Suggestion> best;
     for (const ParameterSet& set : sets) {
-        const auto measures = table_.at(set, progress);
+        const auto measures = table.at(set, progress);
         if (!measures) continue;
         Suggestion one{.values = set,
                        .measures = *measures,

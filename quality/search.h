@@ -46,6 +46,10 @@ public:
     /// The best of them. \throw Cancelled
     [[nodiscard]] Suggestion exhaustive(bool coarse, const Progress& progress = {});
 
+    /// The best coarse set by estimates from a sample of the vertices, where the surface has enough
+    /// of them for that (20,000), measured in full. \throw Cancelled
+    [[nodiscard]] Suggestion estimated(const Progress& progress = {});
+
     /// From n starts, each near the largest value of one of the n parameters and near the smallest
     /// of the others, to the best set of the (3^n - 1)-neighbourhood until none is better. At first
     /// the neighbourhood reaches `reach` twentieths of the parameters' ranges; at each minimum it
@@ -70,6 +74,9 @@ public:
 
     [[nodiscard]] const QualityTable& table() const { return table_; }
 
+    /// What was done so far, estimates included.
+    [[nodiscard]] QualityTable::Work work() const;
+
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 
     /// Another target smoothness or score; what is known of the surface stays known.
@@ -91,9 +98,12 @@ private:
 
     [[nodiscard]] Suggestion along_valley(Suggestion best, const Progress& progress);
 
+    [[nodiscard]] Suggestion best_in(QualityTable& table, const std::vector<ParameterSet>& sets,
+                                     const Progress& progress);
+
     SearchSpace space_;
     ScoreSettings settings_;
-    QualityTable table_;
+    QualityTable table_, estimates_;
 };
 
 }  // namespace vesselbench

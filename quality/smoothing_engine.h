@@ -47,6 +47,15 @@ public:
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> start(
         const SmoothingChoice& choice) const = 0;
 
+    /// True if start_estimate is worth it here.
+    [[nodiscard]] virtual bool estimates() const { return false; }
+
+    /// A run that is measured quickly, by a sample, to tell sets apart.
+    [[nodiscard]] virtual std::unique_ptr<MeasuredRun> start_estimate(
+        const SmoothingChoice& choice) const {
+        return start(choice);
+    }
+
     [[nodiscard]] virtual const QualityMeasures& original() const = 0;
 
     [[nodiscard]] virtual double mean_edge() const = 0;  ///< of the original [mm]

@@ -22,31 +22,49 @@ using detail::RingState;
 constexpr std::size_t kChunk =
     512;  // places that are summed by themselves: small, but not too many
 
+constexpr std::size_t kSampleStep = 24;
+
 Vec3 point_of(const PackRow& row) {
     return {row.values[0], row.values[1], row.values[2]};
 }
 
 /// The surface renumbered, so that its vertices stand in the order of the states' places.
-Surface in_order(const Topology& topology, const Positions& original,
-                 std::span<const VertexId> order) {
-    if (original.size() != topology.vertex_count() ||
-        (!order.empty() && order.size() != original.size()))
-        throw InvalidInput("got " + std::to_string(original.size()) +
+Surface in_order(std::shared_ptr<const Topology> topology,
+                 std::shared_ptr<const Positions> original, std::span<const VertexId> order) {
+    const std::size_t count = topology->vertex_count();
+    if (original->size() != count || (!order.empty() && order.size() != count))
+        throw InvalidInput("got " + std::to_string(original->size()) +
                            " positions and an order of " + std::to_string(order.size()) + " for " +
-                           std::to_string(topology.vertex_count()) + " vertices");
-    for (std::size_t v = 0; v < original.size(); ++v)
-        if (!original[v].allFinite())
+                           std::to_string(count) + " vertices");
+    for (std::size_t v = 0; v < count; ++v)
+        if (!(*original)[v].allFinite())
             throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
-    std::vector<Triangle> triangles(topology.triangles().begin(), topology.triangles().end());
-    if (order.empty()) return make_surface(original, std::move(triangles));
-    std::vector<VertexId> place(order.size());
-    Positions positions(order.size());
-    for (std::size_t p = 0; p < order.size(); ++p) {
+    Surface surface{.topology = std::move(topology), .positions = std::move(original)};
+    if (order.empty()) return surface;
+    std::vector<VertexId> place(count);
+    Positions positions(count);
+    for (std::size_t p = 0; p < count; ++p) {
         place[order[p]] = static_cast<VertexId>(p);
-        positions[p] = original[order[p]];
+        positions[p] = surface.points()[order[p]];
     }
-    for (Triangle& t : triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+    std::vector<Triangle> triangles;
+    triangles.reserve(surface.triangle_count());
+    for (const auto& [a, b, c] : surface.triangles())
+        triangles.push_back({place[a], place[b], place[c]});
     return make_surface(std::move(positions), std::move(triangles));
+}
+
+/// [mm]
+double mean_of_edges(const Topology& topology, const Positions& points) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (VertexId v = 0; v < points.size(); ++v)
+        for (const VertexId u : topology.rings().row(v))
+            if (u > v) {
+                sum += (points[u] - points[v]).norm();
+                ++count;
+            }
+    return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
 }  // namespace
@@ -56,8 +74,9 @@ struct SurfaceMeter::Data {
     std::vector<PackRow> original;
     detail::Fans fans;
     bool planes = false;
-    std::vector<std::uint32_t> lanes;  ///< all places; those of a chunk by the size of their fans
-    std::vector<double> interior;      ///< 1 where curvature counts
+    std::vector<std::uint32_t> lanes;   ///< all places; those of a chunk by the size of their fans
+    std::vector<std::uint32_t> sample;  ///< every kSampleStep-th of them
+    std::vector<double> interior;       ///< 1 where curvature counts
     std::vector<std::vector<VertexId>> loops;
     PackRow origin{};
 
@@ -65,10 +84,19 @@ struct SurfaceMeter::Data {
 
     [[nodiscard]] std::size_t chunks() const { return (original.size() + kChunk - 1) / kChunk; }
 
-    /// One chunk's part of the errors' sums.
-    void add_errors(Packs moved, std::size_t chunk, const VertexId* references, VertexId* followed,
-                    QualityMeasures& sums) const;
-    void add_curvatures(Packs moved, std::size_t chunk, QualityMeasures& sums) const;
+    /// Some places' part of the errors' sums.
+    void add_errors(Packs moved, std::span<const std::uint32_t> places, const VertexId* references,
+                    VertexId* followed, QualityMeasures& sums) const;
+    void add_curvatures(Packs moved, std::span<const std::uint32_t> places,
+                        QualityMeasures& sums) const;
+
+    [[nodiscard]] std::span<const std::uint32_t> places_of(std::size_t chunk) const {
+        const std::size_t first = chunk * kChunk;
+        return {lanes.data() + first, std::min(kChunk, lanes.size() - first)};
+    }
+
+    [[nodiscard]] double triangle_volume(Packs moved) const;
+    [[nodiscard]] double area_scale() const;
     [[nodiscard]] double closing_volume(Packs moved) const;
     void add_irregular(Packs moved, std::uint32_t place, QualityMeasures& sums) const;
 };
@@ -78,6 +106,7 @@ SurfaceMeter::Data::Data(Surface s, bool with_planes)
     const std::size_t count = surface.vertex_count();
     const Vec3 middle = bounds(surface).centre();
     origin = {{middle.x(), middle.y(), middle.z(), 0.0}};
+    original.reserve(count);
     for (const Vec3& p : surface.points()) original.push_back({{p.x(), p.y(), p.z(), 0.0}});
     lanes.resize(count);
     std::iota(lanes.begin(), lanes.end(), 0U);
@@ -87,12 +116,24 @@ SurfaceMeter::Data::Data(Surface s, bool with_planes)
             lanes.begin() + static_cast<std::ptrdiff_t>(first),
             lanes.begin() + static_cast<std::ptrdiff_t>(std::min(count, first + kChunk)),
             [&](std::uint32_t a, std::uint32_t b) { return size(a) < size(b); });
+    for (std::size_t i = kSampleStep / 2; i < count; i += kSampleStep) sample.push_back(lanes[i]);
     const auto& boundary = surface.topology->boundary_vertices();
     interior.resize(count);
     for (std::size_t v = 0; v < count; ++v)
         interior[v] = boundary[v] != 0 || fans.irregular[v] != 0 ? 0.0 : 1.0;
     loops = surface.topology->boundary_loops();
     static_cast<void>(surface.topology->rings());
+}
+
+/// The area around all vertices by that around the sample, boundaries left out as in curvatures.
+double SurfaceMeter::Data::area_scale() const {
+    std::vector<double> around(original.size(), 0.0);
+    for (const Triangle& t : surface.triangles())
+        for (const VertexId v : t) around[v] += triangle_area(surface.points(), t);
+    double all = 0.0, sampled = 0.0;
+    for (std::size_t v = 0; v < around.size(); ++v) all += interior[v] * around[v];
+    for (const std::uint32_t v : sample) sampled += interior[v] * around[v];
+    return sampled > 0.0 ? all / sampled : 1.0;
 }
 
 namespace {
@@ -106,10 +147,10 @@ struct ChunkErrors {
 
 }  // namespace
 
-void SurfaceMeter::Data::add_errors(Packs moved, std::size_t chunk, const VertexId* references,
-                                    VertexId* followed, QualityMeasures& sums) const {
-    const std::size_t first = chunk * kChunk, count = std::min(kChunk, original.size() - first);
-    const std::uint32_t* places = lanes.data() + first;
+void SurfaceMeter::Data::add_errors(Packs moved, std::span<const std::uint32_t> places,
+                                    const VertexId* references, VertexId* followed,
+                                    QualityMeasures& sums) const {
+    const std::size_t count = places.size();
     ChunkErrors found;
     for (std::size_t i = 0; i < count; ++i) found.references[i] = references[places[i]];
     const auto search = [&](ChunkErrors& errors, const std::uint32_t* at, std::size_t many) {
@@ -118,7 +159,7 @@ void SurfaceMeter::Data::add_errors(Packs moved, std::size_t chunk, const Vertex
             {errors.distances.data(), planes ? errors.planes.data() : nullptr,
              errors.states.data()});
     };
-    search(found, places, count);
+    search(found, places.data(), count);
     // What drifts to another reference is searched again, four at once, in a queue of its own.
     ChunkErrors again;
     std::array<std::uint32_t, kChunk> again_places, again_index;
@@ -171,17 +212,29 @@ void SurfaceMeter::Data::add_irregular(Packs moved, std::uint32_t place,
     sums.volume += (point_of(moved[place]) - point_of(origin)).dot(normal);
 }
 
-void SurfaceMeter::Data::add_curvatures(Packs moved, std::size_t chunk,
+void SurfaceMeter::Data::add_curvatures(Packs moved, std::span<const std::uint32_t> places,
                                         QualityMeasures& sums) const {
-    const std::size_t first = chunk * kChunk, count = std::min(kChunk, original.size() - first);
     const detail::CurvatureSums found = detail::curvature_sums(
-        fans, moved.data(), lanes.data() + first, count, interior.data(), origin);
+        fans, moved.data(), places.data(), places.size(), interior.data(), origin);
     sums.curvature += found.curvature;
     sums.curvature_abs += found.curvature_abs;
     sums.volume += found.volume;
     if (!fans.any_irregular) return;
-    for (std::size_t i = 0; i < count; ++i)
-        if (fans.irregular[lanes[first + i]] != 0) add_irregular(moved, lanes[first + i], sums);
+    for (const std::uint32_t place : places)
+        if (fans.irregular[place] != 0) add_irregular(moved, place, sums);
+}
+
+double SurfaceMeter::Data::triangle_volume(Packs moved) const {
+    const auto triangles = surface.triangles();
+    constexpr std::size_t kTriangles = 4096;
+    std::vector<double> parts((triangles.size() + kTriangles - 1) / kTriangles);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+        const std::size_t first = part * kTriangles;
+        parts[part] = detail::six_volumes(
+            moved.data(), triangles.subspan(first, std::min(kTriangles, triangles.size() - first)),
+            origin);
+    });
+    return std::accumulate(parts.begin(), parts.end(), 0.0) / 6.0;
 }
 
 double SurfaceMeter::Data::closing_volume(Packs moved) const {
@@ -200,13 +253,16 @@ double SurfaceMeter::Data::closing_volume(Packs moved) const {
     return sum / 6.0;
 }
 
-SurfaceMeter::SurfaceMeter(const Topology& topology, const Positions& original, bool planes,
+SurfaceMeter::SurfaceMeter(std::shared_ptr<const Topology> topology,
+                           std::shared_ptr<const Positions> original, bool planes,
                            std::span<const VertexId> order)
-    : data_(std::make_unique<const Data>(in_order(topology, original, order), planes)),
-      mean_edge_(mean_edge_length(data_->surface)) {
+    : data_(std::make_unique<const Data>(in_order(std::move(topology), std::move(original), order),
+                                         planes)),
+      mean_edge_(mean_of_edges(*data_->surface.topology, data_->surface.points())) {
     const auto own = own_references();
     original_ = measure(data_->original, own);
     original_.error = original_.error_thesis = 0.0;
+    sample_scale_ = data_->area_scale();
 }
 
 SurfaceMeter::~SurfaceMeter() = default;
@@ -228,8 +284,8 @@ QualityMeasures SurfaceMeter::measured(Packs moved, const VertexId* references,
                                        VertexId* followed) const {
     std::vector<QualityMeasures> parts(data_->chunks());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t chunk) {
-        data_->add_errors(moved, chunk, references, followed, parts[chunk]);
-        data_->add_curvatures(moved, chunk, parts[chunk]);
+        data_->add_errors(moved, data_->places_of(chunk), references, followed, parts[chunk]);
+        data_->add_curvatures(moved, data_->places_of(chunk), parts[chunk]);
     });
     QualityMeasures sums;
     for (const QualityMeasures& part : parts) {  // in order: the same bits every time
@@ -244,6 +300,29 @@ QualityMeasures SurfaceMeter::measured(Packs moved, const VertexId* references,
     sums.error_thesis /= count;
     sums.volume = sums.volume / 18.0 + data_->closing_volume(moved);
     return sums;
+}
+
+QualityMeasures SurfaceMeter::sampled(Packs moved, VertexId* references) const {
+    const std::vector<std::uint32_t>& places = data_->sample;
+    QualityMeasures sums;
+    for (std::size_t first = 0; first < places.size(); first += kChunk) {
+        const std::span some(places.data() + first, std::min(kChunk, places.size() - first));
+        data_->add_errors(moved, some, references, references, sums);
+        data_->add_curvatures(moved, some, sums);
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, places.size()));
+    sums.error /= count;
+    sums.error_thesis /= count;
+    return sums;
+}
+
+QualityMeasures SurfaceMeter::follow_and_estimate(Packs moved,
+                                                  std::vector<VertexId>& references) const {
+    QualityMeasures found = sampled(moved, references.data());
+    found.curvature *= sample_scale_;
+    found.curvature_abs *= sample_scale_;
+    found.volume = data_->triangle_volume(moved) + data_->closing_volume(moved);
+    return found;
 }
 
 QualityMeasures SurfaceMeter::follow_and_measure(Packs moved,

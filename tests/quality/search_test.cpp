@@ -176,6 +176,18 @@ SCENARIO("A smooth surface with a frayed rim is left alone at tau 0.45", "[quali
     CHECK((best.values.back() == 0.0 || best.terms.volume < kVolumeWeight * 0.005));
 }
 
+SCENARIO("Estimates lead to a set that is as good as the best", "[quality][search]") {
+    const Surface ball = icosphere(30.0, 6);  // 40,962 vertices
+    const Surface surface = roughened(ball, 0.1, 8);
+    ParameterSearch search = search_on(surface);
+    for (const double tau : {0.3, 0.5, 0.8}) {
+        search.set_score({.tau = tau});
+        const Suggestion estimated = search.estimated(), best = search.exhaustive(true);
+        INFO("tau " << tau << ": lambda " << estimated.values[0] << " / " << best.values[0]);
+        CHECK(estimated.score <= 1.02 * best.score);
+    }
+}
+
 SCENARIO("Both scores are Eq. 6.6, in units and without", "[quality][score]") {
     const QualityMeasures original{.curvature = 50.0, .curvature_abs = 80.0, .volume = 1000.0};
     const QualityMeasures smooth{.error = 0.2,

@@ -75,7 +75,7 @@ std::vector<NamedSurface> surfaces() {
 
 SCENARIO("All measures of one pass are those of geometry", "[quality][meter]") {
     for (const auto& [name, surface] : surfaces()) {
-        const SurfaceMeter meter(*surface.topology, surface.points(), true);
+        const SurfaceMeter meter(surface.topology, surface.positions, true);
         for (const int iterations : {0, 1, 5, 20}) {
             INFO(name << ", " << iterations << " iterations");
             const Positions moved = laplace(*surface.topology, surface.points(), {.lambda = 0.8},
@@ -96,7 +96,7 @@ SCENARIO("All measures of one pass are those of geometry", "[quality][meter]") {
 
 SCENARIO("A sphere's measures are known", "[quality][meter]") {
     const Surface ball = icosphere(10.0, 4);
-    const SurfaceMeter meter(*ball.topology, ball.points());
+    const SurfaceMeter meter(ball.topology, ball.positions);
     const double pi = 3.14159265358979;
     CHECK(meter.original().error == 0.0);
     CHECK(meter.original().curvature == Approx(4.0 * pi * 10.0).epsilon(0.01));
@@ -114,13 +114,13 @@ SCENARIO("Measures do not depend on threads or on the order in memory", "[qualit
     const Surface surface = raw_vessel();
     const Positions moved =
         laplace(*surface.topology, surface.points(), {.lambda = 0.8}, {.iterations = 20});
-    const SurfaceMeter meter(*surface.topology, surface.points());
+    const SurfaceMeter meter(surface.topology, surface.positions);
     const auto all = meter.measure(packed(moved), meter.own_references());
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     CHECK(meter.measure(packed(moved), meter.own_references()) == all);
     std::vector<VertexId> order = own_references(*surface.topology);
     std::shuffle(order.begin(), order.end(), std::mt19937(3));
-    const SurfaceMeter other(*surface.topology, surface.points(), false, order);
+    const SurfaceMeter other(surface.topology, surface.positions, false, order);
     Positions placed;
     for (const VertexId v : order) placed.push_back(moved[v]);
     const auto shuffled = other.measure(packed(placed), other.own_references());
@@ -131,7 +131,7 @@ SCENARIO("Measures do not depend on threads or on the order in memory", "[qualit
 
 SCENARIO("Drifting along the surface is no error", "[quality][meter]") {
     const Surface tube = open_tube(3.0, 12.0, 18, 24);
-    const SurfaceMeter meter(*tube.topology, tube.points());
+    const SurfaceMeter meter(tube.topology, tube.positions);
     Positions slid = tube.points();
     auto references = meter.own_references();
     for (int step = 0; step < 8; ++step) {
@@ -141,4 +141,20 @@ SCENARIO("Drifting along the surface is no error", "[quality][meter]") {
         CHECK(found.error < 1e-9);
     }
     CHECK(references != meter.own_references());
+}
+
+SCENARIO("Estimates of all states err the same little way", "[quality][meter]") {
+    const Surface surface = with_noise(icosphere(20.0, 5), 0.1);  // 10,242 vertices
+    const SurfaceMeter meter(surface.topology, surface.positions);
+    auto references = meter.own_references(), sampled = references;
+    for (const int iterations : {5, 10, 30}) {
+        INFO(iterations << " iterations");
+        const auto moved = packed(laplace(*surface.topology, surface.points(), {.lambda = 0.5},
+                                          {.iterations = iterations}));
+        const auto full = meter.follow_and_measure(moved, references);
+        const auto estimate = meter.follow_and_estimate(moved, sampled);
+        CHECK(estimate.volume == Approx(full.volume).epsilon(1e-9));
+        CHECK(estimate.error == Approx(full.error).epsilon(0.06));
+        CHECK(estimate.curvature_abs == Approx(full.curvature_abs).epsilon(0.06));
+    }
 }

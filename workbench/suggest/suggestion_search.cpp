@@ -44,8 +44,7 @@ Suggestion SuggestionSearch::suggest(double tau, const Progress& progress) {
         case SearchWay::Automatic:
             break;
     }
-    return search_.refined(search_.exhaustive(true, progress.part(0.0, 0.7)), 2,
-                           progress.part(0.7, 1.0));
+    return search_.refined(search_.estimated(progress.part(0.0, 0.7)), 2, progress.part(0.7, 1.0));
 }
 
 std::vector<ParameterSet> SuggestionSearch::coarse_sets() const {

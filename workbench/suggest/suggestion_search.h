@@ -53,7 +53,7 @@ public:
     /// Who smooths and measures.
     [[nodiscard]] const ChosenEngine& chosen() const { return chosen_; }
 
-    [[nodiscard]] const QualityTable::Work& work() const { return search_.table().work(); }
+    [[nodiscard]] QualityTable::Work work() const { return search_.work(); }
 
 private:
     const SearchSubject& subject_;
