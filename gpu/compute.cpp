@@ -31,7 +31,7 @@ Buffer allocated(const Device& device, std::size_t bytes, const void* content,
     // a buffer of no bytes cannot be bound
     glBufferData(GL_SHADER_STORAGE_BUFFER,
                  static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)),
-                 bytes == 0 ? nullptr : content, GL_DYNAMIC_COPY);
+                 bytes == 0 ? nullptr : content, GL_STATIC_COPY);
     if (glGetError() != GL_NO_ERROR)
         throw GpuUnavailable("the device has no room for " + label + " (" + std::to_string(bytes) +
                              " bytes)");
@@ -74,11 +74,6 @@ Program make_compute_program(const Device& device, const std::string& name) {
 
 Buffer make_storage(const Device& device, std::size_t bytes, const std::string& label) {
     return allocated(device, bytes, nullptr, label);
-}
-
-void write_storage(const Buffer& buffer, std::span<const std::byte> bytes) {
-    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
-    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
 void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes) {
@@ -153,9 +148,15 @@ Buffer make_filled_storage(const Device& device, std::span<const std::byte> byte
 
 void read_bytes(const Buffer& buffer, std::span<std::byte> bytes) {
     if (bytes.empty()) return;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glBindBuffer(GL_COPY_READ_BUFFER, buffer.id());
-    glGetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    // By way of another buffer: drivers move what is read from the device's memory to the host's.
+    unsigned id = 0;
+    glGenBuffers(1, &id);
+    const Buffer staging(id);
+    const auto size = static_cast<GLsizeiptr>(bytes.size());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, id);
+    glBufferData(GL_COPY_WRITE_BUFFER, size, nullptr, GL_STREAM_READ);
+    copy_storage(buffer, staging, bytes.size());
+    glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, size, bytes.data());
 }
 
 }  // namespace detail

@@ -29,9 +29,6 @@ template <class T>
 [[nodiscard]] Buffer make_storage(const Device& device, std::span<const T> values,
                                   const std::string& label);
 
-/// Replaces a buffer's first bytes.
-void write_storage(const Buffer& buffer, std::span<const std::byte> bytes);
-
 /// Waits for the device and reads a buffer's first elements.
 template <class T>
 [[nodiscard]] std::vector<T> read_storage(const Buffer& buffer, std::size_t count);

@@ -34,16 +34,25 @@ std::vector<EGLDisplay> displays() {
     return found;
 }
 
-EGLContext make_context(EGLDisplay display, EGLContext shared) {
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                             4,
-                             EGL_CONTEXT_MINOR_VERSION,
-                             3,
-                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                             EGL_NONE};
+EGLContext make_context(EGLDisplay display, EGLContext shared, bool tells_resets) {
+    std::vector<EGLint> wanted = {
+        EGL_CONTEXT_MAJOR_VERSION,       4,
+        EGL_CONTEXT_MINOR_VERSION,       3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+    if (tells_resets) {
+        wanted.push_back(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY);
+        wanted.push_back(EGL_LOSE_CONTEXT_ON_RESET);
+    }
+    wanted.push_back(EGL_NONE);
     eglBindAPI(EGL_OPENGL_API);
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared, wanted);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared, wanted.data());
+}
+
+/// One that tells when the driver has lost it (glGetGraphicsResetStatus), where drivers can.
+EGLContext make_context(EGLDisplay display, EGLContext shared) {
+    const EGLContext context =
+        epoxy_egl_version(display) >= 15 ? make_context(display, shared, true) : EGL_NO_CONTEXT;
+    return context != EGL_NO_CONTEXT ? context : make_context(display, shared, false);
 }
 
 /// What is current on this thread.
