@@ -169,6 +169,13 @@ std::string to_string(Step step) {
     return names.at(static_cast<std::size_t>(step) - 1);
 }
 
+std::string to_string(const Condition& condition) {
+    std::string text = condition.parameter + "=";
+    for (std::size_t i = 0; i < condition.values.size(); ++i)
+        text += (i > 0 ? " or " : "") + condition.values[i];
+    return text;
+}
+
 const Operation& find_operation(const std::string& name) {
     std::vector<std::string> names;
     for (const Operation& operation : operation_table()) {
@@ -212,6 +219,23 @@ Arguments checked_arguments(const Operation& operation, const Arguments& given) 
         }
     }
     return result;
+}
+
+std::vector<std::string> arguments_without_effect(const Operation& operation,
+                                                  const Arguments& given,
+                                                  const Arguments& resolved) {
+    std::vector<std::string> warnings;
+    for (const Parameter& parameter : operation.parameters) {
+        if (!parameter.only_with || !given.has(parameter.name)) continue;
+        const auto value = resolved.values().find(parameter.only_with->parameter);
+        const bool holds =
+            value != resolved.values().end() &&
+            std::ranges::count(parameter.only_with->values, to_text(value->second)) > 0;
+        if (!holds)
+            warnings.push_back(operation.name + ": " + parameter.name + " has no effect without " +
+                               to_string(*parameter.only_with));
+    }
+    return warnings;
 }
 
 }  // namespace vesselbench

@@ -33,6 +33,14 @@ enum class Step : int {
 
 enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
 
+/// An argument without which another one has no effect: "distance=margin".
+struct Condition {
+    std::string parameter;
+    std::vector<std::string> values;  ///< any of them, as the command line writes it
+};
+
+[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
+
 /// One documented parameter: the command line's option, the check and its error text, the recipe's
 /// key and the page docs/operations.md all come from this.
 struct Parameter {
@@ -46,7 +54,8 @@ struct Parameter {
     double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
     std::vector<std::string> choices = {};                      ///< for Choice
     bool required = false;
-    bool above_minimum = false;  ///< the minimum itself is not allowed
+    bool above_minimum = false;               ///< the minimum itself is not allowed
+    std::optional<Condition> only_with = {};  ///< else it has no effect; none: it always has
 };
 
 /// Figures an operation states about what it found and did: a JSON object with units in the keys
@@ -97,5 +106,11 @@ struct Operation {
 /// stay absent.
 /// \throw UsageError that names the operation, the parameter, the value and what is allowed
 [[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
+
+/// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
+/// \param resolved what the operation was run with in the end
+[[nodiscard]] std::vector<std::string> arguments_without_effect(const Operation& operation,
+                                                                const Arguments& given,
+                                                                const Arguments& resolved);
 
 }  // namespace vesselbench

@@ -139,8 +139,50 @@ SCENARIO("smooth keeps the distance to neighbours", "[workbench][smooth]") {
     for (const char* distance : {"linear", "margin", "exponential"}) {
         Arguments aware = strong;
         aware.set("distance", std::string(distance));
-        CHECK(gap(moved_points(scene, aware)) == Approx(before).margin(0.02));
+        const Outcome outcome = smooth(scene, aware);
+        const double after = gap(outcome.scene.surface->points());
+        CHECK(after == Approx(before).margin(0.02));
+        CHECK(outcome.report->at("smallest_neighbour_distance_mm") == before);
+        CHECK(outcome.report->at("smallest_neighbour_distance_after_mm") == after);
     }
+}
+
+SCENARIO("smooth says why nothing moved", "[workbench][smooth]") {
+    Scene scene = scene_of(icosphere(5.0, 3));
+    scene.neighbours["tumour"] = icosphere(3.0, 3, Vec3(9.0, 0, 0));
+    const auto warning = [&](const Arguments& arguments) {
+        const Outcome outcome = smooth(scene, arguments);
+        return outcome.warnings.empty() ? "" : outcome.warnings.front();
+    };
+    CHECK_THAT(warning({{"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}}),
+               Catch::Contains("tau_theta = 0.7"));
+    CHECK_THAT(warning({{"distance", "margin"}, {"margin", 50.0}}),
+               Catch::Contains("margin of 50 mm"));
+    CHECK(warning({{"distance", "margin"}, {"margin", 2.0}}).empty());
+    CHECK(warning({{"iterations", std::int64_t{0}}}).empty());  // as asked for
+}
+
+SCENARIO("Arguments without effect are told by what they need", "[workbench][smooth]") {
+    const Operation& operation = find_operation("smooth");
+    const auto idle = [&](const Arguments& given) {
+        const Outcome outcome = smooth(scene_of(icosphere(5.0, 2)), given);
+        return arguments_without_effect(operation, given, outcome.resolved);
+    };
+    using Warnings = std::vector<std::string>;
+    CHECK(idle({{"margin", 2.0}}) ==
+          Warnings{"smooth: margin has no effect without distance=margin"});
+    CHECK(idle({{"preset", "elongated"}, {"beta", 0.4}, {"mu", -0.6}}) ==
+          Warnings{"smooth: beta has no effect without filter=laplace-hc"});
+    CHECK(idle({{"curvature", 0.4}}) ==
+          Warnings{"smooth: curvature has no effect without filter=anisotropic or "
+                   "curvature-triggered"});
+    CHECK(idle({{"tau_theta", 0.3}, {"staircase", false}}).size() == 1);
+    CHECK(idle({{"lambda", 0.4}, {"find_caps", false}}).empty());
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.only_with)
+            for (const std::string& value : parameter.only_with->values)
+                CHECK_NOTHROW(
+                    parse_value(find_parameter(operation, parameter.only_with->parameter), value));
 }
 
 SCENARIO("smooth weighs with a painted attribute, and weights multiply", "[workbench][smooth]") {

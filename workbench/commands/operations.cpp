@@ -56,6 +56,7 @@ Json json_of(const Parameter& parameter) {
     }
     if (std::isfinite(parameter.maximum)) json["maximum"] = parameter.maximum;
     if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+    if (parameter.only_with) json["only_with"] = to_string(*parameter.only_with);
     json["help"] = parameter.help;
     return json;
 }
@@ -115,8 +116,10 @@ std::string default_text(const Parameter& parameter) {
 
 std::vector<std::string> parameter_row(const Parameter& parameter) {
     const std::string unit = unit_text(parameter);
+    const std::string condition =
+        parameter.only_with ? "with " + to_string(*parameter.only_with) + ": " : "";
     return {parameter.name, default_text(parameter),
-            range_text(parameter) + (unit.empty() ? "" : " " + unit), parameter.help};
+            range_text(parameter) + (unit.empty() ? "" : " " + unit), condition + parameter.help};
 }
 
 void print_one(const Operation& operation) {

@@ -43,7 +43,8 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     files.add_text(out / "case.json", case_text(description));
     progress.check_cancelled();
     files.commit();
-    std::cout << description.name << ": image.nii.gz, mask.nii.gz and exact.vtp are in "
+    std::cout << description.name << ": image.nii.gz, mask.nii.gz"
+              << (phantom.neighbour ? ", neighbour.vtp" : "") << " and exact.vtp are in "
               << options.out << "\n'vesselbench prepare " << options.out
               << " --for cfd --out RESULT' takes the folder as it is.\n";
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -27,19 +28,31 @@ Session open_for_reading(const std::string& project) {
 
 std::string short_text(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
+    if (value.is_array()) {
+        std::string text;
+        for (const Json& part : value) text += (text.empty() ? "" : ", ") + short_text(part);
+        return text;
+    }
     if (!value.is_number_float()) return value.dump();
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.5g", value.get<double>());
     return buffer;
 }
 
-/// What comes of the operation in figures: the parts of its report that are a single value.
+/// A single value, or a point.
+bool is_short(const Json& value) {
+    return value.is_primitive() ||
+           (value.is_array() && value.size() == 3 &&
+            std::ranges::all_of(value, [](const Json& part) { return part.is_number(); }));
+}
+
+/// What comes of the operation in figures: the parts of its report that are short.
 void print_report(const std::string& text) {
     const Json report = Json::parse(text, nullptr, false);
     if (!report.is_object()) return;
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, value] : report.items())
-        if (value.is_primitive()) rows.push_back({"  " + key, short_text(value)});
+        if (is_short(value)) rows.push_back({"  " + key, short_text(value)});
     std::cout << as_columns(rows);
 }
 
@@ -111,6 +124,13 @@ void print_replay(const std::vector<ReplayEntry>& entries) {
     std::cout << as_columns(rows);
 }
 
+std::vector<std::string> all_warnings(const Operation& operation, const Arguments& given,
+                                      const ResultRecord& result) {
+    std::vector<std::string> warnings = arguments_without_effect(operation, given, result.resolved);
+    warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+    return warnings;
+}
+
 }  // namespace
 
 void apply_operation(const ApplyOptions& options, const Progress& progress) {
@@ -121,7 +141,8 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     Session session = Session::open(options.project);
     const LogEntry entry = session.apply(operation.name, given, edit, progress);
     if (entry.result)
-        for (const std::string& warning : entry.result->warnings) remark("warning: " + warning);
+        for (const std::string& warning : all_warnings(operation, given, *entry.result))
+            remark("warning: " + warning);
     if (options.json) {
         std::cout << log_json(entry).dump(2) << "\n";
         return;

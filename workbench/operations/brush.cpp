@@ -9,6 +9,7 @@
 #include "geometry/errors.h"
 #include "geometry/wording.h"
 #include "workbench/operations/brush/dabs.h"
+#include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -56,19 +57,6 @@ double volume_change(const Surface& before, const Surface& after) {
     return sum / 6.0;
 }
 
-/// No brush may make the surface pass through itself; what was held back is told.
-void keep_walls_apart(BrushStroke& stroke, Outcome& outcome, const Progress& progress) {
-    const TakenBack taken = stroke.keep_walls_apart(progress);
-    if (taken.vertices == 0) return;
-    std::string text = counted(taken.vertices, "vertex", "vertices") +
-                       " moved less than the brush wanted, first near " + place_text(taken.place) +
-                       ": walls would have passed through each other";
-    if (taken.crossings_left > 0)
-        text += "; " + counted(taken.crossings_left, "pair of triangles", "pairs of triangles") +
-                " still do: undo, and brush with less strength";
-    outcome.warnings.push_back(text);
-}
-
 /// \param outcome its report is completed
 void add_changes(const Surface& before, const Surface& after, Outcome& outcome) {
     std::size_t count = 0;
@@ -91,7 +79,8 @@ Outcome moved(const DabUse& use, const Scene& scene, const Arguments& arguments,
     Outcome outcome;
     outcome.resolved = arguments;
     BrushStroke stroke = painted(use, surface, settings, outcome, progress.part(0.0, 0.7));
-    keep_walls_apart(stroke, outcome, progress.part(0.7, 1.0));
+    warn_of_crossings(stroke.keep_walls_apart(progress.part(0.7, 1.0)), "brush",
+                      "undo, and brush with less strength", outcome);
     Surface after = stroke.surface();
     add_changes(surface, after, outcome);
     outcome.scene = with_surface(scene, std::move(after));

@@ -6,10 +6,9 @@
 #include "geometry/kept_memory.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
-#include "geometry/wording.h"
 #include "gpu/filter_on_device.h"
-#include "smoothing/distance_weights.h"
 #include "smoothing/new_crossings.h"
+#include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/table.h"
@@ -36,6 +35,7 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["volume_after_mm3"] = volume_after;
     report["volume_change_percent"] =
         volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
+    report["vertices"] = moved.size();
     report["vertices_moved"] = std::ranges::count_if(moved, [](double d) { return d > 0.0; });
     report["largest_displacement_mm"] = moved.empty() ? 0.0 : std::ranges::max(moved);
     report["mean_displacement_mm"] = mean(moved);
@@ -46,18 +46,23 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }
 
-/// No filter may make the surface pass through itself; what was held back is told.
-void keep_walls_apart(const Surface& surface, Positions& moved, Outcome& outcome,
-                      const Progress& progress) {
-    const TakenBack taken = take_back_crossings(surface, moved, progress);
-    if (taken.vertices == 0) return;
-    std::ostringstream text;
-    text << taken.vertices << " vertices moved less than the filter wanted, first near "
-         << place_text(taken.place) << ": walls would have passed through each other";
-    if (taken.crossings_left > 0)
-        text << "; " << taken.crossings_left
-             << " pairs of triangles still do: use fewer iterations, or repair";
-    outcome.warnings.push_back(text.str());
+/// Why a filter that was to move something moved nothing; empty if it did, or was not to.
+std::string why_nothing_moved(const Json& report, const Arguments& resolved) {
+    const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
+    if (idle || report["vertices_moved"] != 0) return "";
+    if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
+        return "nothing moved: no vertex bends by more than tau_theta = " +
+               to_text(resolved.real("tau_theta")) +
+               "; a smaller one finds smoother staircases, and beta_min lets the rest move";
+    const double margin = resolved.real("margin");
+    const double farthest = report.value("largest_neighbour_distance_mm", 0.0);
+    if (resolved.text("distance") == "margin" && margin >= farthest) {
+        std::ostringstream text;
+        text << "nothing moved: all of the surface lies within the margin of " << margin
+             << " mm, its farthest vertex " << farthest << " mm from a neighbour";
+        return text.str();
+    }
+    return "nothing moved: every vertex is kept or has the weight 0";
 }
 
 /// Moves the vertices on the device that was asked for, and records which one did: what is
@@ -101,9 +106,16 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     Json report;
     Positions moved = filtered_in_context(scene, filter, outcome, report, progress);
     release_kept_memory();
-    keep_walls_apart(surface, moved, outcome, progress);
+    // No filter may make the surface pass through itself.
+    warn_of_crossings(take_back_crossings(surface, moved, progress), "filter",
+                      "use fewer iterations, or repair", outcome);
     Surface smoothed = surface.with_positions(std::move(moved));
+    if (outcome.resolved.text("distance") != "none")
+        report["smallest_neighbour_distance_after_mm"] =
+            smallest_neighbour_distance(scene, smoothed.points());
     add_changes(report, surface, smoothed);
+    if (const std::string reason = why_nothing_moved(report, outcome.resolved); !reason.empty())
+        outcome.warnings.push_back(reason);
     outcome.report = std::make_shared<Json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(smoothed));
     return outcome;

@@ -116,6 +116,7 @@ std::vector<double> distance_part(const Scene& scene, const Surface& surface,
                                         .omega = arguments.real("omega")};
     const auto distances = neighbour_distances(surface.points(), neighbours_of(scene));
     report["smallest_neighbour_distance_mm"] = std::ranges::min(distances);
+    report["largest_neighbour_distance_mm"] = std::ranges::max(distances);
     return distance_weights(distances, parameters);
 }
 
@@ -159,84 +160,104 @@ std::vector<Cap> caps_of(const Surface& surface, const Arguments& arguments) {
 
 }  // namespace
 
+double smallest_neighbour_distance(const Scene& scene, const Positions& positions) {
+    return std::ranges::min(neighbour_distances(positions, neighbours_of(scene)));
+}
+
 std::vector<Parameter> context_parameter_table() {
     using enum ParameterType;
-    return {{.name = "constraint",
-             .type = Choice,
-             .default_value = std::string("none"),
-             .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, around "
-                     "its place at the start",
-             .choices = {"none", "voxel", "diamond"}},
-            {.name = "cell",
-             .type = Point,
-             .unit = "mm",
-             .help = "size of the voxels of constraint along the image's axes; the image's own "
-                     "when left out",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "staircase",
-             .type = Flag,
-             .default_value = false,
-             .help = "smooth staircases of the image's slices only, and fade out around them"},
-            {.name = "stack_axis",
-             .type = Point,
-             .help = "direction across the image's slices; known from the image, or estimated "
-                     "from the surface, when left out"},
-            {.name = "tau_theta",
-             .unit = "-",
-             .default_value = 0.7,
-             .help = "how sharply a surface must bend across the slices to be a staircase: 1 is a "
-                     "right angle; smaller finds smoother staircases",
-             .minimum = 0.0,
-             .maximum = 1.0},
-            {.name = "tau_max",
-             .unit = "mm",
-             .default_value = 3.0,
-             .help = "how far around staircases the smoothing fades out; about a slice distance",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "beta_min",
-             .unit = "-",
-             .help = "weight of everything that is no staircase; 0 without a preset",
-             .minimum = 0.0,
-             .maximum = 1.0},
-            {.name = "weight",
-             .type = Choice,
-             .default_value = std::string("tau-max"),
-             .help = "what distances to staircases are divided by: tau-max, or the largest of "
-                     "them as the thesis prints it",
-             .choices = {"tau-max", "thesis"}},
-            {.name = "distance",
-             .type = Choice,
-             .default_value = std::string("none"),
-             .help = "keep what is near neighbouring structures: weights grow with the distance, "
-                     "beyond a margin, or exponentially",
-             .choices = {"none", "linear", "margin", "exponential"}},
-            {.name = "margin",
-             .unit = "mm",
-             .default_value = 2.0,
-             .help = "distance=margin only: within it nothing moves",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "omega",
-             .unit = "1/mm",
-             .default_value = 0.06,
-             .help = "distance=exponential only: larger keeps more",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "painted",
-             .type = Text,
-             .help = "name of a vertex attribute in [0, 1] that multiplies the weights"},
-            {.name = "caps",
-             .type = Choice,
-             .default_value = std::string("keep"),
-             .help = "keep: vertices of caps and their rims stay bit for bit; smooth: caps are "
-                     "wall; round: caps become domes",
-             .choices = {"keep", "smooth", "round"}},
-            {.name = "find_caps",
-             .type = Flag,
-             .default_value = true,
-             .help = "look for flat ends that are no openings yet, too; false: openings only"}};
+    const Condition when_staircase{"staircase", {"true"}};
+    return {
+        {.name = "constraint",
+         .type = Choice,
+         .default_value = std::string("none"),
+         .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, around "
+                 "its place at the start",
+         .choices = {"none", "voxel", "diamond"}},
+        {.name = "cell",
+         .type = Point,
+         .unit = "mm",
+         .help = "size of the voxels of constraint along the image's axes; the image's own "
+                 "when left out",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"constraint", {"voxel", "diamond"}}},
+        {.name = "staircase",
+         .type = Flag,
+         .default_value = false,
+         .help = "smooth staircases of the image's slices only, and fade out around them"},
+        {.name = "stack_axis",
+         .type = Point,
+         .help = "direction across the image's slices, in patient coordinates; known from the "
+                 "image, or estimated from the surface, when left out",
+         .only_with = when_staircase},
+        {.name = "tau_theta",
+         .unit = "-",
+         .default_value = 0.7,
+         .help = "how sharply a surface must bend across the slices to be a staircase: 1 is a "
+                 "right angle; smaller finds smoother staircases",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .only_with = when_staircase},
+        {.name = "tau_max",
+         .unit = "mm",
+         .default_value = 3.0,
+         .help = "how far around staircases the smoothing fades out; about a slice distance",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = when_staircase},
+        {.name = "beta_min",
+         .unit = "-",
+         .help = "how much of the smoothing all that is no staircase gets: 0 stays where it is, "
+                 "1 is smoothed as staircases are; the preset's when left out",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .only_with = when_staircase},
+        {.name = "weight",
+         .type = Choice,
+         .default_value = std::string("tau-max"),
+         .help = "where the smoothing has faded out: tau_max away from staircases, or (thesis, "
+                 "as it prints Eq. 5.5) at the farthest vertex within tau_max",
+         .choices = {"tau-max", "thesis"},
+         .only_with = when_staircase},
+        {.name = "distance",
+         .type = Choice,
+         .default_value = std::string("none"),
+         .help = "keep what is near the structures of load-neighbour; the nearest vertex gets "
+                 "no smoothing, the farthest all of it, and between them it grows evenly "
+                 "(linear), from a margin on, or late and fast (exponential)",
+         .choices = {"none", "linear", "margin", "exponential"}},
+        {.name = "margin",
+         .unit = "mm",
+         .default_value = 2.0,
+         .help = "vertices that are this near to a neighbour do not move",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"distance", {"margin"}}},
+        {.name = "omega",
+         .unit = "1/mm",
+         .default_value = 0.06,
+         .help = "how late the smoothing sets in: near 0 as linear; larger keeps more of what "
+                 "is near",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"distance", {"exponential"}}},
+        {.name = "painted",
+         .type = Text,
+         .help = "name of a vertex attribute in [0, 1], as brush-weight paints: 0 keeps a "
+                 "vertex, 1 smooths it"},
+        {.name = "caps",
+         .type = Choice,
+         .default_value = std::string("keep"),
+         .help = "keep: vertices of caps and their rims stay bit for bit; smooth: caps are "
+                 "wall; round: caps become domes",
+         .choices = {"keep", "smooth", "round"}},
+        {.name = "find_caps",
+         .type = Flag,
+         .default_value = true,
+         .help = "look for flat ends that are no openings yet, too: also the first and last "
+                 "slice of a mask; false: openings only",
+         .only_with = Condition{"caps", {"keep", "round"}}}};
 }
 
 SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Json& report) {

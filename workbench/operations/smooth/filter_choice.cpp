@@ -34,6 +34,15 @@ const Preset& preset_of(const Arguments& arguments) {
     return *std::ranges::find_if(kPresets, [&](const Preset& p) { return name == p.name; });
 }
 
+/// What the presets stand for: "flat: laplace-hc 10, 0.1".
+std::string preset_values() {
+    std::ostringstream text;
+    for (const Preset& p : kPresets)
+        text << (&p == kPresets.data() ? "" : "; ") << p.name << ": " << p.filter << " "
+             << p.iterations << ", " << p.beta_min;
+    return text.str();
+}
+
 void set_default(Arguments& arguments, const std::string& name, Value value) {
     if (!arguments.has(name)) arguments.set(name, std::move(value));
 }
@@ -56,8 +65,9 @@ std::vector<Parameter> filter_parameter_table() {
     return {{.name = "preset",
              .type = Choice,
              .default_value = std::string("none"),
-             .help = "values for what is not given: by the shape (compact organs, flat muscles, "
-                     "elongated vessels) or by the use of the model",
+             .help = "filter, iterations and beta_min where they are not given, for compact "
+                     "organs, flat muscles, elongated vessels, or a use of the model: " +
+                     preset_values(),
              .choices = presets},
             {.name = "filter",
              .type = Choice,
@@ -68,7 +78,7 @@ std::vector<Parameter> filter_parameter_table() {
                          "curvature-triggered"}},
             {.name = "iterations",
              .type = Integer,
-             .help = "number of passes, 20 without a preset; more is smoother",
+             .help = "number of passes; more is smoother",
              .minimum = 0,
              .maximum = 10000},
             {.name = "lambda",
@@ -79,31 +89,36 @@ std::vector<Parameter> filter_parameter_table() {
              .maximum = 1.0},
             {.name = "mu",
              .unit = "-",
-             .help = "taubin only: the inflating step, negative, at most -lambda; -1.02 lambda "
-                     "when left out",
+             .help = "the step back that undoes the shrinking: negative, at most -lambda; -1.02 "
+                     "lambda when left out",
              .minimum = -2.0,
-             .maximum = 0.0},
+             .maximum = 0.0,
+             .only_with = Condition{"filter", {"taubin"}}},
             {.name = "alpha",
              .unit = "-",
              .default_value = 0.0,
-             .help = "laplace-hc only: 1 pulls back to the original positions, 0 to those of "
-                     "the last pass",
+             .help = "what a pass is pulled back to: 1 the original positions, 0 those before the "
+                     "pass; in between a mixture. 0 is smoother",
              .minimum = 0.0,
-             .maximum = 1.0},
+             .maximum = 1.0,
+             .only_with = Condition{"filter", {"laplace-hc"}}},
             {.name = "beta",
              .unit = "-",
              .default_value = 0.5,
-             .help = "laplace-hc only: a vertex' own share of the back-correction; the rest "
-                     "comes from its neighbours",
+             .help = "share of the pull back that a vertex takes from itself, the rest from its "
+                     "neighbours' mean; 1 undoes the smoothing, less smooths more, and with lambda "
+                     "above 0.5 may roughen",
              .minimum = 0.0,
-             .maximum = 1.0},
+             .maximum = 1.0,
+             .only_with = Condition{"filter", {"laplace-hc"}}},
             {.name = "curvature",
              .unit = "1/mm",
-             .help = "anisotropic: from which principal curvature an edge is kept; "
-                     "curvature-triggered: from which mean curvature a vertex starts; a share of "
-                     "one over the mean edge when left out",
+             .help = "anisotropic: edges that bend more are kept; curvature-triggered: smoothing "
+                     "starts where the mean curvature is above it. 1 is the bend of a rod of 1 mm "
+                     "radius; when left out, half a radian (triggered: a quarter) per mean edge",
              .minimum = 0.0,
-             .above_minimum = true},
+             .above_minimum = true,
+             .only_with = Condition{"filter", {"anisotropic", "curvature-triggered"}}},
             {.name = "rings",
              .type = Integer,
              .default_value = std::int64_t{1},
