@@ -26,10 +26,9 @@ struct StackOrientationParameters {
 /// - Surfaces with interpolated vertices: the axis is a sharp peak of the normals, beyond what the
 ///   shape around it gives, of some share of the faces, and no other peak comes near it. Any single
 ///   plane makes such a peak (a flat end that is no trace of slices): leave such faces out.
-/// - Surfaces of labels or masks have a few normals only, and flat faces along all voxel axes;
-/// these
-///   tell the ratios of the voxel's edges. The stack axis is the one of the longest edge, if it is
-///   a quarter longer than the others.
+/// - Surfaces of labels or masks have a few normals only, and flat faces along all voxel axes.
+///   These tell the ratios of the edges of a voxel; the stack axis is the one of the longest edge,
+///   if it is a quarter longer than the others.
 /// Uncertain, too, are surfaces without staircases, smoothed or noisy ones of masks, and those of
 /// cubic voxels, which have no stack axis to be found. The direction is the median of the peak's
 /// normals, each face counting once. Faces without a normal (degenerate, not finite) do not count;
