@@ -185,6 +185,31 @@ SCENARIO("Arguments without effect are told by what they need", "[workbench][smo
                     parse_value(find_parameter(operation, parameter.only_with->parameter), value));
 }
 
+SCENARIO("A neighbour that is loaded later changes no smoothing made before",
+         "[workbench][smooth]") {
+    Scene scene = scene_of(icosphere(5.0, 3));
+    scene.neighbours.emplace("far", icosphere(2.0, 2, Vec3(14, 0, 0)));
+    const Outcome first = smooth(scene, {{"distance", "linear"}});
+    CHECK(first.resolved.text("neighbours") == "far");
+    scene.neighbours.emplace("near", icosphere(2.0, 2, Vec3(0, 8, 0)));
+    CHECK(smooth(scene, first.resolved).scene.surface->points() == first.scene.surface->points());
+    const Outcome both = smooth(scene, {{"distance", "linear"}});
+    CHECK(both.resolved.text("neighbours") == "far,near");
+    CHECK(both.scene.surface->points() != first.scene.surface->points());
+    CHECK_THROWS_WITH(smooth(scene, {{"distance", "linear"}, {"neighbours", "far,nera"}}),
+                      Catch::Contains("'nera'"));
+}
+
+SCENARIO("smooth says what holds it back nearly everywhere", "[workbench][smooth]") {
+    Scene scene = scene_of(icosphere(5.0, 3));
+    scene.neighbours.emplace("near", icosphere(2.0, 2, Vec3(0, 8, 0)));
+    const Outcome held = smooth(scene, {{"distance", "exponential"}, {"omega", 20.0}});
+    CHECK(held.report->at("mean_weight_distance") < 0.02);
+    REQUIRE(held.warnings.size() == 1);
+    CHECK_THAT(held.warnings[0], Catch::Contains("distance 0.0"));
+    CHECK(smooth(scene, {{"distance", "linear"}}).warnings.empty());
+}
+
 SCENARIO("smooth weighs with a painted attribute, and weights multiply", "[workbench][smooth]") {
     Scene scene = terraced_vessel();
     Surface& surface = *scene.surface;

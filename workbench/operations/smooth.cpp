@@ -46,10 +46,25 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }
 
-/// Why a filter that was to move something moved nothing; empty if it did, or was not to.
-std::string why_nothing_moved(const Json& report, const Arguments& resolved) {
+constexpr double kNextToNothing = 0.02;  // mean weight below which a run hardly does anything
+
+/// What holds a run back nearly everywhere; empty if nothing does.
+std::string what_holds_back(const Json& report) {
+    if (!report.contains("mean_weight") || report["mean_weight"] >= kNextToNothing) return "";
+    std::ostringstream text;
+    text << "the weights leave next to nothing to smooth (mean " << report["mean_weight"] << "):";
+    for (const char* kind : {"staircase", "distance", "painted"})
+        if (const std::string key = std::string("mean_weight_") + kind; report.contains(key))
+            text << " " << kind << " " << report[key];
+    return text.str();
+}
+
+/// Why a filter that was to move something moved nothing, or next to nothing; empty if it did, or
+/// was not to.
+std::string why_little_moved(const Json& report, const Arguments& resolved) {
     const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
-    if (idle || report["vertices_moved"] != 0) return "";
+    if (idle) return "";
+    if (report["vertices_moved"] != 0) return what_holds_back(report);
     if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
         return "nothing moved: no vertex bends by more than tau_theta = " +
                to_text(resolved.real("tau_theta")) +
@@ -112,9 +127,9 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     Surface smoothed = surface.with_positions(std::move(moved));
     if (outcome.resolved.text("distance") != "none")
         report["smallest_neighbour_distance_after_mm"] =
-            smallest_neighbour_distance(scene, smoothed.points());
+            smallest_neighbour_distance(scene, outcome.resolved, smoothed.points());
     add_changes(report, surface, smoothed);
-    if (const std::string reason = why_nothing_moved(report, outcome.resolved); !reason.empty())
+    if (const std::string reason = why_little_moved(report, outcome.resolved); !reason.empty())
         outcome.warnings.push_back(reason);
     outcome.report = std::make_shared<Json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(smoothed));

@@ -1,6 +1,8 @@
 #include "workbench/operations/smooth/context.h"
 
 #include <algorithm>
+#include <numeric>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,7 @@
 #include "smoothing/stack_orientation.h"
 #include "smoothing/staircase_weights.h"
 #include "smoothing/staircases.h"
+#include "workbench/near_names.h"
 #include "workbench/point_json.h"
 
 namespace vesselbench {
@@ -19,9 +22,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void multiply(std::vector<double>& weights, const std::vector<double>& by) {
+/// Multiplies one more kind of weights in, and reports its mean.
+void weigh(std::vector<double>& weights, std::vector<double> by, const char* kind, Json& report) {
+    const double sum = std::accumulate(by.begin(), by.end(), 0.0);
+    report["mean_weight_" + std::string(kind)] =
+        by.empty() ? 0.0 : sum / static_cast<double>(by.size());
     if (weights.empty())
-        weights = by;
+        weights = std::move(by);
     else
         for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
 }
@@ -91,30 +98,49 @@ std::vector<double> staircase_part(const Scene& scene, const Surface& surface,
     return weights;
 }
 
-std::vector<Surface> neighbours_of(const Scene& scene) {
+/// The names of the neighbours that count: those given, or all that are loaded.
+std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& arguments) {
+    std::vector<std::string> names;
+    if (const auto given = arguments.optional_text("neighbours")) {
+        std::istringstream list(*given);
+        for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    } else {
+        for (const auto& [name, surface] : scene.neighbours) names.push_back(name);
+    }
+    if (names.empty())
+        throw InvalidInput(
+            "smooth: distance awareness needs a neighbour, and there is none: use load-neighbour");
+    return names;
+}
+
+std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::string>& names) {
     std::vector<Surface> neighbours;
-    for (const auto& [name, surface] : scene.neighbours) {
+    for (const std::string& name : names) {
+        const auto found = scene.neighbours.find(name);
+        if (found == scene.neighbours.end())
+            throw InvalidInput("smooth: there is no neighbour '" + name +
+                               "': use load-neighbour, or name others by neighbours=");
+        const Surface& surface = found->second;
         if (surface.empty())
             throw InvalidInput("smooth: the neighbour '" + name +
                                "' has no triangles: load it again, or use distance=none");
         neighbours.push_back(surface);
     }
-    if (neighbours.empty())
-        throw InvalidInput(
-            "smooth: distance awareness needs a neighbour, and there is none: use load-neighbour");
     return neighbours;
 }
 
-std::vector<double> distance_part(const Scene& scene, const Surface& surface,
-                                  const Arguments& arguments, Json& report) {
+std::vector<double> distance_part(const Scene& scene, const Surface& surface, Arguments& arguments,
+                                  Json& report) {
     const std::string& name = arguments.text("distance");
+    const std::vector<std::string> names = neighbour_names(scene, arguments);
+    arguments.set("neighbours", joined(names, ","));  // one loaded later changes nothing here
     const DistanceParameters parameters{.scaling = name == "margin" ? DistanceScaling::Margin
                                                    : name == "exponential"
                                                        ? DistanceScaling::Exponential
                                                        : DistanceScaling::Linear,
                                         .margin = arguments.real("margin"),
                                         .omega = arguments.real("omega")};
-    const auto distances = neighbour_distances(surface.points(), neighbours_of(scene));
+    const auto distances = neighbour_distances(surface.points(), neighbours_of(scene, names));
     report["smallest_neighbour_distance_mm"] = std::ranges::min(distances);
     report["largest_neighbour_distance_mm"] = std::ranges::max(distances);
     return distance_weights(distances, parameters);
@@ -160,8 +186,10 @@ std::vector<Cap> caps_of(const Surface& surface, const Arguments& arguments) {
 
 }  // namespace
 
-double smallest_neighbour_distance(const Scene& scene, const Positions& positions) {
-    return std::ranges::min(neighbour_distances(positions, neighbours_of(scene)));
+double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
+                                   const Positions& positions) {
+    return std::ranges::min(
+        neighbour_distances(positions, neighbours_of(scene, neighbour_names(scene, arguments))));
 }
 
 std::vector<Parameter> context_parameter_table() {
@@ -227,6 +255,11 @@ std::vector<Parameter> context_parameter_table() {
                  "no smoothing, the farthest all of it, and between them it grows evenly "
                  "(linear), from a margin on, or late and fast (exponential)",
          .choices = {"none", "linear", "margin", "exponential"}},
+        {.name = "neighbours",
+         .type = Text,
+         .help = "names of the neighbours that count, a,b,...; all that are loaded by then when "
+                 "left out",
+         .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
         {.name = "margin",
          .unit = "mm",
          .default_value = 2.0,
@@ -276,11 +309,13 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
     report["caps"] = caps.size();
     report["cap_vertices_kept"] = round ? 0 : std::ranges::count(on_caps, 1);
     if (arguments.flag("staircase"))
-        multiply(context.weights, staircase_part(scene, surface, on_caps, arguments, report));
+        weigh(context.weights, staircase_part(scene, surface, on_caps, arguments, report),
+              "staircase", report);
     if (arguments.text("distance") != "none")
-        multiply(context.weights, distance_part(scene, surface, arguments, report));
+        weigh(context.weights, distance_part(scene, surface, arguments, report), "distance",
+              report);
     if (const auto painted = arguments.optional_text("painted"))
-        multiply(context.weights, painted_part(surface, *painted));
+        weigh(context.weights, painted_part(surface, *painted), "painted", report);
     if (round && !context.weights.empty())
         for (std::size_t v = 0; v < on_caps.size(); ++v)
             if (on_caps[v] != 0) context.weights[v] = 1.0;

@@ -34,6 +34,7 @@ struct SmoothingContext {
 
 /// Distance of the position that is nearest to a neighbour [mm]; 0 inside.
 /// \throw InvalidInput if there is no neighbour, or one without triangles
-[[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Positions& positions);
+[[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
+                                                 const Positions& positions);
 
 }  // namespace vesselbench
