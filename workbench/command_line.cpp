@@ -168,9 +168,12 @@ void add_prepare(CommandLine& line) {
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
     command.footer(kPrepareFooter);
-    command.add_option("--for", options->purpose, "What the model is for: cfd or rp (printing)")
+    command
+        .add_option("--for", options->purpose,
+                    "What the model is for: flow simulation (cfd), printing (rp), pictures\n"
+                    "(planning: keeps raw triangles), or surgery simulation (simulation)")
         ->required()
-        ->type_name("cfd|rp");
+        ->type_name("cfd|rp|planning|simulation");
     command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead")
         ->type_name("FILE");
     command
