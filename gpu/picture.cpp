@@ -100,14 +100,16 @@ void draw_edges(GLsizei count, const Camera& camera, float pull) {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void draw_corners(const std::vector<Corner>& list, const Camera& camera, bool edges) {
+void draw_corners(const std::vector<Corner>& list, const Camera& camera,
+                  const PictureOptions& options) {
     const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "surface corners");
     const VertexArray array = describe_corners();
     const auto count = static_cast<GLsizei>(list.size());
     const Program surface = make_program("surface");
     set_matrices(surface, camera);
+    glUniform3fv(glGetUniformLocation(surface.id(), "back_colour"), 1, options.back.data());
     glDrawArrays(GL_TRIANGLES, 0, count);
-    if (edges) draw_edges(count, camera, kOwnPull);
+    if (options.edges) draw_edges(count, camera, kOwnPull);
 }
 
 /// Edges of another surface over what is drawn already.
@@ -134,7 +136,7 @@ Picture draw(const Surface& surface, const PictureOptions& options) {
     const Camera camera = camera_for(frame.points(), box.center(), options);
     const OffscreenContext context;
     const Canvas canvas(options.width, options.height);
-    draw_corners(corners(surface, box.center(), options), camera, options.edges);
+    draw_corners(corners(surface, box.center(), options), camera, options);
     if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
     return canvas.picture();
 }

@@ -29,8 +29,9 @@ struct PictureOptions {
     Vec3 shift =
         Vec3::Zero();    ///< what is in the middle, relative to the bounding box's centre [mm]
     bool edges = false;  ///< draw the triangles' edges
-    std::vector<Colour> vertex_colours;  ///< #V; empty: by patch (wall, inlet, outlets)
-    bool sharp = false;                  ///< one normal per triangle instead of smooth shading
+    std::vector<Colour> vertex_colours;   ///< #V; empty: by patch (wall, inlet, outlets)
+    Colour back = {0.75F, 0.12F, 0.10F};  ///< of triangles seen from their inner side
+    bool sharp = false;                   ///< one normal per triangle instead of smooth shading
     /// What the camera is set up for in place of the surface: pictures side by side show the same.
     std::shared_ptr<const Surface> frame = nullptr;
     double half_height = 0.0;  ///< what the picture shows above its middle [mm]; 0: as zoom says

@@ -171,10 +171,12 @@ Suggestion ParameterSearch::descend(const Place& start, int reach, const Progres
 
 Suggestion ParameterSearch::along_valley(Suggestion best, const Progress& progress) {
     const std::size_t count = best.values.size();
+    // Many parameters have many neighbours, and many ways out of a valley.
+    const std::vector<int> widths = count <= 3 ? std::vector{8, 5, 3, 2} : std::vector{3};
     for (Suggestion before; before.values != best.values;) {
         before = best;
         for (std::size_t i = 0; i < count && count > 1; ++i)
-            for (const int wide : {8, 5, 3, 2}) {
+            for (const int wide : widths) {
                 std::vector<int> steps(count, 1);
                 steps[i] = wide;
                 walk(best, steps, progress);

@@ -22,7 +22,7 @@ using detail::RingState;
 constexpr std::size_t kChunk =
     512;  // places that are summed by themselves: small, but not too many
 
-constexpr std::size_t kSampleStep = 24;
+constexpr std::size_t kSampleStep = 32;
 
 Vec3 point_of(const PackRow& row) {
     return {row.values[0], row.values[1], row.values[2]};

@@ -58,7 +58,7 @@ public:
     [[nodiscard]] QualityMeasures measure(Packs moved,
                                           const std::vector<VertexId>& references) const;
 
-    /// The same from every 24th place, followed alone; the volume is exact. Curvature is scaled by
+    /// The same from every 32nd place, followed alone; the volume is exact. Curvature is scaled by
     /// the area that the sample stands for. All states err the same way, by a few per cent at some
     /// thousand vertices: this serves to tell sets apart before the best ones are measured.
     [[nodiscard]] QualityMeasures follow_and_estimate(Packs moved,

@@ -2,12 +2,13 @@
 // Two soft lights fixed to the eye and a faint rim; back sides (holes, inverted triangles) stand out in red.
 in vec3 eye_normal;
 in vec3 vertex_colour;
+uniform vec3 back_colour;
 out vec4 fragment;
 
 void main() {
     vec3 n = normalize(eye_normal);
     if (!gl_FrontFacing) {
-        fragment = vec4(vec3(0.75, 0.12, 0.10) * (0.4 + 0.6 * abs(n.z)), 1.0);
+        fragment = vec4(back_colour * (0.4 + 0.6 * abs(n.z)), 1.0);
         return;
     }
     float key = max(dot(n, normalize(vec3(0.45, 0.6, 0.8))), 0.0);

@@ -144,7 +144,7 @@ SCENARIO("Drifting along the surface is no error", "[quality][meter]") {
 }
 
 SCENARIO("Estimates of all states err the same little way", "[quality][meter]") {
-    const Surface surface = with_noise(icosphere(20.0, 5), 0.1);  // 10,242 vertices
+    const Surface surface = with_noise(icosphere(20.0, 6), 0.1);  // 40,962 vertices
     const SurfaceMeter meter(surface.topology, surface.positions);
     auto references = meter.own_references(), sampled = references;
     for (const int iterations : {5, 10, 30}) {
@@ -154,7 +154,7 @@ SCENARIO("Estimates of all states err the same little way", "[quality][meter]") 
         const auto full = meter.follow_and_measure(moved, references);
         const auto estimate = meter.follow_and_estimate(moved, sampled);
         CHECK(estimate.volume == Approx(full.volume).epsilon(1e-9));
-        CHECK(estimate.error == Approx(full.error).epsilon(0.06));
-        CHECK(estimate.curvature_abs == Approx(full.curvature_abs).epsilon(0.06));
+        CHECK(estimate.error == Approx(full.error).epsilon(0.08));
+        CHECK(estimate.curvature_abs == Approx(full.curvature_abs).epsilon(0.08));
     }
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kCell = 460, kGap = 10, kHead = 56, kCaption = 88, kFoot = 84;
 constexpr double kText = 13.0;
+const Colour kInside(0.25F, 0.25F, 0.25F);  // red means outside here
 
 Picture blank(int width, int height) {
     return {width, height,
@@ -159,6 +160,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
                                    .view = view,
                                    .up = up_for(view),
                                    .vertex_colours = colours,
+                                   .back = kInside,
                                    .frame = frame}),
               left, kHead);
         double y = kHead + kCell + 20.0;
@@ -168,6 +170,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
         }
         PictureOptions near = magnified(original, place);
         near.vertex_colours = colours;
+        near.back = kInside;
         near.wires = frame;
         paste(page, draw(model.surface, near), left, kHead + kCell + kCaption);
     }

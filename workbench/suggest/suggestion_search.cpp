@@ -40,11 +40,19 @@ Suggestion SuggestionSearch::suggest(double tau, const Progress& progress) {
         case SearchWay::Exhaustive:
             return search_.exhaustive(false, progress);
         case SearchWay::Pattern:
-            return search_.pattern(8, progress);
+            return from_pattern(progress);
         case SearchWay::Automatic:
             break;
     }
     return search_.refined(search_.estimated(progress.part(0.0, 0.7)), 2, progress.part(0.7, 1.0));
+}
+
+Suggestion SuggestionSearch::from_pattern(const Progress& progress) {
+    const bool many = space().parameters.size() > kMostForGrid;
+    const Suggestion found =
+        many && last_ ? search_.refined(*last_, 8, progress) : search_.pattern(8, progress);
+    last_ = found;
+    return found;
 }
 
 std::vector<ParameterSet> SuggestionSearch::coarse_sets() const {

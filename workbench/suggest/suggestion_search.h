@@ -56,11 +56,15 @@ public:
     [[nodiscard]] QualityTable::Work work() const { return search_.work(); }
 
 private:
+    /// With many parameters, another tau is searched from what the last one found.
+    [[nodiscard]] Suggestion from_pattern(const Progress& progress);
+
     const SearchSubject& subject_;
     SearchWay way_;
     ScoreSettings settings_;
     ChosenEngine chosen_;
     ParameterSearch search_;
+    std::optional<Suggestion> last_;
 };
 
 }  // namespace vesselbench
