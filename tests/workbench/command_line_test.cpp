@@ -60,7 +60,7 @@ SCENARIO("Help reads well at every level", "[workbench][command-line]") {
 SCENARIO("Wrong usage is exit code 2 with a text that helps", "[workbench][command-line]") {
     check_usage_error({}, {"no window"});
     check_usage_error({"operation"}, {"no command 'operation'", "did you mean 'operations'"});
-    check_usage_error({"suggest", "x"}, {"no command 'suggest' in this version"});
+    check_usage_error({"view", "x"}, {"no command 'view' in this version"});
     check_usage_error({"operations", "smoth"}, {"no operation 'smoth'", "did you mean 'smooth'"});
     check_usage_error({"operations", "--jason"}, {"--jason", "vesselbench operations --help"});
     check_usage_error({"apply"}, {"PROJECT", "vesselbench apply --help"});
