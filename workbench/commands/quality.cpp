@@ -87,12 +87,23 @@ SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
     return sensitivity(search, given_set(subject, space), false, progress);
 }
 
-std::string caption(const SearchSpace& space, const ParameterSet& set) {
-    if (set.back() == 0.0) return "do not smooth";
-    std::string text;
-    for (std::size_t i = 0; i < set.size(); ++i)
-        text += (i == 0 ? "" : ", ") + space.parameters[i].name + " " + number(set[i], "%g");
-    return text;
+/// The target and the parameters, in lines that fit under a model.
+std::vector<std::string> caption(double tau, const SearchSpace& space, const ParameterSet& set) {
+    constexpr std::size_t kMostLetters = 34;
+    std::vector<std::string> lines = {"tau " + number(tau, "%g")};
+    if (set.back() == 0.0) return {lines.front() + ": do not smooth"};
+    lines.emplace_back();
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const std::string word = space.parameters[i].name + " " + number(set[i], "%g");
+        std::string& line = lines.back();
+        if (line.empty())
+            line = word;
+        else if (line.size() + 2 + word.size() <= kMostLetters)
+            line += ", " + word;
+        else
+            lines.push_back(word);
+    }
+    return lines;
 }
 
 /// The surface as it is drawn: some files' triangles face inward.
@@ -112,12 +123,12 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
         const QualityMeasures& original = search.original();
         const double volume = 100.0 * (found.measures.volume / original.volume - 1.0);
         const double curvature = 100.0 * found.measures.curvature_abs / original.curvature_abs;
+        auto lines = caption(tau, search.space(), found.values);
+        lines.push_back("volume " + number(volume, "%+.2f") + " %, curvature " +
+                        number(curvature, "%.0f") + " %");
+        lines.push_back("mean distance " + number(found.measures.error, "%.2g") + " mm");
         models.push_back(
-            {outward(search.smoothed(found.values, progress), original.volume),
-             {"tau " + number(tau, "%g") + ": " + caption(search.space(), found.values),
-              "volume " + number(volume, "%+.2f") + " %, curvature " + number(curvature, "%.0f") +
-                  " %",
-              "mean distance " + number(found.measures.error, "%.2g") + " mm"}});
+            {outward(search.smoothed(found.values, progress), original.volume), std::move(lines)});
     }
     std::optional<Vec3> at;
     if (!options.at.empty()) at = Vec3(options.at[0], options.at[1], options.at[2]);
