@@ -12,7 +12,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kCell = 460, kGap = 10, kHead = 56, kCaption = 88, kFoot = 84;
+constexpr int kCell = 460, kGap = 10, kHead = 56, kFoot = 84, kLine = 22;
 constexpr double kText = 13.0;
 const Colour kInside(0.25F, 0.25F, 0.25F);  // red means outside here
 
@@ -135,7 +135,11 @@ void add_scale(Picture& page, double full) {
 Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>& models,
                         const std::string& title, const std::optional<Vec3>& at) {
     const auto count = static_cast<int>(models.size());
-    Picture page = blank(count * (kCell + kGap) + kGap, kHead + 2 * kCell + kCaption + kFoot);
+    std::size_t most_lines = 0;
+    for (const GalleryModel& model : models)
+        most_lines = std::max(most_lines, model.captions.size());
+    const int caption = kLine * (static_cast<int>(most_lines) + 1);
+    Picture page = blank(count * (kCell + kGap) + kGap, kHead + 2 * kCell + caption + kFoot);
     const SurfaceDistance distance(original);
     std::vector<std::vector<double>> deviations;
     for (const GalleryModel& model : models)
@@ -166,13 +170,13 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
         double y = kHead + kCell + 20.0;
         for (const std::string& line : model.captions) {
             write_text(page, left + 8.0, y, line, kText);
-            y += 22.0;
+            y += kLine;
         }
         PictureOptions near = magnified(original, place);
         near.vertex_colours = colours;
         near.back = kInside;
         near.wires = frame;
-        paste(page, draw(model.surface, near), left, kHead + kCell + kCaption);
+        paste(page, draw(model.surface, near), left, kHead + kCell + caption);
     }
     add_scale(page, full);
     return page;
