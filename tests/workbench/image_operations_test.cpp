@@ -135,6 +135,25 @@ SCENARIO("extract-surface decides, says so, and replays without deciding", "[wor
     }
 }
 
+SCENARIO("extract-surface says when labels are looked for among intensities",
+         "[workbench][images]") {
+    const Image grid = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
+    const Vec3 middle = middle_of(grid);
+    const auto warnings = [&](double around) {
+        Scene scene;
+        scene.image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+            const double r = (p - middle).norm();
+            return r < 8.0 ? 1.0 : r < 9.0 ? around : 0.0;
+        });
+        return run("extract-surface", scene,
+                   {{"method", "labels"}, {"labels", std::vector<double>{1.0}}})
+            .warnings;
+    };
+    CHECK(warnings(2.0).empty());
+    REQUIRE(warnings(0.25).size() == 1);
+    CHECK_THAT(warnings(0.25)[0], Contains("0.25") && Contains("method=threshold"));
+}
+
 SCENARIO("crop cuts image, mask and surface alike", "[workbench][images]") {
     const Image ball = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
     Scene scene;

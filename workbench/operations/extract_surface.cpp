@@ -1,5 +1,6 @@
 #include "geometry/image/extract_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -146,6 +147,15 @@ std::vector<std::string> warnings_of(const Extraction& extraction) {
     return warnings;
 }
 
+/// Labels are whole numbers; an image with fractions was most likely measured.
+void warn_of_fractions(const Image& image, Outcome& outcome) {
+    const auto fraction =
+        std::ranges::find_if(*image.voxels, [](float v) { return v != std::floor(v); });
+    if (fraction == image.voxels->end()) return;
+    outcome.warnings.push_back("the image holds " + to_text(*fraction) +
+                               " and is no map of labels: method=threshold is for intensities");
+}
+
 Outcome run_extraction(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Extraction extraction = extract_surface(
         image_of(scene), scene.mask, parameters_from(arguments, scene.mask.has_value()), progress);
@@ -153,6 +163,7 @@ Outcome run_extraction(const Scene& scene, const Arguments& arguments, Progress&
     outcome.resolved = resolved_from(arguments, extraction);
     outcome.report = report_of(extraction);
     outcome.warnings = warnings_of(extraction);
+    if (extraction.method == ExtractionMethod::Labels) warn_of_fractions(image_of(scene), outcome);
     outcome.scene = with_surface(scene, extraction.surface);
     outcome.scene.sampling = extraction.sampling;
     return outcome;
