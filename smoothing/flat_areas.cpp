@@ -43,7 +43,7 @@ FlatVertices find_flat_vertices(const CompressedRows& rows, std::span<const Face
         for (const TriangleId t : row) sum += faces[t].weighted;
         const double least = flat_cosine * sum.norm();
         const bool flat = !sum.isZero() && std::all_of(row.begin(), row.end(), [&](TriangleId t) {
-            return faces[t].weighted.dot(sum) >= least * faces[t].length;
+            return faces[t].weighted.dot(sum) >= least * faces[t].length();
         });
         found.flat[v] = flat ? 1 : 0;
         if (flat) found.normals[v] = sum.normalized();
@@ -135,7 +135,7 @@ private:
         const auto& faces = ground_.faces;
         const Vec3 normal = mean_normal(faces, area_);
         const auto add = [&](TriangleId t) {
-            if (faces[t].weighted.dot(normal) >= ground_.spread_cosine * faces[t].length) take(t);
+            if (faces[t].weighted.dot(normal) >= ground_.spread_cosine * faces[t].length()) take(t);
         };
         std::size_t next = area_.size();
         for (const TriangleId t : around_)
@@ -143,7 +143,8 @@ private:
         for (; next < area_.size(); ++next) {
             const TriangleId from = area_[next];
             visit_free_neighbours(from, [&](TriangleId to) {
-                const double least = ground_.flat_cosine * faces[to].length * faces[from].length;
+                const double least =
+                    ground_.flat_cosine * faces[to].length() * faces[from].length();
                 if (faces[to].weighted.dot(faces[from].weighted) >= least) add(to);
             });
         }
@@ -208,7 +209,7 @@ std::vector<FaceNormal> face_normals(const Surface& surface) {
     for_each_vertex(faces.size(), [&](std::size_t t) {
         const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
         const double length = length_of(normal);
-        if (length > 0.0) faces[t] = {normal, length};
+        if (length > 0.0) faces[t] = {normal};
     });
     return faces;
 }

@@ -12,7 +12,9 @@ namespace vesselbench::detail {
 /// Normal of a triangle.
 struct FaceNormal {
     Vec3 weighted = Vec3::Zero();  ///< as long as twice the area [mm^2]
-    double length = 0.0;           ///< of it; 0: degenerate
+
+    /// Of it; 0: degenerate. Worked out again where it is needed, which memory notices less.
+    [[nodiscard]] double length() const { return weighted.norm(); }
 };
 
 [[nodiscard]] std::vector<FaceNormal> face_normals(const Surface& surface);

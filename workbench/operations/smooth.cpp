@@ -98,6 +98,7 @@ Positions filtered_in_context(const Scene& scene, const FilterParameters& filter
                               Json& report, Progress& progress) {
     progress.report(0.0, "looking at the context");
     const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
+    release_kept_memory();
     if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
     Surface start = surface_of(scene);
     start.positions = context.start;
