@@ -19,4 +19,10 @@ std::string counted(std::size_t count, const std::string& noun, const std::strin
     return std::to_string(count) + " " + (count == 1 ? noun : many);
 }
 
+std::string formatted(double value, const char* format) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
 }  // namespace vesselbench

@@ -18,4 +18,8 @@ namespace vesselbench {
 [[nodiscard]] std::string counted(std::size_t count, const std::string& noun,
                                   const std::string& plural = "");
 
+/// A number in printf's words: formatted(0.1234) is "0.123".
+/// \param format one conversion for a double
+[[nodiscard]] std::string formatted(double value, const char* format = "%.3g");
+
 }  // namespace vesselbench

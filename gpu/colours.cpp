@@ -25,4 +25,12 @@ Colour heated_colour(double value) {
             part((luminance - kRed - kGreen) / kBlue)};
 }
 
+PixelColour pixel_colour(const Colour& linear) {
+    PixelColour pixel;
+    for (int i = 0; i < 3; ++i)
+        pixel[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
+            std::lround(255.0 * std::pow(std::clamp(linear[i], 0.0F, 1.0F), 1.0F / 2.2F)));
+    return pixel;
+}
+
 }  // namespace vesselbench

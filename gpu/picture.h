@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -17,7 +18,8 @@ struct Picture {
     std::vector<std::uint8_t> rgb;
 };
 
-using Colour = Eigen::Vector3f;  ///< linear RGB in [0, 1]
+using Colour = Eigen::Vector3f;                   ///< linear RGB in [0, 1]
+using PixelColour = std::array<std::uint8_t, 3>;  ///< as pictures hold it
 
 /// How a surface is drawn.
 struct PictureOptions {
@@ -53,5 +55,8 @@ struct PictureOptions {
 
 /// The picture as a PNG file's bytes.
 [[nodiscard]] std::string png(const Picture& picture);
+
+/// A colour as pictures hold it (gamma 2.2).
+[[nodiscard]] PixelColour pixel_colour(const Colour& linear);
 
 }  // namespace vesselbench

@@ -21,12 +21,6 @@ double cosine(double degrees) {
     return std::cos(degrees * std::numbers::pi / 180.0);
 }
 
-/// Length of a vector; 0 where it is not finite.
-double length_of(const Vec3& v) {
-    const double length = v.norm();
-    return std::isfinite(length) ? length : 0.0;
-}
-
 /// Vertices none of whose triangles turns away from their normal.
 struct FlatVertices {
     std::vector<std::uint8_t> flat;  ///< #V
@@ -208,8 +202,8 @@ std::vector<FaceNormal> face_normals(const Surface& surface) {
     std::vector<FaceNormal> faces(surface.triangle_count());
     for_each_vertex(faces.size(), [&](std::size_t t) {
         const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
-        const double length = length_of(normal);
-        if (length > 0.0) faces[t] = {normal};
+        if (const double length = normal.norm(); length > 0.0 && std::isfinite(length))
+            faces[t] = {normal};
     });
     return faces;
 }

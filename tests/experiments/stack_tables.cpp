@@ -20,28 +20,6 @@ using namespace vesselbench::test;
 
 namespace {
 
-Surface turned(const Surface& s, const Eigen::Matrix3d& r) {
-    Positions points = s.points();
-    for (Vec3& p : points) p = r * p;
-    return s.with_positions(std::move(points));
-}
-
-double degrees_between(const Vec3& a, const Vec3& b) {
-    const double angle = std::asin(std::min(1.0, a.normalized().cross(b.normalized()).norm()));
-    return angle * 180.0 / std::numbers::pi;
-}
-
-/// Percentage of the faces within 1 degree of the z axis.
-double percent_flat(const Surface& surface) {
-    const double limit = std::cos(std::numbers::pi / 180.0);
-    const auto flat = std::count_if(
-        surface.triangles().begin(), surface.triangles().end(), [&](const Triangle& t) {
-            const Vec3 n = area_normal(surface.points(), t);
-            return n.norm() > 0.0 && std::abs(n.z()) >= limit * n.norm();
-        });
-    return 100.0 * static_cast<double>(flat) / static_cast<double>(surface.triangle_count());
-}
-
 void print_error(const Surface& surface, const Eigen::Matrix3d& turn) {
     const auto found = estimate_stack_orientation(turned(surface, turn));
     std::printf(" %.3f%s |", degrees_between(found.direction, turn.col(2)),
@@ -77,8 +55,8 @@ Outcome outcome_of(std::uint64_t seed) {
     const CutSphere cut = cut_sphere(seed);
     const Surface surface = imaged(cut.description);
     const auto found = estimate_stack_orientation(turned(surface, cut.rotation));
-    return {cut.share, percent_flat(surface), degrees_between(found.direction, cut.rotation.col(2)),
-            found.certain};
+    return {cut.share, 100.0 * share_of_flat_faces(surface),
+            degrees_between(found.direction, cut.rotation.col(2)), found.certain};
 }
 
 void print_row(const char* name, const std::vector<Outcome>& group) {

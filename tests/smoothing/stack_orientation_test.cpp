@@ -22,26 +22,6 @@ using namespace vesselbench::test;
 
 namespace {
 
-Surface turned(const Surface& s, const Eigen::Matrix3d& r) {
-    return mapped(s, [&](const Vec3& p) { return Vec3(r * p); });
-}
-
-double degrees_between(const Vec3& a, const Vec3& b) {
-    const double angle = std::asin(std::min(1.0, a.normalized().cross(b.normalized()).norm()));
-    return angle * 180.0 / std::numbers::pi;
-}
-
-/// Share of the faces within 1 degree of the z axis.
-double share_of_flat_faces(const Surface& surface) {
-    const double limit = std::cos(std::numbers::pi / 180.0);
-    const auto flat = std::count_if(
-        surface.triangles().begin(), surface.triangles().end(), [&](const Triangle& t) {
-            const Vec3 n = area_normal(surface.points(), t);
-            return n.norm() > 0.0 && std::abs(n.z()) >= limit * n.norm();
-        });
-    return static_cast<double>(flat) / static_cast<double>(surface.triangle_count());
-}
-
 Surface of_labels(const Image& image) {
     ExtractionParameters p;
     p.method = ExtractionMethod::Labels;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "geometry/image/extract_surface.h"
 #include "geometry/phantoms/random.h"
@@ -131,6 +132,27 @@ Surface of_masked_intensities(const PhantomDescription& d) {
     p.method = ExtractionMethod::Masked;
     p.threshold = 500.0;
     return extract_surface(phantom_image(d, field), phantom_mask(d, field), p).surface;
+}
+
+Surface turned(const Surface& surface, const Eigen::Matrix3d& rotation) {
+    Positions points = surface.points();
+    for (Vec3& p : points) p = rotation * p;
+    return surface.with_positions(std::move(points));
+}
+
+double degrees_between(const Vec3& a, const Vec3& b) {
+    const double angle = std::asin(std::min(1.0, a.normalized().cross(b.normalized()).norm()));
+    return angle * 180.0 / std::numbers::pi;
+}
+
+double share_of_flat_faces(const Surface& surface) {
+    const double limit = std::cos(std::numbers::pi / 180.0);
+    const auto flat = std::count_if(
+        surface.triangles().begin(), surface.triangles().end(), [&](const Triangle& t) {
+            const Vec3 n = area_normal(surface.points(), t);
+            return n.norm() > 0.0 && std::abs(n.z()) >= limit * n.norm();
+        });
+    return static_cast<double>(flat) / static_cast<double>(surface.triangle_count());
 }
 
 }  // namespace vesselbench::test

@@ -39,4 +39,13 @@ struct CutSphere {
 /// Intensities inside the dilated mask (thesis 5.4.2).
 [[nodiscard]] Surface of_masked_intensities(const PhantomDescription& description);
 
+/// The surface turned about the origin.
+[[nodiscard]] Surface turned(const Surface& surface, const Eigen::Matrix3d& rotation);
+
+/// Angle between two axes, whichever way they point [deg].
+[[nodiscard]] double degrees_between(const Vec3& a, const Vec3& b);
+
+/// Share of the faces within 1 degree of the z axis.
+[[nodiscard]] double share_of_flat_faces(const Surface& surface);
+
 }  // namespace vesselbench::test

@@ -1,11 +1,11 @@
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
 #include "quality/sensitivity.h"
 #include <nlohmann/json.hpp>
 
+#include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/wording.h"
 #include "workbench/commands/commands.h"
@@ -40,12 +40,6 @@ void check(const QualityOptions& options) {
 
 bool wants_bars(const std::string& out) {
     return fs::path(out).stem().string().find("bar") != std::string::npos;
-}
-
-std::string number(double value, const char* format = "%.3g") {
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
 }
 
 QualityTitle title_of(const SearchSubject& subject, double tau) {
@@ -90,11 +84,11 @@ SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
 /// The target and the parameters, in lines that fit under a model.
 std::vector<std::string> caption(double tau, const SearchSpace& space, const ParameterSet& set) {
     constexpr std::size_t kMostLetters = 34;
-    std::vector<std::string> lines = {"tau " + number(tau, "%g")};
+    std::vector<std::string> lines = {"tau " + formatted(tau, "%g")};
     if (set.back() == 0.0) return {lines.front() + ": do not smooth"};
     lines.emplace_back();
     for (std::size_t i = 0; i < set.size(); ++i) {
-        const std::string word = space.parameters[i].name + " " + number(set[i], "%g");
+        const std::string word = space.parameters[i].name + " " + formatted(set[i], "%g");
         std::string& line = lines.back();
         if (line.empty())
             line = word;
@@ -108,10 +102,7 @@ std::vector<std::string> caption(double tau, const SearchSpace& space, const Par
 
 /// The surface as it is drawn: some files' triangles face inward.
 Surface outward(const Surface& surface, double volume) {
-    if (volume >= 0.0) return surface;
-    std::vector<Triangle> triangles;
-    for (const auto& [a, b, c] : surface.triangles()) triangles.push_back({a, c, b});
-    return make_surface(surface.points(), std::move(triangles));
+    return volume >= 0.0 ? surface : flipped(surface);
 }
 
 std::string gallery_of(const SearchSubject& subject, const QualityOptions& options,
@@ -124,9 +115,9 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
         const double volume = 100.0 * (found.measures.volume / original.volume - 1.0);
         const double curvature = 100.0 * found.measures.curvature_abs / original.curvature_abs;
         auto lines = caption(tau, search.space(), found.values);
-        lines.push_back("volume " + number(volume, "%+.2f") + " %, curvature " +
-                        number(curvature, "%.0f") + " %");
-        lines.push_back("mean distance " + number(found.measures.error, "%.2g") + " mm");
+        lines.push_back("volume " + formatted(volume, "%+.2f") + " %, curvature " +
+                        formatted(curvature, "%.0f") + " %");
+        lines.push_back("mean distance " + formatted(found.measures.error, "%.2g") + " mm");
         models.push_back(
             {outward(search.smoothed(found.values, progress), original.volume), std::move(lines)});
     }

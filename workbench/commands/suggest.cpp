@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -22,12 +21,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value, const char* format = "%.3g") {
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 double volume_percent(const QualityMeasures& original, const QualityMeasures& measures) {
     return original.volume != 0.0 ? 100.0 * (measures.volume / original.volume - 1.0) : 0.0;
@@ -91,7 +84,7 @@ Json grid_json(SuggestionSearch& search, const SuggestOptions& options, const Pr
 std::string set_text(const SearchSpace& space, const ParameterSet& set) {
     std::string text;
     for (std::size_t i = 0; i < set.size(); ++i)
-        text += (i == 0 ? "" : " ") + space.parameters[i].name + "=" + number(set[i], "%g");
+        text += (i == 0 ? "" : " ") + space.parameters[i].name + "=" + formatted(set[i], "%g");
     return text;
 }
 
@@ -105,11 +98,11 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
             search.original().curvature_abs > 0.0
                 ? 100.0 * one.measures.curvature_abs / search.original().curvature_abs
                 : 100.0;
-        rows.push_back({number(tau, "%g"),
+        rows.push_back({formatted(tau, "%g"),
                         nothing ? "do not smooth" : set_text(search.space(), one.values),
-                        number(kept, "%.1f") + " %", number(one.measures.error),
-                        number(volume_percent(search.original(), one.measures), "%+.2f") + " %",
-                        number(one.score, "%.4f")});
+                        formatted(kept, "%.1f") + " %", formatted(one.measures.error),
+                        formatted(volume_percent(search.original(), one.measures), "%+.2f") + " %",
+                        formatted(one.score, "%.4f")});
     }
     std::cout << as_columns(rows);
     const Suggestion& first = found.front().second;
@@ -175,14 +168,14 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
     if (options.json) return print_json(search, subject, options, found, work, progress);
     std::cout << subject.name << (subject.state.empty() ? "" : ", " + subject.state) << ": "
               << counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices")
-              << ", mean edge " << number(search.mean_edge()) << " mm; filter "
+              << ", mean edge " << formatted(search.mean_edge()) << " mm; filter "
               << subject.arguments.text("filter") << ", score " << options.score << "\n\n";
     print_suggestions(search, subject, found);
     std::cout
         << "\ncurvature: integral of |H|, of the original's; mean distance: from the original "
            "surface\nsearched: "
         << work["evaluations"] << " parameter sets, " << work["sweeps"] << " iterations, "
-        << number(work["seconds"].get<double>()) << " s"
+        << formatted(work["seconds"].get<double>()) << " s"
         << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
 }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/measure.h"
 #include "geometry/surface_distance.h"
+#include "geometry/wording.h"
+#include "workbench/report/report_pictures.h"
 #include "workbench/report/stroke_text.h"
 
 namespace vesselbench {
@@ -42,15 +43,6 @@ Vec3 up_for(const Vec3& view) {
     return std::abs(view.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
 }
 
-/// The deviation that 98 of 100 vertices stay below [mm].
-double full_colour(std::vector<double> deviations) {
-    for (double& deviation : deviations) deviation = std::abs(deviation);
-    const auto place =
-        deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
-    std::ranges::nth_element(deviations, place);
-    return std::max(*place, 1e-6);
-}
-
 /// Where the surface was taken away most, within the middle of what deviates: the largest mean
 /// deviation of a vertex and its neighbours, away from open rims.
 VertexId most_changed(const Surface& surface, const std::vector<double>& deviations) {
@@ -83,7 +75,8 @@ VertexId nearest(const Surface& surface, const Vec3& at) {
 }
 
 /// Camera on a vertex of the original, from outside, so near that its edges can be told apart.
-PictureOptions magnified(const Surface& original, VertexId v) {
+PictureOptions magnified(const std::shared_ptr<const Surface>& frame, VertexId v) {
+    const Surface& original = *frame;
     constexpr double kEdgesAcross = 22.0;
     PictureOptions options{.width = kCell, .height = kCell};
     Vec3 normal = vertex_normals(original)[v];
@@ -91,32 +84,19 @@ PictureOptions magnified(const Surface& original, VertexId v) {
     options.view = -normal;
     options.up = up_for(options.view);
     options.shift = original.points()[v] - bounds(original).centre();
-    options.frame = std::make_shared<const Surface>(original);
+    options.frame = frame;
     options.half_height = 0.5 * kEdgesAcross * mean_edge_length(original);
     return options;
 }
 
-std::vector<Colour> colours_of(const std::vector<double>& deviations, double full) {
-    std::vector<Colour> colours;
-    for (const double deviation : deviations)
-        colours.push_back(diverging_colour(std::clamp(deviation / full, -1.0, 1.0)));
-    return colours;
-}
-
 std::string millimetres(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%+.2g", value);
-    return value == 0.0 ? "0" : text;
+    return value == 0.0 ? "0" : formatted(value, "%+.2g");
 }
 
 void add_scale(Picture& page, double full) {
     const int left = page.width / 2 - 200, top = page.height - kFoot + 30;
     for (int x = 0; x < 400; ++x) {
-        const Colour linear = diverging_colour(x / 199.5 - 1.0);
-        PixelColour colour;
-        for (int i = 0; i < 3; ++i)
-            colour[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
-                std::lround(255.0 * std::pow(std::clamp(linear[i], 0.0F, 1.0F), 1.0F / 2.2F)));
+        const PixelColour colour = pixel_colour(diverging_colour(x / 199.5 - 1.0));
         draw_stroke(page, {left + x + 0.5, top}, {left + x + 0.5, top + 14.0}, 1.2, colour);
     }
     for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
@@ -146,13 +126,16 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
         deviations.push_back(distance.signed_distances(model.surface.points()));
     // The middle one of the models decides the scale: strong smoothing would leave the others pale.
     std::vector<double> fulls;
-    for (const auto& one : deviations) fulls.push_back(full_colour(one));
+    for (const auto& one : deviations) fulls.push_back(deviation_of_full_colour(one));
     std::ranges::sort(fulls);
     const double full = fulls[fulls.size() / 2];
     const VertexId place =
         at ? nearest(original, *at) : most_changed(original, deviations[deviations.size() / 2]);
     const auto frame = std::make_shared<const Surface>(original);
     const Vec3 view = sight(original);
+    PictureOptions near = magnified(frame, place);
+    near.back = kInside;
+    near.wires = frame;
     write_text(page, 2.0 * kGap, 34.0, title, 17.0);
     for (int i = 0; i < count; ++i) {
         const GalleryModel& model = models[static_cast<std::size_t>(i)];
@@ -172,10 +155,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
             write_text(page, left + 8.0, y, line, kText);
             y += kLine;
         }
-        PictureOptions near = magnified(original, place);
         near.vertex_colours = colours;
-        near.back = kInside;
-        near.wires = frame;
         paste(page, draw(model.surface, near), left, kHead + kCell + caption);
     }
     add_scale(page, full);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "geometry/wording.h"
 #include "gpu/picture.h"
 
 namespace vesselbench {
@@ -29,16 +30,8 @@ constexpr std::array<Look, 3> kLooks = {
 constexpr const char* kInk = "#222";
 constexpr const char* kFaint = "#d9d9d9";
 
-std::string number(double value, int digits = 3) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    return text;
-}
-
 std::string coordinate(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1f", value);
-    return text;
+    return formatted(value, "%.1f");
 }
 
 std::string escaped(const std::string& text) {
@@ -137,18 +130,18 @@ void add_head(Drawing& drawing, const QualityTitle& title, const std::string& wh
 std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
     switch (measure) {
         case QualityMeasure::Curvature:
-            return "integral of |H|, 100 % = original (" + number(scale.curvature_abs) + " mm)" +
+            return "integral of |H|, 100 % = original (" + formatted(scale.curvature_abs) + " mm)" +
                    (scale.curvature_zero > 0.0
-                        ? ", 0 % = strong smoothing (" + number(scale.curvature_zero) + " mm)"
+                        ? ", 0 % = strong smoothing (" + formatted(scale.curvature_zero) + " mm)"
                         : "");
         case QualityMeasure::Error:
             return "mean distance from the original, 100 % = strong smoothing (" +
-                   number(scale.error) + " mm)";
+                   formatted(scale.error) + " mm)";
         case QualityMeasure::Volume:
             return "100 % = strong smoothing (" +
-                   number(scale.original_volume != 0.0
-                              ? 100.0 * scale.volume / scale.original_volume
-                              : 0.0) +
+                   formatted(scale.original_volume != 0.0
+                                 ? 100.0 * scale.volume / scale.original_volume
+                                 : 0.0) +
                    " % of the volume)";
     }
     return "";
@@ -166,7 +159,7 @@ double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const Q
     drawing.line(38, y - 12, 38, y + 2, stroke(kInk, 1.4, "4 3"));
     drawing.text(64, y, "current value");
     drawing.mark(176, y - 8, false, "fill=\"#8a2be2\"");
-    drawing.text(190, y, "suggested, with the others kept (tau " + number(title.tau) + ")");
+    drawing.text(190, y, "suggested, with the others kept (tau " + formatted(title.tau) + ")");
     drawing.text(20, y + 20, "strong smoothing: 50 iterations of laplace with lambda 1",
                  "fill=\"#666\"");
     return y + 26;
@@ -189,13 +182,13 @@ void add_grid(Drawing& drawing, const Panel& panel, const QualityCurve& curve, b
         drawing.line(panel.left, panel.y(share), panel.left + panel.width, panel.y(share),
                      stroke(kFaint, 1));
         if (with_labels)
-            drawing.text(panel.left - 8, panel.y(share) + 4, number(100.0 * share, 4),
+            drawing.text(panel.left - 8, panel.y(share) + 4, formatted(100.0 * share, "%.4g"),
                          "text-anchor=\"end\"");
     }
     for (const double value : ticks(panel.from, panel.to, 5)) {
         drawing.line(panel.x(value), panel.top + panel.height, panel.x(value),
                      panel.top + panel.height + 5, stroke(kInk, 1));
-        drawing.text(panel.x(value), panel.top + panel.height + 30, number(value),
+        drawing.text(panel.x(value), panel.top + panel.height + 30, formatted(value),
                      "text-anchor=\"middle\"");
     }
     drawing.box(panel.left, panel.top, panel.width, panel.height,
@@ -239,12 +232,8 @@ double highest_share(const SensitivityAnalysis& analysis) {
 
 std::string colour_text(const Colour& linear) {
     char text[8];
-    const auto part = [](float value) {
-        return static_cast<unsigned>(
-            std::lround(255.0 * std::pow(std::clamp(value, 0.0F, 1.0F), 1.0F / 2.2F)));
-    };
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", part(linear.x()), part(linear.y()),
-                  part(linear.z()));
+    const auto [red, green, blue] = pixel_colour(linear);
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", red, green, blue);
     return text;
 }
 
@@ -273,7 +262,7 @@ void add_bar(Drawing& drawing, const QualityCurve& curve, const QualityBar& bar,
 void add_bar_axis(Drawing& drawing, const QualityCurve& curve, const Panel& at) {
     for (const double value : ticks(at.from, at.to, 5)) {
         drawing.line(at.x(value), at.top, at.x(value), at.top + 4, stroke(kInk, 1));
-        drawing.text(at.x(value), at.top + 17, number(value), "text-anchor=\"middle\"");
+        drawing.text(at.x(value), at.top + 17, formatted(value), "text-anchor=\"middle\"");
     }
     drawing.text(at.left + at.width + 14, at.top + 17, axis_title(curve), "fill=\"#444\"");
 }

@@ -35,16 +35,6 @@ std::string drawn(const Surface& surface, const View& view, std::vector<Colour> 
                               .vertex_colours = std::move(colours)}));
 }
 
-/// The deviation that the full colour stands for [mm]: what 98 of 100 vertices stay below.
-double colour_scale(std::vector<double> deviations) {
-    if (deviations.empty()) return 1.0;
-    for (double& deviation : deviations) deviation = std::abs(deviation);
-    const auto place =
-        deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
-    std::ranges::nth_element(deviations, place);
-    return std::max(*place, 1e-6);
-}
-
 }  // namespace
 
 std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source,
@@ -65,21 +55,35 @@ std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface
     return pictures;
 }
 
+double deviation_of_full_colour(std::vector<double> deviations) {
+    if (deviations.empty()) return 1.0;
+    for (double& deviation : deviations) deviation = std::abs(deviation);
+    const auto place =
+        deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
+    std::ranges::nth_element(deviations, place);
+    return std::max(*place, 1e-6);
+}
+
+std::vector<Colour> colours_of(const std::vector<double>& deviations, double full_colour) {
+    std::vector<Colour> colours;
+    for (const double deviation : deviations)
+        colours.push_back(diverging_colour(deviation / full_colour));
+    return colours;
+}
+
 DeviationColours deviation_colours(const Surface& surface, const Surface& source,
                                    const std::vector<std::uint8_t>& comparable,
                                    double full_colour) {
-    const std::vector<double> deviations =
-        SurfaceDistance(source).signed_distances(surface.points());
+    std::vector<double> deviations = SurfaceDistance(source).signed_distances(surface.points());
     const auto counts = [&](std::size_t v) { return comparable.empty() || comparable[v] != 0; };
     std::vector<double> compared;
     for (std::size_t v = 0; v < deviations.size(); ++v)
         if (counts(v)) compared.push_back(deviations[v]);
-    const double full = full_colour > 0.0 ? full_colour : colour_scale(std::move(compared));
-    std::vector<Colour> colours;
+    const double full =
+        full_colour > 0.0 ? full_colour : deviation_of_full_colour(std::move(compared));
     for (std::size_t v = 0; v < deviations.size(); ++v)
-        colours.push_back(
-            diverging_colour(counts(v) ? std::clamp(deviations[v] / full, -1.0, 1.0) : 0.0));
-    return {std::move(colours), full};
+        if (!counts(v)) deviations[v] = 0.0;
+    return {colours_of(deviations, full), full};
 }
 
 std::string deviation_legend(double full_colour) {

@@ -19,6 +19,13 @@ namespace vesselbench {
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
     const Surface& surface, const Surface* source, const std::vector<std::uint8_t>& comparable);
 
+/// The deviation that the full colours stand for [mm]: what 98 of 100 stay below; 1 without any.
+[[nodiscard]] double deviation_of_full_colour(std::vector<double> deviations);
+
+/// Blue to red for deviations [mm] from -full_colour to it.
+[[nodiscard]] std::vector<Colour> colours_of(const std::vector<double>& deviations,
+                                             double full_colour);
+
 /// Vertex colours of a surface's deviation from another one, blue inside, red outside of it.
 struct DeviationColours {
     std::vector<Colour> colours;  ///< #V

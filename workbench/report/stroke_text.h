@@ -1,14 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 
 #include "gpu/picture.h"
 
 namespace vesselbench {
-
-using PixelColour = std::array<std::uint8_t, 3>;  ///< as pictures hold it
 
 /// Writes a text into a picture, in plain strokes: lower-case letters (capitals are written so),
 /// digits and the usual marks; others leave a gap.

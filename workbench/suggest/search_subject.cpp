@@ -135,7 +135,7 @@ Arguments arguments_of(const SearchSubject& subject, const SearchSpace& space,
     set_values(arguments, space, set);
     if (arguments.text("filter") == "taubin" && !value_of(space, set, "mu")) {
         arguments.remove("mu");
-        arguments.set("mu", -1.02 * arguments.real("lambda"));
+        resolve_filter(surface_of(subject.scene), arguments);
     }
     return arguments;
 }

@@ -135,7 +135,8 @@ void resolve_filter(const Surface& surface, Arguments& arguments) {
     set_default(arguments, "beta_min", preset.beta_min);
     const std::string& filter = arguments.text("filter");
     if (filter == "taubin") {
-        set_default(arguments, "mu", -1.02 * arguments.real("lambda"));
+        set_default(arguments, "mu",
+                    TaubinParameters{.lambda = arguments.real("lambda")}.used_mu());
         check_mu(arguments);
     }
     if (filter == "anisotropic")
