@@ -84,6 +84,12 @@ void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes) {
                         static_cast<GLsizeiptr>(bytes));
 }
 
+void fill_storage(const Buffer& buffer, std::uint32_t word) {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
+    glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+}
+
 void bind_storage(std::initializer_list<const Buffer*> buffers) {
     unsigned binding = 0;
     for (const Buffer* buffer : buffers) {

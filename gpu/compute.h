@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -35,6 +36,9 @@ template <class T>
 
 /// Copies the first bytes of one buffer to another on the device.
 void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes);
+
+/// Sets all of a buffer's 32-bit words to a number.
+void fill_storage(const Buffer& buffer, std::uint32_t word);
 
 /// Binds buffers to the bindings 0, 1, 2 ... of the shaders; a null pointer leaves one as it is.
 void bind_storage(std::initializer_list<const Buffer*> buffers);

@@ -38,13 +38,11 @@ DevicePoint device_point(const Vec3& point, const Vec3& centre) {
 DeviceSurface::DeviceSurface(Device device, Surface surface)
     : device_(std::move(device)), surface_(std::move(surface)) {
     if (surface_.empty()) throw InvalidInput("there is no surface to compute with");
+    detail::require_finite(surface_.points());
     centre_ = bounds(surface_).centre();
     std::vector<Vector4f> anchors(vertex_count()), shifts(vertex_count());
     for (std::size_t v = 0; v < anchors.size(); ++v) {
-        const Vec3& p = surface_.points()[v];
-        if (!p.allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
-        const DevicePoint point = device_point(p, centre_);
+        const DevicePoint point = device_point(surface_.points()[v], centre_);
         anchors[v] << point.anchor, 1.0F;
         shifts[v] << point.shift, 1.0F;
     }
@@ -52,21 +50,47 @@ DeviceSurface::DeviceSurface(Device device, Surface surface)
     shifts_ = make_storage(device_, std::span<const Vector4f>(shifts), "shifts");
 }
 
+const Buffer& DeviceSurface::exact() const {
+    if (!exact_)
+        exact_ = make_storage(device_, std::span<const Vec3>(surface_.points()),
+                              "positions in double precision");
+    return *exact_;
+}
+
+const Buffer& DeviceSurface::triangles() const {
+    if (!triangles_) triangles_ = make_storage(device_, surface_.triangles(), "triangles");
+    return *triangles_;
+}
+
+const DeviceRows& DeviceSurface::triangles_at() const {
+    if (!triangles_at_)
+        triangles_at_ = upload(device_, surface_.topology->triangles_at(), "triangles at vertices");
+    return *triangles_at_;
+}
+
+const CompressedRows& DeviceSurface::neighbours(int rings) const {
+    if (rings == 1) return surface_.topology->rings();
+    if (!two_rings_) two_rings_ = detail::two_rings(*surface_.topology);
+    return *two_rings_;
+}
+
+void DeviceSurface::forget_neighbours() const {
+    if (rings_[1] && anchor_umbrellas_[1]) two_rings_.reset();
+}
+
 const DeviceRows& DeviceSurface::rings(int count) const {
     auto& rows = rings_[count == 1 ? 0 : 1];
-    if (!rows)
-        rows = count == 1 ? upload(device_, surface_.topology->rings(), "neighbours")
-                          : upload(device_, detail::two_rings(*surface_.topology),
-                                   "neighbours within two rings");
+    if (rows) return *rows;
+    rows = upload(device_, neighbours(count),
+                  count == 1 ? "neighbours" : "neighbours within two rings");
+    forget_neighbours();
     return *rows;
 }
 
 const Buffer& DeviceSurface::anchor_umbrellas(int rings) const {
     auto& buffer = anchor_umbrellas_[rings == 1 ? 0 : 1];
     if (buffer) return *buffer;
-    const CompressedRows wide =
-        rings == 1 ? CompressedRows{} : detail::two_rings(*surface_.topology);
-    const CompressedRows& rows = rings == 1 ? surface_.topology->rings() : wide;
+    const CompressedRows& rows = neighbours(rings);
     Positions anchors(vertex_count());
     detail::for_each_vertex(anchors.size(), [&](std::size_t v) {
         anchors[v] = device_point(surface_.points()[v], centre_).anchor.cast<double>();
@@ -79,6 +103,7 @@ const Buffer& DeviceSurface::anchor_umbrellas(int rings) const {
         umbrellas[v] << sum.cast<float>(), 0.0F;
     });
     buffer = make_storage(device_, std::span<const Vector4f>(umbrellas), "umbrellas");
+    forget_neighbours();
     return *buffer;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,6 +42,16 @@ public:
     /// surface have other shifts; theirs are what filters move.
     [[nodiscard]] const Buffer& shifts() const { return shifts_; }
 
+    /// The surface's positions in double precision [mm], for what a threshold decides: 3 doubles,
+    /// #V.
+    [[nodiscard]] const Buffer& exact() const;
+
+    /// Corners of the triangles: 3 uint, #T.
+    [[nodiscard]] const Buffer& triangles() const;
+
+    /// Triangles at every vertex: uint.
+    [[nodiscard]] const DeviceRows& triangles_at() const;
+
     /// Uniform umbrella operator of the anchors over 1 or 2 rings [mm]: vec4, #V.
     [[nodiscard]] const Buffer& anchor_umbrellas(int rings) const;
 
@@ -58,12 +67,16 @@ public:
     [[nodiscard]] const Program& program(const std::string& name) const;
 
 private:
+    const CompressedRows& neighbours(int rings) const;
+    void forget_neighbours() const;
+
     Device device_;
     Surface surface_;
     Vec3 centre_ = Vec3::Zero();
     Buffer anchors_, shifts_;
-    mutable std::optional<DeviceRows> rings_[2], corners_;
-    mutable std::optional<Buffer> anchor_umbrellas_[2];
+    mutable std::optional<DeviceRows> rings_[2], corners_, triangles_at_;
+    mutable std::optional<Buffer> anchor_umbrellas_[2], exact_, triangles_;
+    mutable std::optional<CompressedRows> two_rings_;  ///< until both that need it are made
     mutable std::map<std::string, Program> programs_;
 };
 

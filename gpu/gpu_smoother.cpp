@@ -1,7 +1,6 @@
 #include "gpu/gpu_smoother.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <epoxy/gl.h>
 
@@ -42,11 +41,6 @@ std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterS
             fixed[v] != 0 ? kFixed : static_cast<float>(weight);
     });
     return start;
-}
-
-Buffer exact_positions(const DeviceSurface& surface) {
-    return make_storage(surface.device(), std::span<const Vec3>(surface.surface().points()),
-                        "positions in double precision");
 }
 
 }  // namespace
@@ -144,10 +138,9 @@ void GpuSmoother::find_first_iterations(double trigger) {
     if (first_iterations_.id() == 0)
         first_iterations_ = make_storage(device, surface_->vertex_count() * sizeof(std::int32_t),
                                          "first iterations");
-    const Buffer exact = exact_positions(*surface_);
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&exact, nullptr, start_.get(), &corners.offsets, &corners.values, nullptr,
-                  nullptr, &first_iterations_});
+    bind_storage({&surface_->exact(), nullptr, start_.get(), &corners.offsets, &corners.values,
+                  nullptr, nullptr, &first_iterations_});
     const Program& find = surface_->program("trigger");
     glUseProgram(find.id());
     glUniform1d(1, trigger);

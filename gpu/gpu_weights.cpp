@@ -10,6 +10,7 @@
 
 #include "geometry/errors.h"
 #include "smoothing/filter_support.h"
+#include "smoothing/staircases.h"
 
 namespace vesselbench {
 
@@ -34,13 +35,6 @@ void require_distances(std::span<const double> distances, const DistanceParamete
             throw InvalidInput("distances to neighbours must be finite and not negative");
 }
 
-Vec3 unit_axis(const Vec3& stack_axis) {
-    const double length = stack_axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-        throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
-    return stack_axis / length;
-}
-
 }  // namespace
 
 GpuWeights::GpuWeights(std::shared_ptr<const DeviceSurface> surface)
@@ -59,26 +53,18 @@ void GpuWeights::restart() {
 }
 
 void GpuWeights::find_orientation_change(const Vec3& stack_axis) {
-    const Vec3 axis = unit_axis(stack_axis);
+    const Vec3 axis = detail::unit_axis(stack_axis);
     const Device& device = surface_->device();
-    const Surface& surface = surface_->surface();
-    const CompressedRows& rows = surface.topology->triangles_at();
-    const Buffer exact =
-        make_storage(device, std::span<const Vec3>(surface.points()), "exact positions");
-    const Buffer triangles = make_storage(device, surface.triangles(), "triangles");
-    const Buffer offsets =
-        make_storage(device, std::span<const std::uint32_t>(rows.offsets), "triangle offsets");
-    const Buffer at =
-        make_storage(device, std::span<const std::uint32_t>(rows.values), "triangles at vertices");
-    const Buffer orientations =
-        make_storage(device, surface.triangle_count() * sizeof(double), "orientations");
+    const std::size_t triangles = surface_->surface().triangle_count();
+    const Buffer orientations = make_storage(device, triangles * sizeof(double), "orientations");
     const Program& of_faces = surface_->program("face_orientation");
-    bind_storage({&exact, &triangles, &orientations});
+    bind_storage({&surface_->exact(), &surface_->triangles(), &orientations});
     glUseProgram(of_faces.id());
     glUniform3d(1, axis.x(), axis.y(), axis.z());
-    dispatch(device, of_faces, surface.triangle_count());
-    bind_storage({&orientations, &changes_, nullptr, &offsets, &at});
-    dispatch(device, surface_->program("orientation_change"), surface.vertex_count());
+    dispatch(device, of_faces, triangles);
+    const DeviceRows& rows = surface_->triangles_at();
+    bind_storage({&orientations, &changes_, nullptr, &rows.offsets, &rows.values});
+    dispatch(device, surface_->program("orientation_change"), surface_->vertex_count());
     search_.reset();
 }
 
@@ -88,18 +74,13 @@ std::vector<double> GpuWeights::orientation_change() const {
     return changes;
 }
 
-void GpuWeights::search_staircases(const StaircaseParameters& parameters) {
-    const Surface& surface = surface_->surface();
-    std::vector<double> distances =
-        staircase_distances(*surface.topology, surface.points(), orientation_change(), parameters);
-    std::vector<double> free(distances.size(), 1.0);
+void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters) {
+    std::vector<double> free(surface_->vertex_count(), 1.0);
     for (std::size_t v = 0; v < parameters.caps.size(); ++v)
         if (parameters.caps[v] != 0) free[v] = 0.0;
-    largest_distance_ = 0.0;
-    for (const double d : distances)
-        if (std::isfinite(d)) largest_distance_ = std::max(largest_distance_, d);
-    staircase_distances_ = upload(surface_->device(), distances, "staircase distances");
     free_of_caps_ = upload(surface_->device(), free, "free of caps");
+    staircases_ = search_staircases(*surface_, changes_, free_of_caps_, parameters.tau_theta,
+                                    parameters.tau_max);
 }
 
 void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,
@@ -115,16 +96,16 @@ void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,
 void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
     const Search wanted{
         parameters.tau_theta, parameters.tau_max, {parameters.caps.begin(), parameters.caps.end()}};
-    detail::require_range("beta_min", parameters.beta_min, 0.0, 1.0);
+    detail::require_staircase_parameters(surface_->vertex_count(), parameters);
     if (search_ != wanted) {
-        search_staircases(parameters);
+        find_staircase_distances(parameters);
         search_ = wanted;
     }
     const double largest =
-        parameters.scaling == StaircaseScaling::Thesis ? largest_distance_ : parameters.tau_max;
+        parameters.scaling == StaircaseScaling::Thesis ? staircases_.farthest : parameters.tau_max;
     const std::array scale = {static_cast<float>(largest), static_cast<float>(parameters.beta_min),
                               0.0F, 0.0F};
-    multiply(staircase_distances_, free_of_caps_, scale, kStaircases);
+    multiply(staircases_.distances, free_of_caps_, scale, kStaircases);
 }
 
 void GpuWeights::multiply_distances(std::span<const double> distances,

@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "gpu/device_surface.h"
+#include "gpu/staircase_search.h"
 #include "smoothing/distance_weights.h"
 #include "smoothing/staircase_weights.h"
 
 namespace vesselbench {
 
 /// Weights for smoothing, made where they are used (thesis 5.2, 5.3, 7.2): staircases are detected
-/// and caps left out on the device, and distances become weights there. The distances themselves
-/// are the CPU's: those to neighbours are searched in a tree of triangles, and which staircase
-/// reaches a vertex (Eq. 5.5) is decided by paths, one after the other. The surface's context must
-/// be current whenever it is used and when it goes.
+/// and caps left out on the device, the distances to them are searched there
+/// (gpu/staircase_search.h), and distances become weights. Those to neighbours are the CPU's, which
+/// searches them in a tree of triangles. The surface's context must be current whenever it is used
+/// and when it goes.
 class GpuWeights {
 public:
     /// 1 everywhere. \throw GpuUnavailable if the buffers do not fit
@@ -34,7 +35,8 @@ public:
     void restart();
 
     /// Multiplies by staircase weights (Eqs. 5.5-5.6) of the orientation changes; caps are no
-    /// staircases and get weight 0. Other scalings and beta_min need no new search.
+    /// staircases and get weight 0. Other scalings and beta_min need no new search. Agrees with the
+    /// CPU's to single precision.
     /// \throw InvalidInput as staircase_weights
     void multiply_staircases(const StaircaseParameters& parameters = {});
 
@@ -53,15 +55,15 @@ private:
         bool operator==(const Search&) const = default;
     };
 
-    void search_staircases(const StaircaseParameters& parameters);
+    void find_staircase_distances(const StaircaseParameters& parameters);
     void multiply(const Buffer& distances, const Buffer& factors, std::span<const float> scale,
                   int kind);
 
     std::shared_ptr<const DeviceSurface> surface_;
     Buffer changes_, weights_, ones_;
-    std::optional<Search> search_;  ///< what the next three are of
-    Buffer staircase_distances_, free_of_caps_;
-    double largest_distance_ = 0.0;  ///< of those within reach [mm]
+    std::optional<Search> search_;  ///< what the next two are of
+    DeviceDistances staircases_;
+    Buffer free_of_caps_;
 };
 
 }  // namespace vesselbench

@@ -203,10 +203,9 @@ void find_distances(DistanceSearch& search, const Places& places) {
     settle(search, all_doubts(search, places, open));
 }
 
-}  // namespace
-
-std::vector<double> connected_distances(const Topology& topology, const Positions& positions,
-                                        const std::vector<VertexId>& sources, double reach) {
+/// Where a search begins: the sources know themselves.
+DistanceSearch begun_search(const Topology& topology, const Positions& positions,
+                            const std::vector<VertexId>& sources, double reach) {
     const std::size_t count = positions.size();
     DistanceSearch search{topology.rings(),
                           positions,
@@ -220,16 +219,48 @@ std::vector<double> connected_distances(const Topology& topology, const Position
         search.nearest[s] = s;
         search.is_source[s] = 1;
     }
-    if (!sources.empty() && sources.size() < count) {
-        const PointGrid grid(positions, sources);
-        if (grid.crowded())
-            find_distances(search, PointTree(positions, sources));
-        else
-            find_distances(search, grid);
-        for_each_vertex(count,
+    return search;
+}
+
+/// Calls find(places) with the sources, to be found by place.
+template <class Find>
+void with_places(const DistanceSearch& search, const Find& find) {
+    const PointGrid grid(search.x, search.sources);
+    if (grid.crowded())
+        find(PointTree(search.x, search.sources));
+    else
+        find(grid);
+}
+
+}  // namespace
+
+std::vector<double> connected_distances(const Topology& topology, const Positions& positions,
+                                        const std::vector<VertexId>& sources, double reach) {
+    DistanceSearch search = begun_search(topology, positions, sources, reach);
+    if (!sources.empty() && sources.size() < positions.size()) {
+        with_places(search, [&](const auto& places) { find_distances(search, places); });
+        for_each_vertex(positions.size(),
                         [&](std::size_t v) { search.squared[v] = std::sqrt(search.squared[v]); });
     }
     return std::move(search.squared);
+}
+
+std::vector<double> open_distances(const Topology& topology, const Positions& positions,
+                                   const std::vector<VertexId>& sources, double reach,
+                                   std::span<const OpenVertex> open) {
+    std::vector<double> distances;
+    if (open.empty() || sources.empty()) return std::vector<double>(open.size(), kFar);
+    DistanceSearch search = begun_search(topology, positions, sources, reach);
+    std::vector<VertexId> vertices;
+    for (const auto& [vertex, known] : open) {
+        vertices.push_back(vertex);
+        search.nearest[vertex] = known;
+        if (known != kNone) search.squared[vertex] = search.squared_distance(vertex, known);
+    }
+    with_places(search,
+                [&](const auto& places) { settle(search, all_doubts(search, places, vertices)); });
+    for (const VertexId v : vertices) distances.push_back(std::sqrt(search.squared[v]));
+    return distances;
 }
 
 }  // namespace vesselbench::detail

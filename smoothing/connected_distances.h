@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "geometry/topology.h"
@@ -19,5 +21,18 @@ namespace vesselbench::detail {
                                                       const Positions& positions,
                                                       const std::vector<VertexId>& sources,
                                                       double reach);
+
+/// A vertex that has sources within reach, the nearest of which may not reach it.
+struct OpenVertex {
+    VertexId vertex = 0;
+    /// The nearest source that is known to reach it; the largest number: none.
+    VertexId known = std::numeric_limits<VertexId>::max();
+};
+
+/// The same for the few vertices that a search elsewhere left open, in their order.
+[[nodiscard]] std::vector<double> open_distances(const Topology& topology,
+                                                 const Positions& positions,
+                                                 const std::vector<VertexId>& sources, double reach,
+                                                 std::span<const OpenVertex> open);
 
 }  // namespace vesselbench::detail

@@ -40,10 +40,7 @@ void require_fitting(const Topology& topology, const Positions& positions,
     if (!settings.weights.empty()) require_length("weights", settings.weights.size(), count);
     if (!settings.fixed.empty()) require_length("fixed flags", settings.fixed.size(), count);
     for (const double weight : settings.weights) require_range("weight", weight, 0.0, 1.0);
-    if (!all_finite(positions))
-        for (std::size_t v = 0; v < count; ++v)
-            if (!positions[v].allFinite())
-                throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    require_finite(positions);
     if (settings.constraint) require_valid(*settings.constraint);
     if (!settings.earlier) return;
     if (settings.earlier->start == nullptr || settings.earlier->iterations < 0)
@@ -52,6 +49,13 @@ void require_fitting(const Topology& topology, const Positions& positions,
 }
 
 }  // namespace
+
+void require_finite(const Positions& positions) {
+    if (all_finite(positions)) return;
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        if (!positions[v].allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+}
 
 void require_range(const char* name, double value, double minimum, double maximum) {
     if (value >= minimum && value <= maximum) return;

@@ -18,22 +18,16 @@ double cells_for(std::size_t points) {
 
 }  // namespace
 
-/// Sets the size of the cells. \return number of them
-std::size_t PointGrid::choose_cells(const Vec3& extent, std::size_t points) {
+std::optional<CellLayout> cell_layout(const Vec3& extent, std::size_t points) {
     const double most = cells_for(points);
     const double longest = extent.maxCoeff();
     double length = longest > 1e-300 ? longest / kMostCells : 1.0;  // no zero by underflow
     const auto cells = [&](int axis) { return std::floor(extent[axis] / length) + 1.0; };
     while (cells(0) * cells(1) * cells(2) > most) length *= 1.1;
-    per_length_ = 1.0 / length;
-    crowded_ = !std::isfinite(longest) || !std::isfinite(per_length_);
-    if (crowded_) return 0;
-    std::size_t count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-        size_[axis] = static_cast<int>(cells(axis));
-        count *= static_cast<std::size_t>(size_[axis]);
-    }
-    return count;
+    CellLayout layout{.per_length = 1.0 / length};
+    if (!std::isfinite(longest) || !std::isfinite(layout.per_length)) return std::nullopt;
+    for (int axis = 0; axis < 3; ++axis) layout.size[axis] = static_cast<int>(cells(axis));
+    return layout;
 }
 
 PointGrid::PointGrid(const Positions& positions, std::span<const VertexId> chosen) {
@@ -41,14 +35,17 @@ PointGrid::PointGrid(const Positions& positions, std::span<const VertexId> chose
     for (const VertexId v : chosen) box.extend(positions[v]);
     if (chosen.empty()) return;
     origin_ = box.min();
-    const std::size_t count = choose_cells(box.sizes(), chosen.size());
+    const auto layout = cell_layout(box.sizes(), chosen.size());
+    crowded_ = !layout;
     if (crowded_) return;
-    offsets_.assign(count + 1, 0);
+    cells_ = *layout;
+    offsets_.assign(cells_.count() + 1, 0);
     std::vector<std::uint32_t> cells(chosen.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const Vec3 at = (positions[chosen[i]] - origin_) * per_length_;
-        cells[i] = static_cast<std::uint32_t>(
-            (cell(at.z(), 2) * size_[1] + cell(at.y(), 1)) * size_[0] + cell(at.x(), 0));
+        const Vec3 at = (positions[chosen[i]] - origin_) * cells_.per_length;
+        cells[i] = static_cast<std::uint32_t>((cell(at.z(), 2) * cells_.size[1] + cell(at.y(), 1)) *
+                                                  cells_.size[0] +
+                                              cell(at.x(), 0));
         ++offsets_[cells[i]];
     }
     double neighbours = 0.0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,21 @@
 #include "smoothing/point_tree.h"
 
 namespace vesselbench::detail {
+
+/// Equal cells over a box.
+struct CellLayout {
+    double per_length = 1.0;              ///< cells per length [1/mm]
+    std::array<int, 3> size = {1, 1, 1};  ///< cells along each axis
+
+    [[nodiscard]] std::size_t count() const {
+        return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+               static_cast<std::size_t>(size[2]);
+    }
+};
+
+/// Cells for some points of a surface in a box of this size [mm], so that a cell holds few of them.
+/// \return none if the box is too large for numbers
+[[nodiscard]] std::optional<CellLayout> cell_layout(const Vec3& extent, std::size_t points);
 
 /// Some vertices of a surface in equal cells, to be found by place as in a PointTree: several times
 /// faster, unless most of them crowd in few cells. Where two lie equally near, either is found.
@@ -58,13 +74,14 @@ private:
     };
 
     [[nodiscard]] int cell(double at, int axis) const {
-        return static_cast<int>(std::clamp(at, 0.0, size_[axis] - 1.0));
+        return static_cast<int>(std::clamp(at, 0.0, cells_.size[axis] - 1.0));
     }
 
     [[nodiscard]] Span span(const Vec3& p, double distance, int axis) const {
         const double from = p[axis] - origin_[axis];
-        return {from * per_length_, cell((p[axis] - distance - origin_[axis]) * per_length_, axis),
-                cell((p[axis] + distance - origin_[axis]) * per_length_, axis)};
+        return {from * cells_.per_length,
+                cell((p[axis] - distance - origin_[axis]) * cells_.per_length, axis),
+                cell((p[axis] + distance - origin_[axis]) * cells_.per_length, axis)};
     }
 
     /// Calls visit(place) at least for all that are nearer to p than the square root of `squared`,
@@ -73,24 +90,22 @@ private:
     void visit_rows(const Vec3& p, const double& squared, const Visit& visit) const {
         const double distance = std::sqrt(squared) * (1.0 + 1e-9);  // rounding
         const Span xs = span(p, distance, 0), ys = span(p, distance, 1), zs = span(p, distance, 2);
-        const double scale = per_length_ * per_length_ * (1.0 + 1e-9);
+        const double scale = cells_.per_length * cells_.per_length * (1.0 + 1e-9);
         for (int z = zs.first; z <= zs.last; ++z) {
             const double dz = zs.gap(z);
             for (int y = ys.first; y <= ys.last; ++y) {
                 const double dy = ys.gap(y);
                 if (dy * dy + dz * dz > squared * scale) continue;
-                const std::size_t row = (static_cast<std::size_t>(z) * size_[1] + y) * size_[0];
+                const std::size_t row =
+                    (static_cast<std::size_t>(z) * cells_.size[1] + y) * cells_.size[0];
                 const std::uint32_t end = offsets_[row + xs.last + 1];
                 for (std::uint32_t i = offsets_[row + xs.first]; i < end; ++i) visit(i);
             }
         }
     }
 
-    [[nodiscard]] std::size_t choose_cells(const Vec3& extent, std::size_t points);
-
     Vec3 origin_ = Vec3::Zero();
-    double per_length_ = 1.0;  ///< cells per length [1/mm]
-    std::array<int, 3> size_ = {1, 1, 1};
+    CellLayout cells_;
     bool crowded_ = false;
     std::vector<std::uint32_t> offsets_;  ///< of the cells, x fastest; #cells + 1
     std::vector<Vec3> points_;            ///< by cell

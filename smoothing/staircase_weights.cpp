@@ -14,24 +14,26 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-void require_parameters(const Topology& topology, const Positions& positions,
-                        std::span<const double> change, const StaircaseParameters& parameters) {
-    const std::size_t count = topology.vertex_count();
-    if (positions.size() != count || change.size() != count ||
-        (!parameters.caps.empty() && parameters.caps.size() != count))
-        throw InvalidInput("positions, orientation changes and cap flags must be as many as the " +
-                           std::to_string(count) + " vertices");
-    detail::require_range("tau_theta", parameters.tau_theta, 0.0, 1.0);
-    detail::require_positive("tau_max", parameters.tau_max);
-    detail::require_range("beta_min", parameters.beta_min, 0.0, 1.0);
-}
-
 }  // namespace
+
+void detail::require_staircase_parameters(std::size_t vertex_count,
+                                          const StaircaseParameters& parameters) {
+    if (!parameters.caps.empty() && parameters.caps.size() != vertex_count)
+        throw InvalidInput("got " + std::to_string(parameters.caps.size()) + " cap flags for " +
+                           std::to_string(vertex_count) + " vertices");
+    require_range("tau_theta", parameters.tau_theta, 0.0, 1.0);
+    require_positive("tau_max", parameters.tau_max);
+    require_range("beta_min", parameters.beta_min, 0.0, 1.0);
+}
 
 std::vector<double> staircase_distances(const Topology& topology, const Positions& positions,
                                         std::span<const double> change,
                                         const StaircaseParameters& parameters) {
-    require_parameters(topology, positions, change, parameters);
+    const std::size_t count = topology.vertex_count();
+    if (positions.size() != count || change.size() != count)
+        throw InvalidInput("positions and orientation changes must be as many as the " +
+                           std::to_string(count) + " vertices");
+    detail::require_staircase_parameters(count, parameters);
     std::vector<VertexId> staircases;
     for (VertexId v = 0; v < change.size(); ++v) {
         const bool cap = !parameters.caps.empty() && parameters.caps[v] != 0;

@@ -46,4 +46,11 @@ struct StaircaseParameters {
                                                     std::span<const double> change,
                                                     const StaircaseParameters& parameters = {});
 
+namespace detail {
+
+/// \throw InvalidInput if a parameter is out of range, or the cap flags are not #V
+void require_staircase_parameters(std::size_t vertex_count, const StaircaseParameters& parameters);
+
+}  // namespace detail
+
 }  // namespace vesselbench

@@ -15,17 +15,10 @@ namespace {
 
 constexpr double kDegenerate = -1.0;
 
-Vec3 unit_axis(const Vec3& stack_axis) {
-    const double length = stack_axis.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-        throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
-    return stack_axis / length;
-}
-
 /// Eq. 5.3; kDegenerate where a face has no normal.
 std::vector<double> raw_orientations(const Topology& topology, const Positions& positions,
                                      const Vec3& stack_axis) {
-    const Vec3 axis = unit_axis(stack_axis);
+    const Vec3 axis = detail::unit_axis(stack_axis);
     if (positions.size() != topology.vertex_count())
         throw InvalidInput("got " + std::to_string(positions.size()) + " positions for " +
                            std::to_string(topology.vertex_count()) + " vertices");
@@ -41,6 +34,13 @@ std::vector<double> raw_orientations(const Topology& topology, const Positions& 
 }
 
 }  // namespace
+
+Vec3 detail::unit_axis(const Vec3& stack_axis) {
+    const double length = stack_axis.norm();
+    if (!(length > 0.0) || !std::isfinite(length))
+        throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
+    return stack_axis / length;
+}
 
 std::vector<double> face_orientations(const Topology& topology, const Positions& positions,
                                       const Vec3& stack_axis) {

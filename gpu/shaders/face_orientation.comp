@@ -2,17 +2,16 @@
 // Orientation of every triangle in relation to the image stack (thesis Eq. 5.3): 0 where its normal is
 // parallel to the axis, 1 where it is orthogonal, -1 where it has none. In double precision and in
 // the CPU's order, so that the same vertices are staircases.
-// 0 exact positions [mm], 3 doubles each, 1 triangles, 2 out: orientations
+// 0 exact positions, 1 triangles, 2 out: orientations
 #include "elements.glsl"
+#include "exact.glsl"
 
-layout(std430, binding = 0) readonly buffer Exact { double exact[]; };
 layout(std430, binding = 1) readonly buffer Triangles { uint triangles[]; };
 layout(std430, binding = 2) writeonly buffer Orientations { double orientations[]; };
 layout(location = 1) uniform dvec3 axis;  // unit
 
 dvec3 corner(uint t, uint k) {
-    uint v = 3u * triangles[3u * t + k];
-    return dvec3(exact[v], exact[v + 1u], exact[v + 2u]);
+    return exact_at(triangles[3u * t + k]);
 }
 
 void main() {

@@ -15,9 +15,8 @@ layout(location = 6) uniform int cell;        // 0 no constraint, 1 voxel, 2 dia
 layout(location = 7) uniform vec3 half_size;  // of the cell along its axes [mm]
 layout(location = 8) uniform mat3 cell_axes;  // unit columns
 
-// Where the cell around the vertex' start lets it go.
+// Where the cell around the vertex' start lets it go; only with a constraint.
 vec3 inside_cell(vec3 origin, vec3 wanted) {
-    if (cell == 0) return wanted;
     vec3 moved = transpose(cell_axes) * (wanted - origin);
     if (cell == 1) {
         vec3 inside = clamp(moved, -half_size, half_size);

@@ -2,30 +2,28 @@
 // From which iteration of curvature-triggered smoothing on each vertex may move: 0 where its mean
 // curvature at the start exceeds the trigger [1/mm], else as good as never. In double precision, so
 // that the same vertices start as on the CPU.
-// 0 exact positions [mm], 3 doubles each, 2 start, 3 offsets and 4 corners, 7 first iterations
+// 0 exact positions, 2 start, 3 offsets and 4 corners, 7 first iterations
 #include "elements.glsl"
+#include "exact.glsl"
 #include "corners.glsl"
 #define REAL double
 #define VEC3 dvec3
 #include "corner_curvature.glsl"
 
-layout(std430, binding = 0) readonly buffer Exact { double exact[]; };
 layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
 layout(std430, binding = 7) writeonly buffer First { int first[]; };
 layout(location = 1) uniform double trigger;
-
-dvec3 at(uint v) { return dvec3(exact[3u * v], exact[3u * v + 1u], exact[3u * v + 2u]); }
 
 void main() {
     uint v = element();
     if (v >= element_count) return;
     first[v] = 0x7fffffff;
     if (start[v].w <= 0.0 || on_boundary(v)) return;
-    dvec3 own = at(v), flow = dvec3(0.0), normal = dvec3(0.0);
+    dvec3 own = exact_at(v), flow = dvec3(0.0), normal = dvec3(0.0);
     double area = 0.0;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i) {
-        CornerShare share = corner_share(at(corners[i].x) - own, at(corners[i].y) - own);
+        CornerShare share = corner_share(exact_at(corners[i].x) - own, exact_at(corners[i].y) - own);
         flow += share.flow;
         normal += share.normal;
         area += share.area;

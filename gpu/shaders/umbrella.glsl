@@ -1,6 +1,5 @@
 // The uniform umbrella operator: mean of the neighbours less the own value.
-layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 4) readonly buffer Neighbours { uint neighbours[]; };
+#include "neighbours.glsl"
 layout(std430, binding = 5) readonly buffer AnchorUmbrellas { vec4 anchor_umbrellas[]; };
 
 // Of the shifts, or whatever the source holds in their place.

@@ -66,6 +66,19 @@ SCENARIO("A smoothed surface is drawn from where it was smoothed", "[gpu][drawin
         CHECK(difference(by_error, draw(smooth, coloured)) < 0.005);
         CHECK(difference(by_error, after) > 0.02);
     }
+    THEN("inner sides show in the colour of inner sides, as draw shows them") {
+        Surface inverted = rough;
+        std::vector<Triangle> turned;
+        for (const auto& [a, b, c] : rough.triangles()) turned.push_back({a, c, b});
+        inverted = make_surface(rough.points(), std::move(turned));
+        const auto inner = uploaded(*test, inverted);
+        GpuMeter inner_meter(inner);
+        inner_meter.measure_shape(inner->shifts());
+        const Picture found = picture_of(*inner, DeviceDrawing(inner),
+                                         {inner->shifts(), inner_meter.normals()}, options);
+        CHECK(difference(found, draw(inverted, options)) < 0.005);
+        CHECK(difference(found, before) > 0.02);
+    }
     THEN("a size that is not usable is refused") {
         options.width = 0;
         CHECK_THROWS_AS(picture(nullptr, 1.0), InvalidInput);

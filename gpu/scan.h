@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+
+#include "gpu/device_surface.h"
+
+namespace vesselbench {
+
+/// Adds up numbers on the device: each becomes the sum of itself and all before it.
+/// \param numbers uint, of which the first `count` count
+/// \throw GpuUnavailable if a shader does not compile or a buffer does not fit
+void add_up(const DeviceSurface& surface, const Buffer& numbers, std::size_t count);
+
+}  // namespace vesselbench

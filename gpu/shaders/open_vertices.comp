@@ -1,0 +1,15 @@
+#version 430 core
+// Lists the vertices that stay open with the nearest sources that are known to reach them.
+// 1 sources in doubt, 2 nearest, 5 out: vertices and sources, 7 what was found
+#include "elements.glsl"
+#include "staircase_search.glsl"
+
+layout(std430, binding = 1) readonly buffer Doubts { uint doubts[]; };
+layout(std430, binding = 2) readonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = 5) writeonly buffer Open { uvec2 open_vertices[]; };
+
+void main() {
+    uint v = element();
+    if (v >= element_count || doubts[v] == none) return;
+    open_vertices[atomicAdd(listed, 1u)] = uvec2(v, nearest[v]);
+}

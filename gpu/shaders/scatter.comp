@@ -1,0 +1,13 @@
+#version 430 core
+// Writes values to some places.
+// 0 places, 1 values, 2 out
+#include "elements.glsl"
+
+layout(std430, binding = 0) readonly buffer Places { uint places[]; };
+layout(std430, binding = 1) readonly buffer Values { float values[]; };
+layout(std430, binding = 2) writeonly buffer Out { float written[]; };
+
+void main() {
+    uint i = element();
+    if (i < element_count) written[places[i]] = values[i];
+}

@@ -1,0 +1,26 @@
+#version 430 core
+// Makes every vertex its own nearest staircase whose orientation changes more than the threshold and
+// that is on no cap; all others know none yet.
+// 0 orientation changes, 1 free of caps: 0 on them, 2 out: nearest, 7 what was found
+#include "elements.glsl"
+#include "staircase_search.glsl"
+
+layout(std430, binding = 0) readonly buffer Changes { double changes[]; };
+layout(std430, binding = 1) readonly buffer Free { float free_of_caps[]; };
+layout(std430, binding = 2) writeonly buffer Nearest { uint nearest[]; };
+layout(location = 1) uniform double tau_theta;
+
+shared uint in_group;
+
+void main() {
+    uint v = element();
+    if (gl_LocalInvocationIndex == 0u) in_group = 0u;
+    barrier();
+    if (v < element_count) {
+        bool source = changes[v] > tau_theta && free_of_caps[v] > 0.0;
+        nearest[v] = source ? v : none;
+        if (source) atomicAdd(in_group, 1u);
+    }
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && in_group > 0u) atomicAdd(sources, in_group);
+}
