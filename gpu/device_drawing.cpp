@@ -1,6 +1,5 @@
 #include "gpu/device_drawing.h"
 
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -41,10 +40,7 @@ DeviceDrawing::DeviceDrawing(std::shared_ptr<const DeviceSurface> surface)
     : surface_(std::move(surface)),
       program_(make_program("device_surface", "surface")),
       vertices_(make_vertex_array()),
-      triangles_(make_storage(surface_->device(), surface_->surface().triangles(), "triangles")),
-      scale_(heated_scale(surface_->device())),
-      no_values_(make_storage(surface_->device(), surface_->vertex_count() * sizeof(float),
-                              "no values")) {}
+      scale_(heated_scale(surface_->device())) {}
 
 void DeviceDrawing::draw(const DeviceState& state, const Camera& camera) const {
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
@@ -52,10 +48,15 @@ void DeviceDrawing::draw(const DeviceState& state, const Camera& camera) const {
     attribute(0, surface_->anchors(), 4);
     attribute(1, state.shifts, 4);
     attribute(2, state.normals, 4);
-    attribute(3, state.values != nullptr ? *state.values : no_values_, 1);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
+    if (state.values != nullptr)
+        attribute(3, *state.values, 1);
+    else
+        glDisableVertexAttribArray(3);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_->triangles().id());
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, scale_.id());
     set_matrices(program_, camera);
+    const Eigen::Vector3f back = PictureOptions{}.back.cast<float>();
+    glUniform3fv(glGetUniformLocation(program_.id(), "back_colour"), 1, back.data());
     glUniform1i(glGetUniformLocation(program_.id(), "by_value"), state.values != nullptr ? 1 : 0);
     glUniform2f(glGetUniformLocation(program_.id(), "range"), static_cast<float>(state.least),
                 static_cast<float>(state.most));

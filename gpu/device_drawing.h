@@ -31,7 +31,7 @@ private:
     std::shared_ptr<const DeviceSurface> surface_;
     Program program_;
     VertexArray vertices_;
-    Buffer triangles_, scale_, no_values_;
+    Buffer scale_;
 };
 
 /// A picture of a state, seen as `draw` sees the surface at its start.

@@ -50,7 +50,7 @@ void GpuMeter::restart() {
     copy_storage(own_references_, references_, surface_->vertex_count() * sizeof(VertexId));
 }
 
-void GpuMeter::find_shape(const Buffer& shifts) {
+void GpuMeter::measure_shape(const Buffer& shifts) {
     const DeviceRows& corners = surface_->corners();
     bind_storage({&shifts, &normals_, &parts_, &corners.offsets, &corners.values, nullptr,
                   &surface_->anchors()});
@@ -107,15 +107,11 @@ void GpuMeter::measure(const Buffer& shifts, std::size_t state) {
 void GpuMeter::measure(const Buffer& shifts, const Buffer& references, bool follow,
                        std::size_t state) {
     const std::size_t groups = group_count(surface_->vertex_count());
-    find_shape(shifts);
+    measure_shape(shifts);
     add_rims(shifts);
     total(groups + rim_count_, 2 * state);
     find_error(shifts, references, follow);
     total(groups, 2 * state + 1);
-}
-
-void GpuMeter::measure_shape(const Buffer& shifts) {
-    find_shape(shifts);
 }
 
 std::vector<DeviceMeasures> GpuMeter::read(std::size_t states) const {

@@ -60,7 +60,6 @@ public:
     [[nodiscard]] const Buffer& errors() const { return errors_; }
 
 private:
-    void find_shape(const Buffer& shifts);
     void find_error(const Buffer& shifts, const Buffer& references, bool follow);
     void add_rims(const Buffer& shifts);
     void total(std::size_t parts, std::size_t place);

@@ -52,8 +52,6 @@ public:
     /// Shifts of the vertices (DeviceSurface), for drawing and measuring.
     [[nodiscard]] const Buffer& shifts() const { return values_[steps_done_ % 2]; }
 
-    [[nodiscard]] const DeviceSurface& surface() const { return *surface_; }
-
 private:
     GpuSmoother() = default;
 

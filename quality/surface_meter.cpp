@@ -11,6 +11,7 @@
 #include "geometry/errors.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
+#include "smoothing/filter_support.h"
 
 namespace vesselbench {
 
@@ -36,9 +37,7 @@ Surface in_order(std::shared_ptr<const Topology> topology,
         throw InvalidInput("got " + std::to_string(original->size()) +
                            " positions and an order of " + std::to_string(order.size()) + " for " +
                            std::to_string(count) + " vertices");
-    for (std::size_t v = 0; v < count; ++v)
-        if (!(*original)[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    detail::require_finite(*original);
     Surface surface{.topology = std::move(topology), .positions = std::move(original)};
     if (order.empty()) return surface;
     std::vector<VertexId> place(count);
@@ -52,19 +51,6 @@ Surface in_order(std::shared_ptr<const Topology> topology,
     for (const auto& [a, b, c] : surface.triangles())
         triangles.push_back({place[a], place[b], place[c]});
     return make_surface(std::move(positions), std::move(triangles));
-}
-
-/// [mm]
-double mean_of_edges(const Topology& topology, const Positions& points) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (VertexId v = 0; v < points.size(); ++v)
-        for (const VertexId u : topology.rings().row(v))
-            if (u > v) {
-                sum += (points[u] - points[v]).norm();
-                ++count;
-            }
-    return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
 }  // namespace
@@ -122,7 +108,6 @@ SurfaceMeter::Data::Data(Surface s, bool with_planes)
     for (std::size_t v = 0; v < count; ++v)
         interior[v] = boundary[v] != 0 || fans.irregular[v] != 0 ? 0.0 : 1.0;
     loops = surface.topology->boundary_loops();
-    static_cast<void>(surface.topology->rings());
 }
 
 /// The area around all vertices by that around the sample, boundaries left out as in curvatures.
@@ -258,7 +243,7 @@ SurfaceMeter::SurfaceMeter(std::shared_ptr<const Topology> topology,
                            std::span<const VertexId> order)
     : data_(std::make_unique<const Data>(in_order(std::move(topology), std::move(original), order),
                                          planes)),
-      mean_edge_(mean_of_edges(*data_->surface.topology, data_->surface.points())) {
+      mean_edge_(mean_edge_length(data_->surface)) {
     const auto own = own_references();
     original_ = measure(data_->original, own);
     original_.error = original_.error_thesis = 0.0;

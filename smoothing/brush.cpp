@@ -20,9 +20,7 @@ constexpr double kSameSide = 0.5;
 
 const Surface& checked(const Surface& surface) {
     if (surface.empty()) throw InvalidInput("the surface has no triangle to brush on");
-    for (std::size_t v = 0; v < surface.vertex_count(); ++v)
-        if (!surface.points()[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+    detail::require_finite(surface.points());
     return surface;
 }
 
