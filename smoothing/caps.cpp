@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <string>
 
 #include <tbb/blocked_range.h>
@@ -18,7 +17,7 @@ namespace vesselbench {
 
 namespace {
 
-using detail::FaceNormal;
+using detail::AreaNormals;
 
 /// A cap of ascending triangles.
 Cap make_cap(const Surface& surface, std::vector<TriangleId> triangles, const Vec3& normal,
@@ -41,7 +40,7 @@ Cap make_cap(const Surface& surface, std::vector<TriangleId> triangles, const Ve
 }
 
 /// The patches other than the wall.
-std::vector<Cap> patch_caps(const Surface& surface, std::span<const FaceNormal> faces) {
+std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
     const auto is_wall = [](const Patch& patch) { return patch.kind == PatchKind::Wall; };
     if (std::ranges::all_of(surface.patches, is_wall)) return {};
     std::vector<std::vector<TriangleId>> triangles(surface.patches.size());
@@ -57,9 +56,9 @@ std::vector<Cap> patch_caps(const Surface& surface, std::span<const FaceNormal> 
 }
 
 /// The flat areas that are caps by what is around them.
-std::vector<Cap> flat_caps(const Surface& surface, std::span<const FaceNormal> faces,
-                           const CapParameters& parameters) {
-    auto [numbers, areas] = detail::find_flat_areas(surface, faces, parameters);
+std::vector<Cap> flat_caps(const Surface& surface, const AreaNormals& faces,
+                           const CompressedRows& parts, const CapParameters& parameters) {
+    auto [numbers, areas] = detail::find_flat_areas(surface, faces, parts, parameters);
     std::vector<std::optional<Cap>> caps(areas.size());
     tbb::enumerable_thread_specific<detail::CapBorder> borders(
         [&] { return detail::CapBorder(surface); });
@@ -80,19 +79,32 @@ std::vector<Cap> flat_caps(const Surface& surface, std::span<const FaceNormal> f
 
 }  // namespace
 
-std::vector<Cap> find_caps(const Surface& surface, const CapParameters& parameters) {
-    detail::require_range("flat_angle_deg", parameters.flat_angle_deg, 0.0, 45.0);
+void detail::require_cap_parameters(const CapParameters& parameters) {
+    require_range("flat_angle_deg", parameters.flat_angle_deg, 0.0, 45.0);
     if (parameters.smallest_faces < 1)
         throw InvalidInput("smallest_faces = " + std::to_string(parameters.smallest_faces) +
                            " must be 1 or more");
-    if (surface.empty()) return {};
-    const std::vector<FaceNormal> faces = detail::face_normals(surface);
+}
+
+std::vector<Cap> detail::caps_of_parts(const Surface& surface, const AreaNormals& faces,
+                                       const CompressedRows& parts,
+                                       const CapParameters& parameters) {
     std::vector<Cap> caps = patch_caps(surface, faces);
-    for (Cap& cap : flat_caps(surface, faces, parameters)) caps.push_back(std::move(cap));
+    if (!parts.values.empty())
+        for (Cap& cap : flat_caps(surface, faces, parts, parameters))
+            caps.push_back(std::move(cap));
     std::stable_sort(caps.begin(), caps.end(), [](const Cap& a, const Cap& b) {
         return a.triangles.front() < b.triangles.front();
     });
     return caps;
+}
+
+std::vector<Cap> find_caps(const Surface& surface, const CapParameters& parameters) {
+    detail::require_cap_parameters(parameters);
+    if (surface.empty()) return {};
+    const AreaNormals faces(surface, AreaNormals::When::Ahead);
+    return detail::caps_of_parts(surface, faces, detail::plane_parts(surface, faces, parameters),
+                                 parameters);
 }
 
 std::vector<std::uint8_t> cap_vertices(const std::vector<Cap>& caps, std::size_t vertex_count) {

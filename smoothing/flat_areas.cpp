@@ -27,7 +27,7 @@ struct FlatVertices {
     std::vector<Vec3> normals;       ///< #V unit, at flat vertices
 };
 
-FlatVertices find_flat_vertices(const CompressedRows& rows, std::span<const FaceNormal> faces,
+FlatVertices find_flat_vertices(const CompressedRows& rows, const AreaNormals& faces,
                                 double flat_cosine) {
     const std::size_t count = rows.offsets.size() - 1;
     FlatVertices found{std::vector<std::uint8_t>(count), std::vector<Vec3>(count)};
@@ -37,7 +37,8 @@ FlatVertices find_flat_vertices(const CompressedRows& rows, std::span<const Face
         for (const TriangleId t : row) sum += faces[t].weighted;
         const double least = flat_cosine * sum.norm();
         const bool flat = !sum.isZero() && std::all_of(row.begin(), row.end(), [&](TriangleId t) {
-            return faces[t].weighted.dot(sum) >= least * faces[t].length();
+            const FaceNormal face = faces[t];
+            return face.weighted.dot(sum) >= least * face.length();
         });
         found.flat[v] = flat ? 1 : 0;
         if (flat) found.normals[v] = sum.normalized();
@@ -69,7 +70,7 @@ CompressedRows connected_parts(const CompressedRows& rings, std::vector<std::uin
 struct Ground {
     const Surface& surface;
     const CompressedRows& rows;
-    std::span<const FaceNormal> faces;
+    const AreaNormals& faces;
     std::size_t smallest;
     double flat_cosine, spread_cosine;
     std::vector<std::uint32_t> part_of;  ///< #V: number of the plane part, from 1; 0: none
@@ -87,8 +88,7 @@ public:
         around_.clear();
         number_ = number;
         for (const VertexId v : part)
-            if (ground_.part_of[v] == number)
-                for (const TriangleId t : ground_.rows.row(v)) take_or_keep_for_later(t);
+            for (const TriangleId t : ground_.rows.row(v)) take_or_keep_for_later(t);
         if (area_.size() >= ground_.smallest) grow();
         return area_;
     }
@@ -129,17 +129,18 @@ private:
         const auto& faces = ground_.faces;
         const Vec3 normal = mean_normal(faces, area_);
         const auto add = [&](TriangleId t) {
-            if (faces[t].weighted.dot(normal) >= ground_.spread_cosine * faces[t].length()) take(t);
+            const FaceNormal face = faces[t];
+            if (face.weighted.dot(normal) >= ground_.spread_cosine * face.length()) take(t);
         };
         std::size_t next = area_.size();
         for (const TriangleId t : around_)
             if (numbers_[t] == 0) add(t);
         for (; next < area_.size(); ++next) {
-            const TriangleId from = area_[next];
-            visit_free_neighbours(from, [&](TriangleId to) {
-                const double least =
-                    ground_.flat_cosine * faces[to].length() * faces[from].length();
-                if (faces[to].weighted.dot(faces[from].weighted) >= least) add(to);
+            const FaceNormal from = faces[area_[next]];
+            visit_free_neighbours(area_[next], [&](TriangleId t) {
+                const FaceNormal to = faces[t];
+                const double least = ground_.flat_cosine * to.length() * from.length();
+                if (to.weighted.dot(from.weighted) >= least) add(t);
             });
         }
     }
@@ -150,34 +151,32 @@ private:
     std::vector<TriangleId> area_, around_;
 };
 
-/// Numbers the vertices of those parts that are plane and large enough. What lies outside the plane
+/// Flags the vertices of those parts that are plane and large enough. What lies outside the plane
 /// of most of a part is left out, and all of it if most of it does: a flat part may go on around a
 /// smoothed rim, but a gentle bend has no plane.
-void number_plane_parts(Ground& ground, const CompressedRows& parts,
-                        const std::vector<Vec3>& normals) {
+std::vector<std::uint8_t> in_planes(const CompressedRows& parts, const std::vector<Vec3>& normals,
+                                    std::size_t smallest) {
+    std::vector<std::uint8_t> in_plane(normals.size(), 0);
     tbb::parallel_for(std::size_t{0}, parts.offsets.size() - 1, [&](std::size_t i) {
         const auto part = parts.row(i);
         Vec3 normal = Vec3::Zero();
         for (const VertexId v : part) normal += normals[v];
         normal.normalize();
-        const auto outside = [&](VertexId v) {
-            return normals[v].dot(normal) < ground.spread_cosine;
-        };
+        const auto outside = [&](VertexId v) { return normals[v].dot(normal) < spread_cosine(); };
         const auto inside =
             part.size() - static_cast<std::size_t>(std::ranges::count_if(part, outside));
         // a plane net of n vertices has fewer than 2 n triangles
-        if (2 * inside < part.size() || 2 * part.size() < ground.smallest) return;
-        for (const VertexId v : part)
-            if (!outside(v)) ground.part_of[v] = static_cast<std::uint32_t>(i + 1);
+        if (2 * inside < part.size() || 2 * part.size() < smallest) return;
+        for (const VertexId v : part) in_plane[v] = outside(v) ? 0 : 1;
     });
+    return in_plane;
 }
 
-/// Connected flat vertices, of which the plane ones get their numbers.
-CompressedRows plane_parts(Ground& ground) {
-    FlatVertices vertices = find_flat_vertices(ground.rows, ground.faces, ground.flat_cosine);
-    CompressedRows parts = connected_parts(ground.surface.topology->rings(), vertices.flat);
-    number_plane_parts(ground, parts, vertices.normals);
-    return parts;
+std::vector<std::uint32_t> numbers_of(const CompressedRows& parts, std::size_t vertex_count) {
+    std::vector<std::uint32_t> part_of(vertex_count, 0);
+    for (std::size_t i = 0; i + 1 < parts.offsets.size(); ++i)
+        for (const VertexId v : parts.row(i)) part_of[v] = static_cast<std::uint32_t>(i + 1);
+    return part_of;
 }
 
 /// The area of every part as if there were no other.
@@ -198,32 +197,56 @@ std::vector<std::vector<TriangleId>> lone_areas(const Ground& ground, const Comp
 
 }  // namespace
 
-std::vector<FaceNormal> face_normals(const Surface& surface) {
-    std::vector<FaceNormal> faces(surface.triangle_count());
-    for_each_vertex(faces.size(), [&](std::size_t t) {
-        const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
-        if (const double length = normal.norm(); length > 0.0 && std::isfinite(length))
-            faces[t] = {normal};
-    });
-    return faces;
+AreaNormals::AreaNormals(const Surface& surface, When when) : surface_(surface) {
+    if (when == When::Asked) return;
+    std::vector<FaceNormal> all(surface.triangle_count());
+    for_each_vertex(all.size(),
+                    [&](std::size_t t) { all[t] = normal_of(static_cast<TriangleId>(t)); });
+    known_ = std::move(all);
 }
 
-Vec3 mean_normal(std::span<const FaceNormal> faces, std::span<const TriangleId> triangles) {
+FaceNormal AreaNormals::normal_of(TriangleId t) const {
+    const Vec3 normal = area_normal(surface_.points(), surface_.triangles()[t]);
+    const double length = normal.norm();
+    return length > 0.0 && std::isfinite(length) ? FaceNormal{normal} : FaceNormal{};
+}
+
+Vec3 mean_normal(const AreaNormals& faces, std::span<const TriangleId> triangles) {
     Vec3 sum = Vec3::Zero();
     for (const TriangleId t : triangles) sum += faces[t].weighted;
     return sum.normalized();
 }
 
-FlatAreas find_flat_areas(const Surface& surface, std::span<const FaceNormal> faces,
-                          const CapParameters& parameters) {
-    Ground ground{surface,
-                  surface.topology->triangles_at(),
-                  faces,
-                  static_cast<std::size_t>(parameters.smallest_faces),
-                  cosine(parameters.flat_angle_deg),
-                  cosine(kLargestSpread),
-                  std::vector<std::uint32_t>(surface.vertex_count(), 0)};
-    const CompressedRows parts = plane_parts(ground);
+double spread_cosine() {
+    return cosine(kLargestSpread);
+}
+
+CompressedRows plane_parts(const Surface& surface, const AreaNormals& faces,
+                           const CapParameters& parameters) {
+    FlatVertices vertices = find_flat_vertices(surface.topology->triangles_at(), faces,
+                                               cosine(parameters.flat_angle_deg));
+    const CompressedRows parts = connected_parts(surface.topology->rings(), vertices.flat);
+    const auto in_plane =
+        in_planes(parts, vertices.normals, static_cast<std::size_t>(parameters.smallest_faces));
+    CompressedRows planes{{0}, {}};
+    for (std::size_t i = 0; i + 1 < parts.offsets.size(); ++i) {
+        for (const VertexId v : parts.row(i))
+            if (in_plane[v] != 0) planes.values.push_back(v);
+        if (planes.values.size() > planes.offsets.back())
+            planes.offsets.push_back(static_cast<std::uint32_t>(planes.values.size()));
+    }
+    return planes;
+}
+
+FlatAreas find_flat_areas(const Surface& surface, const AreaNormals& faces,
+                          const CompressedRows& parts, const CapParameters& parameters) {
+    const Ground ground{surface,
+                        surface.topology->triangles_at(),
+                        faces,
+                        static_cast<std::size_t>(parameters.smallest_faces),
+                        cosine(parameters.flat_angle_deg),
+                        spread_cosine(),
+                        numbers_of(parts, surface.vertex_count())};
 
     FlatAreas found{AreaNumbers(surface.triangle_count(), 0), {}};
     for_each_vertex(found.numbers.size(), [&](std::size_t t) {

@@ -18,7 +18,8 @@ void main() {
     dvec3 own = exact_at(v);
     uint known = nearest[v], best = known;
     double least = known == none ? 0.0lf : squared_length(own - exact_at(known));
-    for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
+    uint end = offsets[v + 1u];
+    for (uint i = offsets[v]; i < end; ++i) {
         uint source = nearest[neighbours[i]];
         if (source == none || source == best) continue;
         double squared = squared_length(own - exact_at(source));

@@ -68,8 +68,8 @@ bool walk_arrives(uint v, uint source) {
     dvec3 goal = exact_at(source);
     double here = squared_length(exact_at(v) - goal);
     while (v != source) {
-        uint from = v;
-        for (uint i = offsets[from]; i < offsets[from + 1u]; ++i) {
+        uint from = v, end = offsets[from + 1u];
+        for (uint i = offsets[from]; i < end; ++i) {
             uint u = neighbours[i];
             if (u == source) return true;
             double there = squared_length(exact_at(u) - goal);

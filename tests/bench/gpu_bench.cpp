@@ -1,5 +1,5 @@
-// Times smoothing, measures and the exhaustive search on the GPU, and prints a row each. Renderers
-// that compute on the CPU are named and skipped.
+// Times smoothing, measures, the exhaustive search and detections on the GPU, and prints a row
+// each. Renderers that compute on the CPU are named and skipped.
 //   bench_gpu [--any-device] [VERTICES]...     250000 and 7000000 vertices when none are given
 
 #include <algorithm>
@@ -13,10 +13,15 @@
 #include "quality/quality_table.h"
 
 #include "geometry/errors.h"
+#include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
+#include "gpu/gpu_weights.h"
+#include "smoothing/caps.h"
+#include "smoothing/staircase_weights.h"
+#include "smoothing/staircases.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/stopwatch.h"
 
@@ -26,6 +31,7 @@ namespace {
 
 constexpr int kIterations = 20;
 constexpr int kRepeats = 11;
+constexpr int kVoxelsOfASlice = 4;
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);
@@ -133,6 +139,54 @@ void time_search(const HeldDevice& held, const Surface& surface) {
     std::fflush(stdout);
 }
 
+/// Milliseconds of the clock: the best of three, for what reads numbers back on its way.
+double clock_milliseconds(const std::function<void()>& work) {
+    std::vector<double> times;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const Stopwatch watch;
+        work();
+        times.push_back(1e3 * watch.seconds());
+    }
+    return std::ranges::min(times);
+}
+
+void print_beside(const Surface& surface, const char* what, double on_device, double on_cpu) {
+    std::printf("%9zu vertices, %s: %.1f ms, the CPU %.1f ms (%.1f times)\n",
+                surface.vertex_count(), what, on_device, on_cpu, on_cpu / on_device);
+    std::fflush(stdout);
+}
+
+/// Staircases, their weights and caps of a stack of slices, on the device and by the CPU.
+void time_detections(const HeldDevice& held, const Surface& surface) {
+    const auto on_device = std::make_shared<const DeviceSurface>(held.device, surface);
+    const Topology& topology = *surface.topology;
+    const Vec3 axis(0.0, 0.0, 1.0);
+    GpuWeights weights(on_device);
+    std::vector<double> change;
+    const double change_time = clock_milliseconds([&] {
+        weights.find_orientation_change(axis);
+        finish_device();
+    });
+    const double cpu_change_time =
+        clock_milliseconds([&] { change = orientation_change(topology, surface.points(), axis); });
+    print_beside(surface, "staircases", change_time, cpu_change_time);
+    double tau_max = 3.0;
+    const double weight_time = clock_milliseconds([&] {
+        tau_max += 1e-9;  // or the last search serves again
+        weights.restart();
+        weights.multiply_staircases({.tau_max = tau_max});
+        finish_device();
+    });
+    const double cpu_weight_time = clock_milliseconds([&] {
+        static_cast<void>(
+            staircase_weights(topology, surface.points(), change, {.tau_max = tau_max}));
+    });
+    print_beside(surface, "staircase weights", weight_time, cpu_weight_time);
+    const double cap_time = clock_milliseconds([&] { static_cast<void>(find_caps(*on_device)); });
+    const double cpu_cap_time = clock_milliseconds([&] { static_cast<void>(find_caps(surface)); });
+    print_beside(surface, "caps", cap_time, cpu_cap_time);
+}
+
 void time_all(bool any_device, const std::vector<double>& sizes) {
     const ChosenDevice chosen = choose_device(any_device ? DeviceChoice::Gpu : DeviceChoice::Auto);
     if (!chosen.device) {
@@ -148,6 +202,7 @@ void time_all(bool any_device, const std::vector<double>& sizes) {
         const Surface surface = organ(size);
         time_smoothing(held, surface, bandwidth);
         time_search(held, surface);
+        time_detections(held, organ(size, kVoxelsOfASlice));
     }
 }
 

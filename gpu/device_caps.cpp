@@ -1,0 +1,123 @@
+#include "gpu/device_caps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <epoxy/gl.h>
+
+#include "smoothing/flat_areas.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// gpu/shaders/part_planes.glsl
+struct PartSums {
+    std::uint32_t low[3], high[3];
+    std::uint32_t size, inside;
+};
+
+struct LabelledVertex {
+    VertexId vertex, part;
+};
+
+/// What the search for plane parts works on.
+struct PartBuffers {
+    Buffer normals, labels, parts;
+
+    explicit PartBuffers(const DeviceSurface& surface) {
+        const Device& device = surface.device();
+        const std::size_t count = surface.vertex_count();
+        normals = make_storage(device, 3 * count * sizeof(std::int32_t), "flat vertices' normals");
+        labels = make_storage(device, count * sizeof(VertexId), "labels of parts");
+        parts = make_storage(device, count * sizeof(PartSums), "sums of parts");
+        fill_storage(parts, 0);
+    }
+};
+
+void find_flat_vertices(const DeviceSurface& surface, double flat_cosine,
+                        const PartBuffers& buffers) {
+    const Device& device = surface.device();
+    const std::size_t triangles = surface.surface().triangle_count();
+    const Buffer faces = make_storage(device, 3 * triangles * sizeof(double), "face normals");
+    bind_storage({&surface.exact(), &surface.triangles(), &faces});
+    dispatch(device, surface.program("face_normals"), triangles);
+    const DeviceRows& rows = surface.triangles_at();
+    bind_storage({&faces, &buffers.normals, &buffers.labels, &rows.offsets, &rows.values, nullptr});
+    const Program& program = surface.program("flat_vertices");
+    glUseProgram(program.id());
+    glUniform1d(1, flat_cosine);
+    dispatch(device, program, surface.vertex_count());
+}
+
+void find_parts(const DeviceSurface& surface, const PartBuffers& buffers) {
+    const Device& device = surface.device();
+    const std::size_t count = surface.vertex_count();
+    const DeviceRows& rings = surface.rings(1);
+    bind_storage({nullptr, &buffers.normals, &buffers.labels, &rings.offsets, &rings.values,
+                  &buffers.parts});
+    dispatch(device, surface.program("join_parts"), count);
+    dispatch(device, surface.program("part_sums"), count);
+    const Program& program = surface.program("part_insides");
+    glUseProgram(program.id());
+    glUniform1d(1, detail::spread_cosine());
+    dispatch(device, program, count);
+}
+
+/// The vertices of the parts that may be caps, by part.
+std::vector<LabelledVertex> read_planes(const DeviceSurface& surface, int smallest_faces,
+                                        const PartBuffers& buffers) {
+    const Device& device = surface.device();
+    const Program& program = surface.program("plane_vertices");
+    const Buffer count = make_storage(device, sizeof(std::uint32_t), "vertices in planes");
+    const auto run = [&](const Buffer& list, bool lists) {
+        fill_storage(count, 0);
+        bind_storage({nullptr, &buffers.normals, &buffers.labels, nullptr, nullptr, &buffers.parts,
+                      &count, &list});
+        glUseProgram(program.id());
+        glUniform1ui(1, static_cast<unsigned>(smallest_faces));
+        glUniform1i(2, lists ? 1 : 0);
+        dispatch(device, program, surface.vertex_count());
+        const auto found = read_storage<std::uint32_t>(count, 1).front();
+        require_context(device);
+        return found;
+    };
+    const std::uint32_t found = run(count, false);
+    if (found == 0) return {};
+    const Buffer list = make_storage(device, found * sizeof(LabelledVertex), "vertices in planes");
+    run(list, true);
+    auto vertices = read_storage<LabelledVertex>(list, found);
+    require_context(device);
+    std::ranges::sort(vertices, [](const LabelledVertex& a, const LabelledVertex& b) {
+        return std::array{a.part, a.vertex} < std::array{b.part, b.vertex};
+    });
+    return vertices;
+}
+
+CompressedRows rows_of(const std::vector<LabelledVertex>& vertices) {
+    CompressedRows rows{{0}, {}};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        rows.values.push_back(vertices[i].vertex);
+        if (i + 1 == vertices.size() || vertices[i + 1].part != vertices[i].part)
+            rows.offsets.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<Cap> find_caps(const DeviceSurface& surface, const CapParameters& parameters) {
+    detail::require_cap_parameters(parameters);
+    const PartBuffers buffers(surface);
+    find_flat_vertices(surface, std::cos(parameters.flat_angle_deg * std::numbers::pi / 180.0),
+                       buffers);
+    find_parts(surface, buffers);
+    const auto vertices = read_planes(surface, parameters.smallest_faces, buffers);
+    const detail::AreaNormals faces(surface.surface(), detail::AreaNormals::When::Asked);
+    return detail::caps_of_parts(surface.surface(), faces, rows_of(vertices), parameters);
+}
+
+}  // namespace vesselbench

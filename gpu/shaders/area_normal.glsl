@@ -1,0 +1,12 @@
+// Normals of triangles, as long as twice their areas [mm^2], in double precision and in the CPU's
+// order; 0 where a triangle has none. Includes the exact positions, binding 0.
+#include "exact.glsl"
+
+layout(std430, binding = 1) readonly buffer Triangles { uint triangles[]; };
+
+dvec3 area_normal(uint t) {
+    dvec3 a = exact_at(triangles[3u * t]);
+    precise dvec3 u = exact_at(triangles[3u * t + 1u]) - a, w = exact_at(triangles[3u * t + 2u]) - a;
+    precise dvec3 normal = dvec3(u.y * w.z - u.z * w.y, u.z * w.x - u.x * w.z, u.x * w.y - u.y * w.x);
+    return normal;
+}

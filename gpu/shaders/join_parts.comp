@@ -1,0 +1,31 @@
+#version 430 core
+// Joins the labels of flat vertices along edges: of two first vertices the one with the larger number
+// gets the other as its label. Whoever comes second looks again, from smaller numbers every time, so
+// that it ends, and parts are the same in whatever order.
+// 2 labels, 3 offsets and 4 neighbours
+#include "elements.glsl"
+#include "parts.glsl"
+#include "neighbours.glsl"
+
+void join(uint a, uint b) {
+    for (;;) {
+        a = first_of(a);
+        b = first_of(b);
+        if (a == b) return;
+        uint larger = max(a, b), smaller = min(a, b);
+        uint before = atomicCompSwap(labels[larger], larger, smaller);
+        if (before == larger) return;
+        a = before;
+        b = smaller;
+    }
+}
+
+void main() {
+    uint v = element();
+    if (v >= element_count || labels[v] == none) return;
+    uint end = offsets[v + 1u];
+    for (uint i = offsets[v]; i < end; ++i) {
+        uint u = neighbours[i];
+        if (u < v && labels[u] != none) join(u, v);
+    }
+}
