@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "geometry/surface.h"
 
@@ -28,5 +29,23 @@ struct ReferenceComparison {
 /// \throw InvalidInput if one of them has no triangle, or none with an area
 [[nodiscard]] ReferenceComparison compare_with_reference(const Surface& surface,
                                                          const Surface& reference);
+
+/// How far two surfaces are apart in a part of them.
+struct PartDistance {
+    double mean = 0.0;     ///< area-weighted, both ways [mm]; 0 if no sample lies in the part
+    double largest = 0.0;  ///< both ways [mm]
+};
+
+struct WeighedComparison {
+    PartDistance inside;   ///< where the weight is above one half
+    PartDistance outside;  ///< elsewhere
+};
+
+/// The same samples and distances, told apart by a weight of the reference's vertices; a sample of
+/// the surface counts where its closest point on the reference lies.
+/// \param weights #V of the reference
+/// \throw InvalidInput as compare_with_reference, or unless weights is #V long
+[[nodiscard]] WeighedComparison compare_by_weight(const Surface& surface, const Surface& reference,
+                                                  std::span<const double> weights);
 
 }  // namespace vesselbench

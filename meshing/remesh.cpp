@@ -7,13 +7,12 @@
 #include "geometry/errors.h"
 #include "geometry/repair.h"
 #include "geometry/self_intersections.h"
-#include "geometry/surface_distance.h"
 #include "geometry/wording.h"
+#include "meshing/carried_attributes.h"
 #include "meshing/remesher.h"
 #include "meshing/sizing_field.h"
 #include "meshing/triangle_shape.h"
 #include "meshing/uniform_remesh.h"
-#include "meshing/vertex_fields.h"
 
 namespace vesselbench {
 
@@ -88,24 +87,6 @@ Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const S
     Remesher remesher(surface, sizes, start);
     run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
     return finished(remesher, progress.part(0.8, 1.0));
-}
-
-Surface with_attributes(Surface result, const Surface& source) {
-    if (source.attributes.empty()) return result;
-    const SurfaceDistance search(source);
-    std::map<std::string, std::vector<double>> values;
-    for (const Vec3& p : result.points()) {
-        const SurfacePoint at = search.closest_point(p);
-        const Triangle& triangle = source.triangles()[at.triangle];
-        const Vec3 weights = barycentric(source.points(), triangle, at.point);
-        for (const auto& [name, field] : source.attributes)
-            values[name].push_back(weights[0] * (*field)[triangle[0]] +
-                                   weights[1] * (*field)[triangle[1]] +
-                                   weights[2] * (*field)[triangle[2]]);
-    }
-    for (auto& [name, field] : values)
-        result.attributes[name] = std::make_shared<const std::vector<double>>(std::move(field));
-    return result;
 }
 
 void measure_quality(const Surface& surface, RemeshReport& report) {
@@ -252,7 +233,7 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
         parameters.mode == RemeshMode::Uniform
             ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
             : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
-    result = with_attributes(std::move(result), surface);
+    result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();
     measure_quality(result, report);
     return {std::move(result), report};
