@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "geometry/measure.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
@@ -47,4 +48,55 @@ SCENARIO("remesh decides its edges once and replays them", "[workbench][remesh]"
 SCENARIO("subdivide makes four triangles of one", "[workbench][subdivide]") {
     const Outcome outcome = run("subdivide", icosphere(5.0, 2), {});
     CHECK(outcome.report->at("triangles_after") == 4 * 320);
+}
+
+SCENARIO("decimate keeps half of the triangles, or what it is asked for", "[workbench][decimate]") {
+    const Surface sphere = icosphere(5.0, 4);  // 5120 triangles
+    const Outcome half = run("decimate", sphere, {});
+    CHECK(half.resolved.real("share") == 0.5);
+    CHECK(half.report->at("triangles_after") == 2560);
+    CHECK(half.report->at("mean_distance_mm") > 0.0);
+    CHECK(half.report->at("volume_after_mm3").get<double>() ==
+          Approx(volume(sphere)).epsilon(0.01));
+    CHECK_FALSE(half.report->contains("mean_weight"));
+    CHECK(half.warnings.empty());
+    CHECK(run("decimate", sphere, {{"triangles", std::int64_t{1000}}})
+              .report->at("triangles_after") == 1000);
+    const Outcome near = run("decimate", sphere, {{"max_error", 0.05}});
+    CHECK_FALSE(near.resolved.has("share"));
+    CHECK(near.report->at("largest_distance_mm") < 0.053);
+    CHECK(near.report->at("triangles_after") < 1500);
+    const Outcome same = run("decimate", sphere, {{"share", 1.0}});
+    CHECK(same.scene.surface->points() == sphere.points());
+    REQUIRE(same.warnings.size() == 1);
+    CHECK_THAT(same.warnings.front(), Catch::Contains("nothing to do"));
+}
+
+SCENARIO("decimate refuses arguments that make no sense", "[workbench][decimate]") {
+    const Surface sphere = icosphere(5.0, 2);
+    CHECK_THROWS_AS(run("decimate", sphere, {{"share", 0.5}, {"triangles", std::int64_t{100}}}),
+                    UsageError);
+    CHECK_THROWS_AS(run("decimate", sphere, {{"share", 0.0}}), UsageError);
+    CHECK_THROWS_AS(run("decimate", sphere, {{"share", 1.5}}), UsageError);
+    CHECK_THROWS_AS(run("decimate", sphere, {{"triangles", std::int64_t{0}}}), UsageError);
+    CHECK_THROWS_AS(run("decimate", sphere, {{"max_error", 0.0}}), UsageError);
+    CHECK_THROWS_WITH(run("decimate", sphere, {{"distance", "linear"}}),
+                      Catch::Contains("decimate: ") && Catch::Contains("load-neighbour"));
+    CHECK_THROWS_WITH(run("decimate", sphere, {{"painted", "none"}}), Catch::Contains("'none'"));
+    CHECK_THROWS_AS(run("decimate", sphere, {{"staircase", true}, {"stack_axis", Vec3(0, 0, 0)}}),
+                    UsageError);
+}
+
+SCENARIO("decimate goes where a neighbour is far, and shows what that gains",
+         "[workbench][decimate]") {
+    Scene scene;
+    scene.surface = icosphere(10.0, 4);
+    scene.neighbours["bone"] = icosphere(2.0, 2, Vec3(0, 0, 13));
+    const Outcome outcome = run("decimate", scene, {{"share", 0.25}, {"distance", "linear"}});
+    const auto& report = *outcome.report;
+    CHECK(outcome.resolved.text("neighbours") == "bone");
+    CHECK(report.at("outside_mean_distance_mm") < report.at("unweighted_outside_mean_distance_mm"));
+    CHECK(report.at("unweighted_triangles_after") == report.at("triangles_after"));
+    const Outcome again = run("decimate", scene, outcome.resolved);
+    CHECK(again.scene.surface->points() == outcome.scene.surface->points());
 }

@@ -8,6 +8,7 @@
 #include "geometry/measure.h"
 #include "gpu/filter_on_device.h"
 #include "smoothing/new_crossings.h"
+#include "workbench/operations/context_weights.h"
 #include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
@@ -128,7 +129,7 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     Surface smoothed = surface.with_positions(std::move(moved));
     if (outcome.resolved.text("distance") != "none")
         report["smallest_neighbour_distance_after_mm"] =
-            smallest_neighbour_distance(scene, outcome.resolved, smoothed.points());
+            smallest_neighbour_distance(scene, outcome.resolved, "smooth", smoothed.points());
     add_changes(report, surface, smoothed);
     if (const std::string reason = why_little_moved(report, outcome.resolved); !reason.empty())
         outcome.warnings.push_back(reason);

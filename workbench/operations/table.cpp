@@ -24,6 +24,7 @@ std::span<const Operation> operation_table() {
         extrude_opening_operation(),
         smooth_operation(),
         remesh_operation(),
+        decimate_operation(),
         subdivide_operation(),
         tetrahedralize_operation(),
         print_check_operation(),

@@ -13,6 +13,7 @@ namespace vesselbench {
 [[nodiscard]] Operation brush_weight_operation();
 [[nodiscard]] Operation clip_opening_operation();
 [[nodiscard]] Operation crop_operation();
+[[nodiscard]] Operation decimate_operation();
 [[nodiscard]] Operation extract_surface_operation();
 [[nodiscard]] Operation extrude_opening_operation();
 [[nodiscard]] Operation fill_hole_operation();

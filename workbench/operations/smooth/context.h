@@ -32,9 +32,4 @@ struct SmoothingContext {
 [[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments,
                                                  nlohmann::ordered_json& report);
 
-/// Distance of the position that is nearest to a neighbour [mm]; 0 inside.
-/// \throw InvalidInput if there is no neighbour, or one without triangles
-[[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
-                                                 const Positions& positions);
-
 }  // namespace vesselbench

@@ -1,0 +1,262 @@
+#include "workbench/operations/context_weights.h"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "smoothing/caps.h"
+#include "smoothing/distance_weights.h"
+#include "smoothing/stack_orientation.h"
+#include "smoothing/staircase_weights.h"
+#include "smoothing/staircases.h"
+#include "workbench/near_names.h"
+#include "workbench/point_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Multiplies one more kind of weights in, and reports its mean.
+void weigh(std::vector<double>& weights, std::vector<double> by, const char* kind, Json& report) {
+    const double sum = std::accumulate(by.begin(), by.end(), 0.0);
+    report["mean_weight_" + std::string(kind)] =
+        by.empty() ? 0.0 : sum / static_cast<double>(by.size());
+    if (weights.empty())
+        weights = std::move(by);
+    else
+        for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
+}
+
+/// The stack axis that the user gave; also one that is not asked for must make sense.
+std::optional<Vec3> given_stack_axis(const Arguments& arguments, const std::string& operation) {
+    const auto axis = arguments.optional_point("stack_axis");
+    if (!axis) return std::nullopt;
+    const Vec3 direction = axis->stableNormalized();
+    if (direction.allFinite() && direction.norm() > 0.5) return direction;
+    throw UsageError(operation + ": stack_axis = " + to_text(*axis) +
+                     " has no direction: give three numbers that are not all 0");
+}
+
+/// A flat end has a normal that many faces share, but is no staircase.
+Surface without_caps(const Surface& surface) {
+    std::vector<std::uint8_t> on_cap(surface.triangle_count(), 0);
+    for (const Cap& cap : find_caps(surface))
+        for (const TriangleId t : cap.triangles) on_cap[t] = 1;
+    std::vector<Triangle> wall;
+    for (TriangleId t = 0; t < on_cap.size(); ++t)
+        if (on_cap[t] == 0) wall.push_back(surface.triangles()[t]);
+    return make_surface(surface.points(), std::move(wall));
+}
+
+/// Where the stack axis comes from: the user, the image, or the surface itself.
+Vec3 stack_axis(const Scene& scene, const std::string& operation, Arguments& arguments,
+                Json& report) {
+    if (const auto given = given_stack_axis(arguments, operation)) {
+        report["stack_axis_from"] = "argument";
+        return *given;
+    }
+    if (scene.sampling && scene.sampling->confidence > 0.0) {
+        const Vec3 axis = scene.sampling->axes.col(2);
+        report["stack_axis_from"] = "image";
+        arguments.set("stack_axis", axis);
+        return axis;
+    }
+    const StackOrientation estimate = estimate_stack_orientation(without_caps(surface_of(scene)));
+    report["stack_axis_confidence"] = estimate.confidence;
+    if (!estimate.certain)
+        throw AlgorithmFailure(
+            "the direction of the image stack is uncertain: the surface comes from no image and "
+            "shows too few staircases; give stack_axis=x,y,z, or staircase=false");
+    report["stack_axis_from"] = "estimate";
+    arguments.set("stack_axis", estimate.direction);
+    return estimate.direction;
+}
+
+std::vector<double> staircase_part(const Scene& scene, const WeightSettings& settings,
+                                   Arguments& arguments, Json& report) {
+    const Surface& surface = surface_of(scene);
+    const Vec3 axis = stack_axis(scene, settings.operation, arguments, report);
+    const std::vector<std::uint8_t>& caps = settings.caps;
+    const StaircaseParameters parameters{
+        .tau_theta = arguments.real("tau_theta"),
+        .tau_max = arguments.real("tau_max"),
+        .beta_min = settings.beta_min,
+        .scaling = settings.thesis_scaling ? StaircaseScaling::Thesis : StaircaseScaling::TauMax,
+        .caps = caps};
+    const auto change = orientation_change(*surface.topology, surface.points(), axis);
+    auto weights = staircase_weights(*surface.topology, surface.points(), change, parameters);
+    report["stack_axis"] = point_json(axis);
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < change.size(); ++v) {
+        count += change[v] > parameters.tau_theta && caps[v] == 0 ? 1 : 0;
+        if (caps[v] != 0) weights[v] = settings.cap_weight;
+    }
+    report["staircase_vertices"] = count;
+    return weights;
+}
+
+/// The names of the neighbours that count: those given, or all that are loaded.
+std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& arguments,
+                                         const std::string& operation) {
+    std::vector<std::string> names;
+    if (const auto given = arguments.optional_text("neighbours")) {
+        std::istringstream list(*given);
+        for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    } else {
+        for (const auto& [name, surface] : scene.neighbours) names.push_back(name);
+    }
+    if (names.empty())
+        throw InvalidInput(
+            operation +
+            ": distance awareness needs a neighbour, and there is none: use load-neighbour");
+    return names;
+}
+
+std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::string>& names,
+                                   const std::string& operation) {
+    std::vector<Surface> neighbours;
+    for (const std::string& name : names) {
+        const auto found = scene.neighbours.find(name);
+        if (found == scene.neighbours.end())
+            throw InvalidInput(operation + ": there is no neighbour '" + name +
+                               "': use load-neighbour, or name others by neighbours=");
+        const Surface& surface = found->second;
+        if (surface.empty())
+            throw InvalidInput(operation + ": the neighbour '" + name +
+                               "' has no triangles: load it again, or use distance=none");
+        neighbours.push_back(surface);
+    }
+    return neighbours;
+}
+
+std::vector<double> distance_part(const Scene& scene, const std::string& operation,
+                                  Arguments& arguments, Json& report) {
+    const std::string& name = arguments.text("distance");
+    const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
+    arguments.set("neighbours", joined(names, ","));  // one loaded later changes nothing here
+    const DistanceParameters parameters{.scaling = name == "margin" ? DistanceScaling::Margin
+                                                   : name == "exponential"
+                                                       ? DistanceScaling::Exponential
+                                                       : DistanceScaling::Linear,
+                                        .margin = arguments.real("margin"),
+                                        .omega = arguments.real("omega")};
+    const auto distances =
+        neighbour_distances(surface_of(scene).points(), neighbours_of(scene, names, operation));
+    report["smallest_neighbour_distance_mm"] = std::ranges::min(distances);
+    report["largest_neighbour_distance_mm"] = std::ranges::max(distances);
+    return distance_weights(distances, parameters);
+}
+
+std::vector<double> painted_part(const Surface& surface, const std::string& name,
+                                 const std::string& operation) {
+    const auto attribute = surface.attributes.find(name);
+    if (attribute == surface.attributes.end())
+        throw InvalidInput(operation + ": the surface has no attribute '" + name +
+                           "' to weigh with");
+    for (const double weight : *attribute->second)
+        if (!(weight >= 0.0 && weight <= 1.0))
+            throw InvalidInput(operation + ": the attribute '" + name +
+                               "' holds values outside of [0, 1]");
+    return *attribute->second;
+}
+
+}  // namespace
+
+double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
+                                   const std::string& operation, const Positions& positions) {
+    const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
+    return std::ranges::min(neighbour_distances(positions, neighbours_of(scene, names, operation)));
+}
+
+std::vector<Parameter> staircase_parameter_table(const WeighedAction& action) {
+    using enum ParameterType;
+    const Condition when_staircase{"staircase", {"true"}};
+    return {
+        {.name = "staircase", .type = Flag, .default_value = false, .help = action.staircase_help},
+        {.name = "stack_axis",
+         .type = Point,
+         .help = "direction across the image's slices, in patient coordinates; known from the "
+                 "image, or estimated from the surface, when left out",
+         .only_with = when_staircase},
+        {.name = "tau_theta",
+         .unit = "-",
+         .default_value = 0.7,
+         .help = "how sharply a surface must bend across the slices to be a staircase: 1 is a "
+                 "right angle; smaller finds smoother staircases",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .only_with = when_staircase},
+        {.name = "tau_max",
+         .unit = "mm",
+         .default_value = 3.0,
+         .help =
+             "how far around staircases the " + action.doing + " fades out; about a slice distance",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = when_staircase}};
+}
+
+std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
+    using enum ParameterType;
+    return {
+        {.name = "distance",
+         .type = Choice,
+         .default_value = std::string("none"),
+         .help = "keep what is near the structures of load-neighbour; the nearest vertex gets "
+                 "no " +
+                 action.doing +
+                 ", the farthest all of it, and between them it grows evenly (linear), from a "
+                 "margin on, or late and fast (exponential)",
+         .choices = {"none", "linear", "margin", "exponential"}},
+        {.name = "neighbours",
+         .type = Text,
+         .help = "names of the neighbours that count, a,b,...; all that are loaded by then when "
+                 "left out",
+         .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
+        {.name = "margin",
+         .unit = "mm",
+         .default_value = 2.0,
+         .help = "vertices that are this near to a neighbour do not move",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"distance", {"margin"}}},
+        {.name = "omega",
+         .unit = "1/mm",
+         .default_value = 0.06,
+         .help = "how late the " + action.doing +
+                 " sets in: near 0 as linear; larger keeps more of what "
+                 "is near",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"distance", {"exponential"}}},
+        {.name = "painted",
+         .type = Text,
+         .help = "name of a vertex attribute in [0, 1], as brush-weight paints: 0 keeps a "
+                 "vertex, 1 " +
+                 action.painted_one}};
+}
+
+void check_stack_axis(const Arguments& arguments, const std::string& operation) {
+    static_cast<void>(given_stack_axis(arguments, operation));
+}
+
+std::vector<double> context_weights(const Scene& scene, const WeightSettings& settings,
+                                    Arguments& arguments, Json& report) {
+    const std::string& operation = settings.operation;
+    check_stack_axis(arguments, operation);
+    std::vector<double> weights;
+    if (arguments.flag("staircase"))
+        weigh(weights, staircase_part(scene, settings, arguments, report), "staircase", report);
+    if (arguments.text("distance") != "none")
+        weigh(weights, distance_part(scene, operation, arguments, report), "distance", report);
+    if (const auto painted = arguments.optional_text("painted"))
+        weigh(weights, painted_part(surface_of(scene), *painted, operation), "painted", report);
+    return weights;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "workbench/operation.h"
+
+namespace vesselbench {
+
+// Weights from a surface's context (thesis 5.2, 5.3): staircases, neighbours, paint. They say how
+// much of an operation a vertex gets, whatever it does; 1 is all of it.
+
+/// How an operation that is weighed speaks of itself in helps.
+struct WeighedAction {
+    std::string doing;           ///< "smoothing"
+    std::string staircase_help;  ///< of the flag `staircase`
+    std::string painted_one;     ///< what weight 1 does to a vertex: "smooths it"
+};
+
+/// staircase, stack_axis, tau_theta, tau_max
+[[nodiscard]] std::vector<Parameter> staircase_parameter_table(const WeighedAction& action);
+
+/// distance, neighbours, margin, omega, painted
+[[nodiscard]] std::vector<Parameter> distance_parameter_table(const WeighedAction& action);
+
+/// What the arguments above do not say.
+struct WeightSettings {
+    std::string operation;           ///< named in error texts
+    double beta_min = 0.0;           ///< weight of what is no staircase, in [0, 1] [-]
+    double cap_weight = 0.0;         ///< of caps, which are no staircases, in [0, 1] [-]
+    bool thesis_scaling = false;     ///< Eq. 5.5 as printed
+    std::vector<std::uint8_t> caps;  ///< 1 at their vertices, #V
+};
+
+/// Checks the stack axis, also of one that has no effect.
+/// \throw UsageError if it has no direction
+void check_stack_axis(const Arguments& arguments, const std::string& operation);
+
+/// The product of all weights that the arguments ask for; fills in what it decided (stack_axis,
+/// neighbours).
+/// \param report what was found is added here
+/// \return #V; empty: 1 everywhere
+/// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks what they name;
+/// AlgorithmFailure if the stack orientation is uncertain
+[[nodiscard]] std::vector<double> context_weights(const Scene& scene,
+                                                  const WeightSettings& settings,
+                                                  Arguments& arguments,
+                                                  nlohmann::ordered_json& report);
+
+/// Distance of the position that is nearest to a neighbour [mm]; 0 inside.
+/// \throw InvalidInput if there is no neighbour, or one without triangles
+[[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
+                                                 const std::string& operation,
+                                                 const Positions& positions);
+
+}  // namespace vesselbench

@@ -1,0 +1,183 @@
+#include "meshing/decimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/errors.h"
+#include "geometry/measure.h"
+#include "geometry/reference_comparison.h"
+#include "geometry/wording.h"
+#include "smoothing/caps.h"
+#include "workbench/operations/context_weights.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kUsualShare = 0.5;
+
+/// The arguments' target; decides for half of the triangles where they name none.
+DecimateParameters target_from(const Surface& surface, Arguments& arguments) {
+    const bool counted = arguments.has("triangles");
+    if (arguments.has("share") && counted)
+        throw UsageError("decimate: share and triangles say the same thing: give one of them");
+    if (!arguments.has("share") && !counted && !arguments.has("max_error"))
+        arguments.set("share", kUsualShare);
+    DecimateParameters target{.max_error = arguments.optional_real("max_error")};
+    if (counted) target.triangles = static_cast<std::size_t>(arguments.integer("triangles"));
+    if (const auto share = arguments.optional_real("share"))
+        target.triangles = static_cast<std::size_t>(
+            std::max(1.0, std::round(*share * static_cast<double>(surface.triangle_count()))));
+    return target;
+}
+
+std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json& report) {
+    const Surface& surface = surface_of(scene);
+    WeightSettings settings{.operation = "decimate", .beta_min = arguments.real("beta_min")};
+    if (arguments.flag("staircase")) {
+        settings.cap_weight = settings.beta_min;  // a flat end is no staircase, nor to be spared
+        settings.caps = cap_vertices(find_caps(surface), surface.vertex_count());
+    }
+    return context_weights(scene, settings, arguments, report);
+}
+
+double mean_skewness(const Surface& surface) {
+    double sum = 0.0;
+    for (const Triangle& t : surface.triangles()) sum += equiangle_skewness(surface.points(), t);
+    return sum / static_cast<double>(std::max<std::size_t>(surface.triangle_count(), 1));
+}
+
+void add_changes(Json& report, const Surface& before, const Surface& after) {
+    report["triangles_before"] = before.triangle_count();
+    report["triangles_after"] = after.triangle_count();
+    const ReferenceComparison found = compare_with_reference(after, before);
+    report["mean_distance_mm"] = found.mean_distance;
+    report["largest_distance_mm"] = found.hausdorff;
+    report["volume_before_mm3"] = volume(before);
+    report["volume_after_mm3"] = volume(after);
+    report["equiangle_skewness_before_mean"] = mean_skewness(before);
+    report["equiangle_skewness_after_mean"] = mean_skewness(after);
+}
+
+/// Distances where the weight is above one half (inside) and elsewhere.
+void add_split(Json& report, const std::string& prefix, const Surface& before, const Surface& after,
+               std::span<const double> weights) {
+    const WeighedComparison found = compare_by_weight(after, before, weights);
+    report[prefix + "inside_mean_distance_mm"] = found.inside.mean;
+    report[prefix + "inside_largest_distance_mm"] = found.inside.largest;
+    report[prefix + "outside_mean_distance_mm"] = found.outside.mean;
+    report[prefix + "outside_largest_distance_mm"] = found.outside.largest;
+}
+
+/// What the weights gain: the same figures for as many triangles without them.
+void add_gain(Json& report, const Surface& before, const Surface& after,
+              std::span<const double> weights, const Progress& progress) {
+    double sum = 0.0;
+    for (const double weight : weights) sum += weight;
+    report["mean_weight"] = sum / static_cast<double>(weights.size());
+    add_split(report, "", before, after, weights);
+    const Decimated plain = decimate(before, {.triangles = after.triangle_count()}, {}, progress);
+    report["unweighted_triangles_after"] = plain.surface.triangle_count();
+    add_split(report, "unweighted_", before, plain.surface, weights);
+}
+
+void warn(const DecimateReport& figures, const DecimateParameters& target, Outcome& outcome) {
+    const auto add = [&](const std::string& text) { outcome.warnings.push_back(text); };
+    if (target.triangles && *target.triangles >= figures.triangles_before)
+        add("nothing to do: the surface has no more than " +
+            counted(*target.triangles, "triangle"));
+    if (!figures.target_reached && !target.max_error)
+        add(counted(figures.triangles_after, "triangle") + " are left instead of " +
+            std::to_string(*target.triangles) +
+            ": fewer would fold the surface over, or lose a part of it");
+    if (figures.kept_vertices_lost > 0)
+        add(counted(figures.kept_vertices_lost, "vertex", "vertices") +
+            " of weight 0 had to go or to move, for nothing else was left; ask for more triangles "
+            "to keep them");
+    if (figures.crossings_left > 0)
+        add("walls that all but touch near " + place_text(figures.crossing) + " cross in " +
+            counted(figures.crossings_left, "place") +
+            " now; ask for more triangles, or separate the walls first");
+}
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Surface& before = surface_of(scene);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    const DecimateParameters target = target_from(before, outcome.resolved);
+    Json report;
+    progress.report(0.0, "looking at the context");
+    const std::vector<double> weights = weights_from(scene, outcome.resolved, report);
+    Decimated decimated = decimate(before, target, weights, progress.part(0.1, 0.5));
+    add_changes(report, before, decimated.surface);
+    if (!weights.empty())
+        add_gain(report, before, decimated.surface, weights, progress.part(0.6, 0.9));
+    warn(decimated.report, target, outcome);
+    outcome.report = std::make_shared<Json>(std::move(report));
+    outcome.scene = with_surface(scene, std::move(decimated.surface));
+    return outcome;
+}
+
+std::vector<Parameter> parameter_table() {
+    std::vector<Parameter> table = {
+        {.name = "share",
+         .unit = "-",
+         .help = "share of the triangles that is kept; 0.5 when neither triangles nor max_error "
+                 "is given",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .above_minimum = true},
+        {.name = "triangles",
+         .type = ParameterType::Integer,
+         .help = "number of triangles that is kept, instead of share",
+         .minimum = 4},
+        {.name = "max_error",
+         .unit = "mm",
+         .help = "stop where the surface would come to be farther than this from what it was; "
+                 "alone, or before share or triangles is reached. What weighs less may only move "
+                 "by that much less",
+         .minimum = 0.0,
+         .above_minimum = true}};
+    const WeighedAction action{
+        .doing = "decimation",
+        .staircase_help =
+            "decimate staircases of the image's slices first, which are inaccurate "
+            "anyway, and less and less around them",
+        .painted_one = "lets it go like any other"};
+    const auto add = [&](const std::vector<Parameter>& more) {
+        table.insert(table.end(), more.begin(), more.end());
+    };
+    add(staircase_parameter_table(action));
+    add({{.name = "beta_min",
+          .unit = "-",
+          .default_value = 0.1,
+          .help = "how much of the error of staircases all that is none may get: 0 is kept as "
+                  "long as possible, 1 is decimated as staircases are",
+          .minimum = 0.0,
+          .maximum = 1.0,
+          .only_with = Condition{"staircase", {"true"}}}});
+    add(distance_parameter_table(action));
+    return table;
+}
+
+}  // namespace
+
+Operation decimate_operation() {
+    return {.name = "decimate",
+            .usual_step = Step::Remeshing,
+            .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                        Step::Smoothing, Step::Deformation, Step::Remeshing},
+            .summary =
+                "cover the surface with fewer triangles, fewest where the context allows; rims, "
+                "flat caps and patches stay",
+            .parameters = parameter_table(),
+            .run = &run,
+            .thesis = "5.6, 7.2"};
+}
+
+}  // namespace vesselbench
