@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "geometry/box_tree.h"
+#include "geometry/distance_tree.h"
 #include "geometry/errors.h"
 
 namespace vesselbench {
@@ -16,21 +16,9 @@ namespace {
 /// Relative slack of the box tests [-]: rounding must never lose a triangle that is touched.
 constexpr double kBoxSlack = 1e-12;
 
-/// A node is far when it is more than this many of its radii away; its dipole then errs by less
-/// than about 1 % of its solid angle.
-constexpr double kFarFactor = 2.5;
-
-struct Corners {
-    Vec3 a, b, c;
-};
-
-/// Sum of a node's triangles as seen from afar.
-struct Dipole {
-    Vec3 area_normal = Vec3::Zero();  ///< [mm^2]
-    Vec3 centre = Vec3::Zero();       ///< area-weighted [mm]
-    double area = 0.0;                ///< [mm^2]
-    double radius = 0.0;              ///< of the sphere around centre that holds the node [mm]
-};
+using Corners = detail::TriangleCorners;
+using detail::Dipole;
+using detail::kFarFactor;
 
 /// Signed solid angle of a triangle seen from p [sr].
 /// Source: van Oosterom and Strackee, "The solid angle of a plane triangle", 1983.
@@ -96,45 +84,8 @@ Vec3 closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
     return a + vb / sum * ab + vc / sum * ac;
 }
 
-struct SurfaceDistance::Data {
-    BoxTree tree;
-    std::vector<Corners> corners;  ///< in the order of the tree's items
-    std::vector<Dipole> dipoles;   ///< per node
-
-    Data(const Positions& positions, std::span<const Triangle> triangles)
-        : tree(triangle_boxes(positions, triangles)) {
-        corners.reserve(triangles.size());
-        for (const std::uint32_t t : tree.items())
-            corners.push_back({positions[triangles[t][0]], positions[triangles[t][1]],
-                               positions[triangles[t][2]]});
-        dipoles.resize(tree.nodes().size());
-        for (std::size_t at = dipoles.size(); at-- > 0;) dipoles[at] = dipole_of(at);
-    }
-
-    /// Children stand behind their parent, so they are done first.
-    Dipole dipole_of(std::size_t at) const {
-        const BoxTree::Node& node = tree.nodes()[at];
-        Dipole sum;
-        const auto add = [&](const Vec3& area_normal, const Vec3& centre, double area) {
-            sum.area_normal += area_normal;
-            sum.centre += area * centre;
-            sum.area += area;
-        };
-        if (node.right == 0) {
-            for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                const Corners& t = corners[i];
-                const Vec3 normal = 0.5 * (t.b - t.a).cross(t.c - t.a);
-                add(normal, (t.a + t.b + t.c) / 3.0, normal.norm());
-            }
-        } else {
-            for (const std::size_t child : {at + 1, std::size_t{node.right}})
-                add(dipoles[child].area_normal, dipoles[child].centre, dipoles[child].area);
-        }
-        sum.centre = sum.area > 0.0 ? Vec3(sum.centre / sum.area) : Vec3(node.box.center());
-        const Vec3 reach = (node.box.max() - sum.centre).cwiseMax(sum.centre - node.box.min());
-        sum.radius = reach.norm();
-        return sum;
-    }
+struct SurfaceDistance::Data : detail::DistanceTree {
+    using DistanceTree::DistanceTree;
 
     std::optional<SurfacePoint> closest(const Vec3& p, double reach) const;
     double winding(const Vec3& p) const;

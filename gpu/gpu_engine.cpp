@@ -77,6 +77,8 @@ private:
     bool followed_ = true;  ///< the references passed the last stop
 };
 
+constexpr std::size_t kWeightsKept = 16;  // as much memory as a run, all of them
+
 class GpuEngine final : public SmoothingEngine {
 public:
     GpuEngine(HeldDevice held, const FilterGround& ground, bool planes)
@@ -92,7 +94,7 @@ public:
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
         GpuSmoother smoother = prototype_.copy();
-        if (choice.weights) smoother.set_weights(*choice.weights);
+        if (choice.weights) smoother.set_weights(uploaded(choice.weights));
         smoother.start(choice.filter);
         return std::make_unique<GpuRun>(common_, std::move(smoother));
     }
@@ -108,6 +110,17 @@ public:
     }
 
 private:
+    using Weights = std::shared_ptr<const std::vector<double>>;
+
+    /// The weights on the device; a search has few, and many runs with each.
+    const Buffer& uploaded(const Weights& weights) const {
+        const auto known = std::ranges::find(weights_, weights, &UploadedWeights::weights);
+        if (known != weights_.end()) return known->buffer;
+        if (weights_.size() >= kWeightsKept) weights_.erase(weights_.begin());
+        weights_.push_back({weights, GpuSmoother::upload_weights(*common_->surface, *weights)});
+        return weights_.back().buffer;
+    }
+
     static std::shared_ptr<Common> make_common(HeldDevice held, const FilterGround& ground,
                                                bool planes) {
         auto surface = std::make_shared<const DeviceSurface>(held.device, surface_of(ground));
@@ -116,8 +129,14 @@ private:
             Common{std::move(held), std::move(surface), std::move(meter)});
     }
 
+    struct UploadedWeights {
+        Weights weights;
+        Buffer buffer;
+    };
+
     std::shared_ptr<Common> common_;
     GpuSmoother prototype_;
+    mutable std::vector<UploadedWeights> weights_;  ///< the oldest first
     double mean_edge_ = 0.0;
     QualityMeasures original_;
 };

@@ -156,13 +156,17 @@ void GpuSmoother::set_weights(const Buffer& weights) {
     start_ = std::make_shared<const Buffer>(std::move(start));
 }
 
-void GpuSmoother::set_weights(std::span<const double> weights) {
-    if (weights.size() != surface_->vertex_count())
+Buffer GpuSmoother::upload_weights(const DeviceSurface& surface, std::span<const double> weights) {
+    if (weights.size() != surface.vertex_count())
         throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
-                           std::to_string(surface_->vertex_count()) + " vertices");
+                           std::to_string(surface.vertex_count()) + " vertices");
     for (const double weight : weights) detail::require_range("weight", weight, 0.0, 1.0);
     const std::vector<float> single(weights.begin(), weights.end());
-    set_weights(make_storage(surface_->device(), std::span<const float>(single), "weights"));
+    return make_storage(surface.device(), std::span<const float>(single), "weights");
+}
+
+void GpuSmoother::set_weights(std::span<const double> weights) {
+    set_weights(upload_weights(*surface_, weights));
 }
 
 void GpuSmoother::start(const FilterParameters& parameters) {

@@ -33,6 +33,11 @@ public:
     /// The same from the CPU's weights. \throw InvalidInput unless they are #V in [0, 1]
     void set_weights(std::span<const double> weights);
 
+    /// Weights of the CPU's for set_weights: float, #V. \throw InvalidInput unless they are #V in
+    /// [0, 1]; GpuUnavailable if they do not fit the device
+    [[nodiscard]] static Buffer upload_weights(const DeviceSurface& surface,
+                                               std::span<const double> weights);
+
     /// Puts all vertices back to the start, for a filter.
     /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile
     void start(const FilterParameters& parameters);

@@ -1,9 +1,7 @@
 #include "gpu/gpu_weights.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <bit>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -16,24 +14,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kUnreached = 3.1e38;  // gpu/shaders/distance_weight.comp
+constexpr double kFar = 3e38;  // gpu/shaders/distance_weight.comp
 
 enum Kind { kStaircases, kLinear, kExponential };
-
-Buffer upload(const Device& device, std::span<const double> values, const std::string& label) {
-    std::vector<float> single(values.size());
-    std::ranges::transform(values, single.begin(), [](double value) {
-        return static_cast<float>(std::min(value, kUnreached));
-    });
-    return make_storage(device, std::span<const float>(single), label);
-}
-
-void require_distances(std::span<const double> distances, const DistanceParameters& parameters) {
-    [[maybe_unused]] const auto none = distance_weights({}, parameters);  // checks the parameters
-    for (const double d : distances)
-        if (!(d >= 0.0) || !std::isfinite(d))
-            throw InvalidInput("distances to neighbours must be finite and not negative");
-}
 
 }  // namespace
 
@@ -41,9 +24,10 @@ GpuWeights::GpuWeights(std::shared_ptr<const DeviceSurface> surface)
     : surface_(std::move(surface)) {
     const Device& device = surface_->device();
     const std::size_t count = surface_->vertex_count();
-    const std::vector<double> none(count, 0.0), ones(count, 1.0);
-    changes_ = make_storage(device, std::span<const double>(none), "orientation changes");
-    ones_ = upload(device, ones, "ones");
+    changes_ = make_storage(device, count * sizeof(double), "orientation changes");
+    fill_storage(changes_, 0);
+    ones_ = make_storage(device, count * sizeof(float), "ones");
+    fill_storage(ones_, std::bit_cast<std::uint32_t>(1.0F));
     weights_ = make_storage(device, count * sizeof(float), "weights");
     restart();
 }
@@ -75,10 +59,10 @@ std::vector<double> GpuWeights::orientation_change() const {
 }
 
 void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters) {
-    std::vector<double> free(surface_->vertex_count(), 1.0);
+    std::vector<float> free(surface_->vertex_count(), 1.0F);
     for (std::size_t v = 0; v < parameters.caps.size(); ++v)
-        if (parameters.caps[v] != 0) free[v] = 0.0;
-    free_of_caps_ = upload(surface_->device(), free, "free of caps");
+        if (parameters.caps[v] != 0) free[v] = 0.0F;
+    free_of_caps_ = make_storage(surface_->device(), std::span<const float>(free), "free of caps");
     staircases_ = search_staircases(*surface_, changes_, free_of_caps_, parameters.tau_theta,
                                     parameters.tau_max);
 }
@@ -108,17 +92,16 @@ void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
     multiply(staircases_.distances, free_of_caps_, scale, kStaircases);
 }
 
-void GpuWeights::multiply_distances(std::span<const double> distances,
+void GpuWeights::multiply_distances(const NeighbourDistances& distances,
                                     const DistanceParameters& parameters) {
-    require_distances(distances, parameters);
-    if (distances.size() != surface_->vertex_count())
-        throw InvalidInput("got " + std::to_string(distances.size()) + " distances for " +
-                           std::to_string(surface_->vertex_count()) + " vertices");
-    const auto [least, most] = std::ranges::minmax(distances);
-    const double from = parameters.scaling == DistanceScaling::Margin ? parameters.margin : least;
-    const std::array scale = {static_cast<float>(from), static_cast<float>(most - from),
+    detail::require_distance_parameters(parameters);
+    if (!(distances.most < kFar))
+        throw InvalidInput("distances to neighbours must be finite and not negative");
+    const double from =
+        parameters.scaling == DistanceScaling::Margin ? parameters.margin : distances.least;
+    const std::array scale = {static_cast<float>(from), static_cast<float>(distances.most - from),
                               static_cast<float>(parameters.omega), 0.0F};
-    multiply(upload(surface_->device(), distances, "distances"), ones_, scale,
+    multiply(distances.distances, ones_, scale,
              parameters.scaling == DistanceScaling::Exponential ? kExponential : kLinear);
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "gpu/device_neighbours.h"
 #include "gpu/device_surface.h"
 #include "gpu/staircase_search.h"
 #include "smoothing/distance_weights.h"
@@ -15,9 +16,8 @@ namespace vesselbench {
 
 /// Weights for smoothing, made where they are used (thesis 5.2, 5.3, 7.2): staircases are detected
 /// and caps left out on the device, the distances to them are searched there
-/// (gpu/staircase_search.h), and distances become weights. Those to neighbours are the CPU's, which
-/// searches them in a tree of triangles. The surface's context must be current whenever it is used
-/// and when it goes.
+/// (gpu/staircase_search.h), as those to neighbours (gpu/device_neighbours.h), and distances become
+/// weights. The surface's context must be current whenever it is used and when it goes.
 class GpuWeights {
 public:
     /// 1 everywhere. \throw GpuUnavailable if the buffers do not fit
@@ -40,9 +40,9 @@ public:
     /// \throw InvalidInput as staircase_weights
     void multiply_staircases(const StaircaseParameters& parameters = {});
 
-    /// Multiplies by weights from distances to neighbours [mm] (5.2, Eq. 5.2).
+    /// Multiplies by weights from distances to neighbours (5.2, Eq. 5.2).
     /// \throw InvalidInput as distance_weights
-    void multiply_distances(std::span<const double> distances,
+    void multiply_distances(const NeighbourDistances& distances,
                             const DistanceParameters& parameters = {});
 
     /// The weights in [0, 1]: float, #V.

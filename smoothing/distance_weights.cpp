@@ -9,18 +9,32 @@
 
 namespace vesselbench {
 
-std::vector<double> neighbour_distances(const Positions& positions,
-                                        std::span<const Surface> neighbours) {
+void detail::require_neighbours(std::span<const Surface> neighbours) {
     if (neighbours.empty())
         throw InvalidInput("distance awareness needs a neighbour: there is none");
-    std::vector<double> distances(positions.size(), std::numeric_limits<double>::infinity());
-    for (const Surface& neighbour : neighbours) {
+    for (const Surface& neighbour : neighbours)
         if (neighbour.empty())
             throw InvalidInput("distance awareness needs neighbours with triangles: one has none");
+}
+
+bool detail::is_closed(const Surface& neighbour) {
+    return std::ranges::none_of(neighbour.topology->boundary_vertices(),
+                                [](std::uint8_t boundary) { return boundary != 0; });
+}
+
+void detail::require_distance_parameters(const DistanceParameters& parameters) {
+    if (!(parameters.margin >= 0.0) || !std::isfinite(parameters.margin))
+        throw InvalidInput("margin must be 0 mm or more");
+    require_positive("omega", parameters.omega);
+}
+
+std::vector<double> neighbour_distances(const Positions& positions,
+                                        std::span<const Surface> neighbours) {
+    detail::require_neighbours(neighbours);
+    std::vector<double> distances(positions.size(), std::numeric_limits<double>::infinity());
+    for (const Surface& neighbour : neighbours) {
         const SurfaceDistance surface(neighbour);
-        const bool closed = std::none_of(neighbour.topology->boundary_vertices().begin(),
-                                         neighbour.topology->boundary_vertices().end(),
-                                         [](std::uint8_t boundary) { return boundary != 0; });
+        const bool closed = detail::is_closed(neighbour);
         detail::for_each_vertex(positions.size(), [&](std::size_t v) {
             const double distance = closed ? std::max(0.0, surface.signed_distance(positions[v]))
                                            : surface.closest_point(positions[v]).distance;
@@ -32,9 +46,7 @@ std::vector<double> neighbour_distances(const Positions& positions,
 
 std::vector<double> distance_weights(std::span<const double> distances,
                                      const DistanceParameters& parameters) {
-    if (!(parameters.margin >= 0.0) || !std::isfinite(parameters.margin))
-        throw InvalidInput("margin must be 0 mm or more");
-    detail::require_positive("omega", parameters.omega);
+    detail::require_distance_parameters(parameters);
     for (const double d : distances)
         if (!(d >= 0.0) || !std::isfinite(d))
             throw InvalidInput("distances to neighbours must be finite and not negative");

@@ -35,4 +35,17 @@ struct DistanceParameters {
 [[nodiscard]] std::vector<double> distance_weights(std::span<const double> distances,
                                                    const DistanceParameters& parameters = {});
 
+namespace detail {
+
+/// \throw InvalidInput if there is no neighbour, or one without triangles
+void require_neighbours(std::span<const Surface> neighbours);
+
+/// True if no edge has exactly one triangle: a neighbour then has an inside.
+[[nodiscard]] bool is_closed(const Surface& neighbour);
+
+/// \throw InvalidInput if a parameter is out of range
+void require_distance_parameters(const DistanceParameters& parameters);
+
+}  // namespace detail
+
 }  // namespace vesselbench

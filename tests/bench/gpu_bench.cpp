@@ -13,8 +13,10 @@
 #include "quality/quality_table.h"
 
 #include "geometry/errors.h"
+#include "geometry/measure.h"
 #include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
+#include "gpu/device_neighbours.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
@@ -156,7 +158,16 @@ void print_beside(const Surface& surface, const char* what, double on_device, do
     std::fflush(stdout);
 }
 
-/// Staircases, their weights and caps of a stack of slices, on the device and by the CPU.
+/// The same surface so far away that the two touch.
+Surface beside(const Surface& surface) {
+    Positions points = surface.points();
+    const Bounds box = bounds(points);
+    for (Vec3& p : points) p.x() += 0.98 * (box.max - box.min).x();
+    return surface.with_positions(std::move(points));
+}
+
+/// Staircases, their weights, caps and distances to a neighbour of a stack of slices, on the device
+/// and by the CPU.
 void time_detections(const HeldDevice& held, const Surface& surface) {
     const auto on_device = std::make_shared<const DeviceSurface>(held.device, surface);
     const Topology& topology = *surface.topology;
@@ -185,6 +196,12 @@ void time_detections(const HeldDevice& held, const Surface& surface) {
     const double cap_time = clock_milliseconds([&] { static_cast<void>(find_caps(*on_device)); });
     const double cpu_cap_time = clock_milliseconds([&] { static_cast<void>(find_caps(surface)); });
     print_beside(surface, "caps", cap_time, cpu_cap_time);
+    const std::vector<Surface> neighbours{beside(surface)};
+    const double distance_time = clock_milliseconds(
+        [&] { static_cast<void>(find_neighbour_distances(*on_device, neighbours)); });
+    const double cpu_distance_time = clock_milliseconds(
+        [&] { static_cast<void>(neighbour_distances(surface.points(), neighbours)); });
+    print_beside(surface, "distances to a neighbour as large", distance_time, cpu_distance_time);
 }
 
 void time_all(bool any_device, const std::vector<double>& sizes) {

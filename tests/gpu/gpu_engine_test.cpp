@@ -66,6 +66,27 @@ SCENARIO("A search on the device sees what it sees on the CPU", "[gpu][engine]")
     }
 }
 
+SCENARIO("Weights that were uploaded before serve again", "[gpu][engine]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface tube = open_tube(2.0, 10.0, 16, 20);
+    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube)).engine;
+    const auto measured = [&](const std::shared_ptr<const std::vector<double>>& weights) {
+        const auto run = engine->start({LaplaceParameters{}, weights});
+        run->advance_to(5, {});
+        return run->measure();
+    };
+    std::vector<std::shared_ptr<const std::vector<double>>> all;
+    std::vector<QualityMeasures> first;
+    for (int i = 0; i < 20; ++i) {
+        all.push_back(std::make_shared<std::vector<double>>(tube.vertex_count(), 0.05 * i));
+        first.push_back(measured(all.back()));
+        if (i > 0) CHECK(first[i].error > first[i - 1].error);
+    }
+    for (int i = 19; i >= 0; --i) CHECK(measured(all[i]) == first[i]);
+    CHECK_THROWS_AS(measured(std::make_shared<std::vector<double>>(3, 1.0)), InvalidInput);
+}
+
 SCENARIO("A copied run of the device goes on as the run itself", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;

@@ -1,5 +1,6 @@
 #include "gpu/gpu_weights.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -89,24 +90,28 @@ SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
     if (!test) return;
     const Surface sphere = varied_surfaces().front().surface;
     const auto distances = distances_to_plane(sphere);
+    const auto [least, most] = std::ranges::minmax(distances);
+    const std::vector<float> single(distances.begin(), distances.end());
+    const NeighbourDistances known{
+        make_storage(test->device, std::span<const float>(single), "distances"), least, most};
     GpuWeights weights(uploaded(*test, sphere));
     for (const auto scaling :
          {DistanceScaling::Linear, DistanceScaling::Margin, DistanceScaling::Exponential})
         for (const double omega : {0.06, 3.0}) {
             const DistanceParameters parameters{.scaling = scaling, .margin = 4.0, .omega = omega};
             weights.restart();
-            weights.multiply_distances(distances, parameters);
+            weights.multiply_distances(known, parameters);
             CHECK(largest_difference(weights.weights(), distance_weights(distances, parameters)) <=
                   1e-5);
         }
     THEN("a margin that nothing exceeds leaves nothing to move") {
         weights.restart();
-        weights.multiply_distances(distances,
-                                   {.scaling = DistanceScaling::Margin, .margin = 500.0});
+        weights.multiply_distances(known, {.scaling = DistanceScaling::Margin, .margin = 500.0});
         CHECK(largest_difference(weights.weights(), std::vector<double>(distances.size(), 0.0)) ==
               0.0);
     }
-    CHECK_THROWS_AS(weights.multiply_distances(distances, {.omega = 0.0}), InvalidInput);
+    CHECK_THROWS_AS(weights.multiply_distances(known, {.omega = 0.0}), InvalidInput);
+    CHECK_THROWS_AS(weights.multiply_distances(known, {.margin = -1.0}), InvalidInput);
     CHECK_THROWS_AS(weights.find_orientation_change(Vec3::Zero()), InvalidInput);
 }
 

@@ -1,0 +1,110 @@
+#include "gpu/device_neighbours.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include "geometry/distance_tree.h"
+#include "smoothing/distance_weights.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+
+constexpr std::uint32_t kLeaf = 0x80000000;  // gpu/shaders/neighbour_distance.comp
+constexpr float kUnknown = 3.1e38F;
+
+struct DeviceNode {
+    std::array<float, 3> low;
+    std::uint32_t begin;
+    std::array<float, 3> high;
+    std::uint32_t right;
+};
+
+struct DeviceDipole {
+    Vector4f area_normal, centre;
+};
+
+std::array<float, 3> numbers(const Vec3& p) {
+    const Vector3f single = p.cast<float>();
+    return {single.x(), single.y(), single.z()};
+}
+
+/// A neighbour's tree, relative to the centre of the surface.
+struct DeviceTree {
+    Buffer nodes, corners, dipoles;
+
+    DeviceTree(const DeviceSurface& surface, const Surface& neighbour) {
+        const detail::DistanceTree tree(neighbour.points(), neighbour.triangles());
+        const Device& device = surface.device();
+        const Vec3& centre = surface.centre();
+        std::vector<DeviceNode> boxes;
+        for (const BoxTree::Node& node : tree.tree.nodes())
+            boxes.push_back({numbers(node.box.min() - centre), node.begin,
+                             numbers(node.box.max() - centre),
+                             node.right != 0 ? node.right : kLeaf + (node.end - node.begin)});
+        nodes = make_storage(device, std::span<const DeviceNode>(boxes), "a neighbour's boxes");
+        std::vector<Vector4f> points;
+        const auto add = [&](const Vec3& p) {
+            points.emplace_back() << (p - centre).cast<float>(), 1.0F;
+        };
+        for (const auto& [a, b, c] : tree.corners) {
+            add(a);
+            add(b);
+            add(c);
+        }
+        corners = make_storage(device, std::span<const Vector4f>(points), "a neighbour's corners");
+        std::vector<DeviceDipole> parts(tree.dipoles.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            const detail::Dipole& dipole = tree.dipoles[i];
+            parts[i].area_normal << dipole.area_normal.cast<float>(),
+                static_cast<float>(dipole.radius);
+            parts[i].centre << (dipole.centre - centre).cast<float>(), 1.0F;
+        }
+        dipoles =
+            make_storage(device, std::span<const DeviceDipole>(parts), "a neighbour's dipoles");
+    }
+};
+
+void search(const DeviceSurface& surface, const Surface& neighbour, const Buffer& distances) {
+    const DeviceTree tree(surface, neighbour);
+    const Program& program = surface.program("neighbour_distance");
+    bind_storage({&surface.shifts(), &distances, nullptr, &tree.nodes, &tree.corners, &tree.dipoles,
+                  &surface.anchors()});
+    glUseProgram(program.id());
+    glUniform1i(1, detail::is_closed(neighbour) ? 1 : 0);
+    glUniform1f(2, static_cast<float>(detail::kFarFactor));
+    dispatch(surface.device(), program, surface.vertex_count());
+}
+
+}  // namespace
+
+NeighbourDistances find_neighbour_distances(const DeviceSurface& surface,
+                                            std::span<const Surface> neighbours) {
+    detail::require_neighbours(neighbours);
+    const Device& device = surface.device();
+    const std::size_t count = surface.vertex_count();
+    NeighbourDistances found;
+    found.distances = make_storage(device, count * sizeof(float), "distances to neighbours");
+    fill_storage(found.distances, std::bit_cast<std::uint32_t>(kUnknown));
+    for (const Surface& neighbour : neighbours) search(surface, neighbour, found.distances);
+    const std::array<std::uint32_t, 2> none = {0xFFFFFFFF, 0};
+    const Buffer range =
+        make_storage(device, std::span<const std::uint32_t>(none), "range of distances");
+    bind_storage({&found.distances, &range});
+    dispatch(device, surface.program("distance_range"), count);
+    const auto bits = read_storage<std::uint32_t>(range, 2);
+    require_context(device);
+    found.least = std::bit_cast<float>(bits[0]);
+    found.most = std::bit_cast<float>(bits[1]);
+    return found;
+}
+
+}  // namespace vesselbench
