@@ -7,86 +7,11 @@
 #include "geometry/errors.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
-#include "geometry/surface_distance.h"
+#include "geometry/surface_samples.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// Samples per triangle edge are limited: a giant triangle must not cost minutes.
-constexpr int kMostSamples = 24;
-
-/// Gathers distances of samples.
-struct Distances {
-    double largest = 0.0;  ///< [mm]
-    double sum = 0.0;      ///< of distance x area [mm^3]
-    double area = 0.0;     ///< [mm^2]
-
-    void add(double distance, double sample_area) {
-        largest = std::max(largest, distance);
-        sum += distance * sample_area;
-        area += sample_area;
-    }
-
-    [[nodiscard]] PartDistance mean() const { return {area > 0.0 ? sum / area : 0.0, largest}; }
-};
-
-struct Samples {
-    Positions points;
-    std::vector<double> areas;          ///< each point stands for [mm^2]
-    std::vector<TriangleId> triangles;  ///< one that each point lies in
-};
-
-double longest_edge(const Positions& points, const Triangle& t) {
-    return std::max({(points[t[0]] - points[t[1]]).norm(), (points[t[1]] - points[t[2]]).norm(),
-                     (points[t[2]] - points[t[0]]).norm()});
-}
-
-/// Centres of the n^2 equal parts of every triangle, n from its longest edge; and all vertices,
-/// which stand for no area.
-Samples samples_of(const Surface& surface, double spacing) {
-    Samples samples;
-    samples.points = surface.points();
-    samples.areas.assign(samples.points.size(), 0.0);
-    samples.triangles.assign(samples.points.size(), 0);
-    for (TriangleId id = 0; id < surface.triangle_count(); ++id) {
-        const Triangle& t = surface.triangles()[id];
-        for (const VertexId corner : t) samples.triangles[corner] = id;
-        const auto& points = surface.points();
-        const int n = std::clamp(static_cast<int>(std::ceil(longest_edge(points, t) / spacing)), 1,
-                                 kMostSamples);
-        const Vec3 u = (points[t[1]] - points[t[0]]) / n, v = (points[t[2]] - points[t[0]]) / n;
-        const double part = triangle_area(points, t) / (n * n);
-        samples.areas.resize(samples.areas.size() + n * n, part);
-        samples.triangles.resize(samples.areas.size(), id);
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; i + j < n; ++j) {
-                samples.points.push_back(points[t[0]] + (i + 1.0 / 3) * u + (j + 1.0 / 3) * v);
-                if (i + j + 1 == n) continue;
-                samples.points.push_back(points[t[0]] + (i + 2.0 / 3) * u + (j + 2.0 / 3) * v);
-            }
-    }
-    return samples;
-}
-
-struct Found {
-    Samples samples;
-    std::vector<SurfacePoint> closest;  ///< on the other surface
-};
-
-Found found_from(const Surface& from, const Surface& to, double spacing) {
-    Found found{samples_of(from, spacing), {}};
-    found.closest = SurfaceDistance(to).closest_points(found.samples.points);
-    return found;
-}
-
-Distances one_way(const Surface& from, const Surface& to, double spacing) {
-    const auto [samples, closest] = found_from(from, to, spacing);
-    Distances result;
-    for (std::size_t i = 0; i < closest.size(); ++i)
-        result.add(closest[i].distance, samples.areas[i]);
-    return result;
-}
 
 /// No wider apart than half the mean edge of the finer surface.
 /// \throw InvalidInput if one of them cannot be compared
@@ -107,8 +32,10 @@ bool same_triangles(const Surface& a, const Surface& b) {
 
 ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference) {
     const double spacing = sample_spacing(surface, reference);
-    const Distances there = one_way(surface, reference, spacing);
-    const Distances back = one_way(reference, surface, spacing);
+    const SampledDistance there =
+        sampled_distance(surface_samples(surface, spacing), SurfaceDistance(reference));
+    const SampledDistance back =
+        sampled_distance(surface_samples(reference, spacing), SurfaceDistance(surface));
     ReferenceComparison result;
     result.hausdorff = std::max(there.largest, back.largest);
     result.hausdorff_to_reference = there.largest;
@@ -136,16 +63,17 @@ WeighedComparison compare_by_weight(const Surface& surface, const Surface& refer
         for (const VertexId v : reference.triangles()[t]) sum += weights[v];
         return sum > 1.5;
     };
-    Distances inside, outside;
-    const Found there = found_from(surface, reference, spacing);
-    for (std::size_t i = 0; i < there.closest.size(); ++i)
-        (weighs_much(there.closest[i].triangle) ? inside : outside)
-            .add(there.closest[i].distance, there.samples.areas[i]);
-    const Found back = found_from(reference, surface, spacing);
-    for (std::size_t i = 0; i < back.closest.size(); ++i)
-        (weighs_much(back.samples.triangles[i]) ? inside : outside)
-            .add(back.closest[i].distance, back.samples.areas[i]);
-    return {inside.mean(), outside.mean()};
+    SampledDistance inside, outside;
+    const SurfaceSamples here = surface_samples(surface, spacing);
+    const auto there = SurfaceDistance(reference).closest_points(here.points);
+    for (std::size_t i = 0; i < there.size(); ++i)
+        (weighs_much(there[i].triangle) ? inside : outside).add(there[i].distance, here.areas[i]);
+    const SurfaceSamples references = surface_samples(reference, spacing);
+    const auto back = SurfaceDistance(surface).closest_points(references.points);
+    for (std::size_t i = 0; i < back.size(); ++i)
+        (weighs_much(references.triangles[i]) ? inside : outside)
+            .add(back[i].distance, references.areas[i]);
+    return {{inside.mean(), inside.largest}, {outside.mean(), outside.largest}};
 }
 
 }  // namespace vesselbench

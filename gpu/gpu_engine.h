@@ -3,9 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "quality/smoothing_engine.h"
-
 #include "gpu/device_choice.h"
+#include "quality/smoothing_engine.h"
 
 namespace vesselbench {
 

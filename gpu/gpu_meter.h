@@ -3,9 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "quality/surface_meter.h"
-
 #include "gpu/device_surface.h"
+#include "quality/surface_meter.h"
 
 namespace vesselbench {
 

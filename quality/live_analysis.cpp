@@ -7,9 +7,8 @@
 
 namespace vesselbench {
 
-LiveAnalysis::LiveAnalysis(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
-                           Receiver receiver)
-    : search_(std::move(engine), std::move(space), {}),
+LiveAnalysis::LiveAnalysis(ParameterSearch search, Receiver receiver)
+    : search_(std::move(search)),
       receiver_(std::move(receiver)),
       worker_([this](const std::stop_token& end) { work(end); }) {}
 
@@ -66,7 +65,7 @@ void LiveAnalysis::answer(const Request& request) {
     known.analysis = sensitivity(search_, request.current, false, progress);
     send(request, known);
     const bool small = search_.space().parameters.size() <= 3;  // else its grid takes too long
-    known.best = small ? search_.estimated(progress) : search_.pattern(8, progress);
+    known.best = small ? search_.estimated(progress) : search_.estimated_pattern({}, progress);
     send(request, known);
     if (small) known.best = search_.refined(*known.best, kReach, progress);
     known.complete = true;

@@ -30,8 +30,7 @@ public:
     /// Called on the analysis' own thread, answer after answer; must not call back.
     using Receiver = std::function<void(const LiveAnswer&)>;
 
-    LiveAnalysis(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
-                 Receiver receiver);
+    LiveAnalysis(ParameterSearch search, Receiver receiver);
 
     /// Stops what is under way.
     ~LiveAnalysis();

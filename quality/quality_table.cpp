@@ -10,6 +10,8 @@ namespace vesselbench {
 
 namespace {
 
+constexpr int kStrong = 50;  // iterations (6.5.3)
+
 int iterations_of(const ParameterSet& set) {
     return static_cast<int>(std::lround(set.back()));
 }
@@ -120,11 +122,14 @@ std::optional<QualityMeasures> QualityTable::at(const ParameterSet& set, const P
 
 const QualityMeasures& QualityTable::strong(const Progress& progress) {
     if (strong_) return *strong_;
-    constexpr int kStrong = 50;
     const auto run = engine_->start({LaplaceParameters{1.0}, nullptr});
     run->advance_to(kStrong, progress);
     strong_ = run->measure();
     return *strong_;
+}
+
+std::string QualityTable::strong_name() const {
+    return std::to_string(kStrong) + " iterations of laplace with lambda 1";
 }
 
 }  // namespace vesselbench

@@ -6,8 +6,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "quality/measure_source.h"
 #include "quality/smoothing_engine.h"
 
 namespace vesselbench {
@@ -18,44 +20,35 @@ enum class Fidelity {
     Estimate  ///< as SmoothingEngine::start_estimate
 };
 
-/// Values of all parameters of a search; the last one is the number of iterations.
-using ParameterSet = std::vector<double>;
-
 /// Makes the filter of a parameter set, whose iterations do not count; none: a set to leave out, as
 /// the filter would roughen the surface. Called by one thread at a time.
 using Chooser = std::function<std::optional<SmoothingChoice>(std::span<const double> values)>;
 
-/// The measures of parameter sets on one surface, each found once. Sets that differ in iterations
-/// only share a run, which goes through all of them; where it goes on later from is kept as far as
-/// memory allows. Different runs go on at the same time. For one thread at a time.
-class QualityTable {
+/// The measures of smoothing, each found once; the last parameter is the number of iterations.
+/// Sets that differ in iterations only share a run, which goes through all of them; where it goes
+/// on later from is kept as far as memory allows. Different runs go on at the same time.
+class QualityTable final : public MeasureSource {
 public:
     /// \param kept_bytes of runs to go on from [bytes]
     QualityTable(std::shared_ptr<const SmoothingEngine> engine, Chooser chooser,
                  std::size_t kept_bytes = std::size_t{256} << 20,
                  Fidelity fidelity = Fidelity::Full);
 
-    /// Finds what is not known yet. If it is interrupted, what was found by then stays known.
-    /// \throw Cancelled
-    void find(std::span<const ParameterSet> sets, const Progress& progress = {});
+    void find(std::span<const ParameterSet> sets, const Progress& progress = {}) override;
 
-    /// None where the set is left out. \throw as find
     [[nodiscard]] std::optional<QualityMeasures> at(const ParameterSet& set,
-                                                    const Progress& progress = {});
+                                                    const Progress& progress = {}) override;
 
-    /// What a very strong smoothing gives, 50 iterations of Laplace with lambda 1 (6.5.3).
-    [[nodiscard]] const QualityMeasures& strong(const Progress& progress = {});
+    [[nodiscard]] const QualityMeasures& original() const override { return engine_->original(); }
 
-    [[nodiscard]] const SmoothingEngine& engine() const { return *engine_; }
+    [[nodiscard]] double mean_edge() const override { return engine_->mean_edge(); }
 
-    /// What was done so far.
-    struct Work {
-        std::size_t evaluations = 0;  ///< measurements of smoothed surfaces
-        std::size_t runs = 0;         ///< filters started from the original surface
-        std::size_t sweeps = 0;       ///< iterations over the surface
-    };
+    /// 50 iterations of Laplace with lambda 1 (6.5.3).
+    [[nodiscard]] const QualityMeasures& strong(const Progress& progress = {}) override;
 
-    [[nodiscard]] const Work& work() const { return work_; }
+    [[nodiscard]] std::string strong_name() const override;
+
+    [[nodiscard]] const Work& work() const override { return work_; }
 
 private:
     /// All sets that differ in iterations only.

@@ -19,11 +19,24 @@ double ratio(double value, double base, double otherwise) {
 ScoreForm score_form_from(const std::string& name) {
     if (name == "default") return ScoreForm::Default;
     if (name == "thesis") return ScoreForm::Thesis;
-    throw InvalidInput("score '" + name + "' is neither default nor thesis");
+    if (name == "compact") return ScoreForm::Compact;
+    throw UsageError("score '" + name + "' is none of default, thesis, compact");
 }
 
 std::string to_string(ScoreForm form) {
-    return form == ScoreForm::Default ? "default" : "thesis";
+    switch (form) {
+        case ScoreForm::Default:
+            return "default";
+        case ScoreForm::Thesis:
+            return "thesis";
+        case ScoreForm::Compact:
+            return "compact";
+    }
+    return "";
+}
+
+std::string target_name(ScoreForm form) {
+    return form == ScoreForm::Compact ? "triangles" : "curvature";
 }
 
 ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures, ScoreForm form) {
@@ -33,8 +46,11 @@ ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures, S
     if (form == ScoreForm::Thesis)
         return {ratio(measures.curvature, original.curvature, 1.0),
                 measures.error_thesis / (original.error_thesis + 1.0), volume};
-    return {ratio(measures.curvature_abs, original.curvature_abs, 1.0),
-            kErrorWeight * ratio(measures.error, base.mean_edge, 0.0), kVolumeWeight * volume};
+    const double target = form == ScoreForm::Compact
+                              ? ratio(measures.triangles, original.triangles, 1.0)
+                              : ratio(measures.curvature_abs, original.curvature_abs, 1.0);
+    return {target, kErrorWeight * ratio(measures.error, base.mean_edge, 0.0),
+            kVolumeWeight * volume};
 }
 
 double score(const ScoreTerms& terms, double tau) {
@@ -43,7 +59,7 @@ double score(const ScoreTerms& terms, double tau) {
         text << "tau = " << tau << " is not in [0, 1]";
         throw InvalidInput(text.str());
     }
-    return tau * terms.curvature + (1.0 - tau) * 0.5 * (terms.error + terms.volume);  // (6.6)
+    return tau * terms.target + (1.0 - tau) * 0.5 * (terms.error + terms.volume);  // (6.6)
 }
 
 }  // namespace vesselbench

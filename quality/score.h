@@ -3,29 +3,33 @@
 #include <cstdint>
 #include <string>
 
-#include "quality/surface_meter.h"
+#include "quality/quality_measures.h"
 
 namespace vesselbench {
 
 /// How curvature, error and volume become one number.
 enum class ScoreForm : std::uint8_t {
     Default,  ///< no unit: integral of |H|, error by the mean edge, without the 1/2
-    Thesis    ///< `score-thesis`: Eq. 6.6 as printed, signed curvature and an error in mm
+    Thesis,   ///< `score-thesis`: Eq. 6.6 as printed, signed curvature and an error in mm
+    Compact   ///< as default, with the number of triangles in place of curvature
 };
 
-/// \throw InvalidInput unless "default" or "thesis"
+/// \throw UsageError unless "default", "thesis" or "compact"
 [[nodiscard]] ScoreForm score_form_from(const std::string& name);
 [[nodiscard]] std::string to_string(ScoreForm form);
 
+/// "curvature" or "triangles": what the form's target is of.
+[[nodiscard]] std::string target_name(ScoreForm form);
+
 struct ScoreSettings {
     ScoreForm form = ScoreForm::Default;
-    double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth
+    double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth (compact: small)
 };
 
 /// The parts of a score, weighted as its form does it, each the smaller the better [-]
 /// (score-thesis: the error in mm).
 struct ScoreTerms {
-    double curvature = 1.0;  ///< by the original's
+    double target = 1.0;  ///< curvature (compact: triangles) by the original's
     double error = 0.0;
     double volume = 0.0;  ///< change, by the original's
 };
@@ -44,7 +48,7 @@ struct ScoreBase {
 [[nodiscard]] ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures,
                                      ScoreForm form);
 
-/// S = tau C + (1 - tau) (E + V) / 2 (Eq. 6.6).
+/// S = tau C + (1 - tau) (E + V) / 2 (Eq. 6.6), with the target for C.
 /// \throw InvalidInput unless tau is in [0, 1]
 [[nodiscard]] double score(const ScoreTerms& terms, double tau);
 

@@ -11,17 +11,24 @@ namespace vesselbench {
 
 /// A parameter that a search may change.
 struct SearchParameter {
-    std::string name;            ///< as the operation `smooth` calls it
+    std::string name;            ///< as the operation calls it
     std::string unit;            ///< "-", "mm"; empty: a number of things
     std::vector<double> values;  ///< ascending
     int coarse = 1;              ///< the first look takes every so many-th value, and the last
+    std::optional<double> idle = std::nullopt;  ///< with which nothing changes, whatever the others
 };
 
-/// What a search goes through: the grid of all values. The iterations are the last parameter.
+/// All values, or the coarse ones.
+[[nodiscard]] std::vector<double> chosen_values(const SearchParameter& parameter, bool coarse);
+
+/// What a search goes through: the grid of all values. Smoothing has the iterations last.
 struct SearchSpace {
     std::vector<SearchParameter> parameters;
-    Chooser chooser;
+    Chooser chooser;  ///< of smoothing only
 };
+
+/// True if a set leaves the surface as it is.
+[[nodiscard]] bool does_nothing(const SearchSpace& space, const ParameterSet& set);
 
 /// A parameter set and how good it is.
 struct Suggestion {
@@ -32,12 +39,17 @@ struct Suggestion {
 };
 
 /// Searches one surface's parameter sets for the lowest score (thesis 6.5.5). Everything found is
-/// kept for the next search; sets that are left out by the chooser count as infinitely bad. Of
-/// equal scores the fewest iterations win, then the smallest values, so that "do not smooth" is 0,
-/// 0.
+/// kept for the next search; sets that are left out count as infinitely bad. Of equal scores the
+/// smallest value of the last parameter wins (of smoothing, the fewest iterations), then the
+/// smallest of the others, so that "do not smooth" is 0, 0.
 class ParameterSearch {
 public:
-    ParameterSearch(std::shared_ptr<const SmoothingEngine> engine, SearchSpace space,
+    /// Of smoothing.
+    ParameterSearch(const std::shared_ptr<const SmoothingEngine>& engine, const SearchSpace& space,
+                    ScoreSettings settings);
+
+    /// Of any operation.
+    ParameterSearch(std::shared_ptr<MeasureSource> table, SearchSpace space,
                     ScoreSettings settings);
 
     /// All sets of the grid, or of its coarse values.
@@ -59,7 +71,12 @@ public:
     /// \throw Cancelled
     [[nodiscard]] Suggestion pattern(int reach = 8, const Progress& progress = {});
 
-    /// The same from one set of the grid. \throw Cancelled
+    /// The same, or one from where an earlier one ended, among estimates where the surface has
+    /// enough vertices for them; what it finds is measured in full. \throw Cancelled
+    [[nodiscard]] Suggestion estimated_pattern(const std::optional<Suggestion>& from = {},
+                                               const Progress& progress = {});
+
+    /// A pattern search from one set of the grid. \throw Cancelled
     [[nodiscard]] Suggestion refined(const Suggestion& from, int reach,
                                      const Progress& progress = {});
 
@@ -70,12 +87,10 @@ public:
 
     [[nodiscard]] const SearchSpace& space() const { return space_; }
 
-    [[nodiscard]] QualityTable& table() { return table_; }
-
-    [[nodiscard]] const QualityTable& table() const { return table_; }
+    [[nodiscard]] MeasureSource& table() { return *table_; }
 
     /// What was done so far, estimates included.
-    [[nodiscard]] QualityTable::Work work() const;
+    [[nodiscard]] MeasureSource::Work work() const;
 
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 
@@ -87,23 +102,9 @@ public:
                                      const Progress& progress = {});
 
 private:
-    using Place = std::vector<int>;  ///< indices into the parameters' values
-
-    [[nodiscard]] ParameterSet values_at(const Place& place) const;
-    [[nodiscard]] Place place_of(const ParameterSet& values) const;
-    [[nodiscard]] std::vector<ParameterSet> neighbourhood(const Place& centre,
-                                                          const std::vector<int>& reach) const;
-    void walk(Suggestion& best, const std::vector<int>& steps, const Progress& progress);
-    [[nodiscard]] Suggestion descend(const Place& start, int reach, const Progress& progress);
-
-    [[nodiscard]] Suggestion along_valley(Suggestion best, const Progress& progress);
-
-    [[nodiscard]] Suggestion best_in(QualityTable& table, const std::vector<ParameterSet>& sets,
-                                     const Progress& progress);
-
     SearchSpace space_;
     ScoreSettings settings_;
-    QualityTable table_, estimates_;
+    std::shared_ptr<MeasureSource> table_, estimates_;  ///< null: not worth it
 };
 
 }  // namespace vesselbench

@@ -1,7 +1,6 @@
 #include "quality/sensitivity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,19 +8,12 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::array kMeasures = {QualityMeasure::Curvature, QualityMeasure::Error,
-                                  QualityMeasure::Volume};
-
 double share(double value, double whole) {
     return whole != 0.0 ? std::abs(value / whole) : 0.0;
 }
 
 std::vector<double> values_of(const SearchParameter& parameter, double current, bool coarse) {
-    std::vector<double> values;
-    const auto step = static_cast<std::size_t>(coarse ? std::max(1, parameter.coarse) : 1);
-    for (std::size_t i = 0; i < parameter.values.size(); i += step)
-        values.push_back(parameter.values[i]);
-    values.push_back(parameter.values.back());
+    std::vector<double> values = chosen_values(parameter, coarse);
     values.push_back(current);
     std::ranges::sort(values);
     const auto [first, last] = std::ranges::unique(values);
@@ -31,39 +23,48 @@ std::vector<double> values_of(const SearchParameter& parameter, double current, 
 
 double goodness_of(const CurvePoint& point, QualityMeasure measure) {
     if (!point.measures) return std::numeric_limits<double>::quiet_NaN();
-    const double bad = measure == QualityMeasure::Curvature ? point.scaled.curvature
-                       : measure == QualityMeasure::Error   ? point.scaled.error
-                                                            : point.scaled.volume;
-    return 1.0 - std::clamp(bad, 0.0, 1.0);
+    return 1.0 - std::clamp(point.scaled.of(measure), 0.0, 1.0);
 }
 
 }  // namespace
 
-std::string to_string(QualityMeasure measure) {
+double ScaledQuality::of(QualityMeasure measure) const {
     switch (measure) {
         case QualityMeasure::Curvature:
-            return "curvature";
+            return curvature;
         case QualityMeasure::Error:
-            return "error";
+            return error;
         case QualityMeasure::Volume:
-            return "volume";
+            return volume;
+        case QualityMeasure::Triangles:
+            return triangles;
     }
-    return "";
+    return 0.0;
 }
 
-QualityScale quality_scale(QualityTable& table, const Progress& progress) {
-    const QualityMeasures& original = table.engine().original();
+std::vector<QualityMeasure> measures_of(const QualityScale& scale) {
+    std::vector<QualityMeasure> list = {QualityMeasure::Curvature, QualityMeasure::Error,
+                                        QualityMeasure::Volume};
+    if (scale.triangles > 0.0) list.push_back(QualityMeasure::Triangles);
+    return list;
+}
+
+QualityScale quality_scale(MeasureSource& table, const Progress& progress) {
+    const QualityMeasures& original = table.original();
     const QualityMeasures& strong = table.strong(progress);
     const bool lessens = strong.curvature_abs < original.curvature_abs;
-    return {original.curvature_abs, lessens ? strong.curvature_abs : 0.0, strong.error,
-            strong.volume - original.volume, original.volume};
+    return {original.curvature_abs, lessens ? strong.curvature_abs : 0.0,
+            strong.error,           strong.volume - original.volume,
+            original.volume,        original.triangles,
+            table.strong_name()};
 }
 
 ScaledQuality scaled_quality(const QualityScale& scale, const QualityMeasures& measures) {
     const double whole = scale.curvature_abs - scale.curvature_zero;
     return {whole != 0.0 ? (measures.curvature_abs - scale.curvature_zero) / whole : 1.0,
             share(measures.error, scale.error),
-            share(measures.volume - scale.original_volume, scale.volume)};
+            share(measures.volume - scale.original_volume, scale.volume),
+            share(measures.triangles, scale.triangles)};
 }
 
 QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
@@ -75,10 +76,10 @@ QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
         sets.push_back(current);
         sets.back()[parameter] = value;
     }
-    QualityTable& table = search.table();
+    MeasureSource& table = search.table();
     const QualityScale scale = quality_scale(table, progress);
     const Suggestion best = search.best_of(sets, progress);
-    const ScoreBase base{table.engine().original(), table.engine().mean_edge()};
+    const ScoreBase base{table.original(), table.mean_edge()};
     for (const ParameterSet& set : sets) {
         CurvePoint point{.value = set[parameter], .measures = table.at(set, progress)};
         if (point.measures) {
@@ -105,6 +106,7 @@ SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& cur
 
 std::vector<QualityBar> quality_bars(const SensitivityAnalysis& analysis, BarOrder order) {
     std::vector<QualityBar> bars;
+    const std::vector<QualityMeasure> measures = measures_of(analysis.scale);
     const auto add = [&](std::size_t curve, QualityMeasure measure) {
         QualityBar bar{curve, measure, {}};
         for (const CurvePoint& point : analysis.curves[curve].points)
@@ -113,9 +115,9 @@ std::vector<QualityBar> quality_bars(const SensitivityAnalysis& analysis, BarOrd
     };
     if (order == BarOrder::Parameter)
         for (std::size_t i = 0; i < analysis.curves.size(); ++i)
-            for (const QualityMeasure measure : kMeasures) add(i, measure);
+            for (const QualityMeasure measure : measures) add(i, measure);
     else
-        for (const QualityMeasure measure : kMeasures)
+        for (const QualityMeasure measure : measures)
             for (std::size_t i = 0; i < analysis.curves.size(); ++i) add(i, measure);
     return bars;
 }

@@ -8,13 +8,18 @@
 
 namespace vesselbench {
 
+enum class QualityMeasure { Curvature, Error, Volume, Triangles };
+
 /// Measures scaled for graphs and bars (thesis 6.5.3) [-].
 struct ScaledQuality {
-    /// Integral of |H|: 1 of the original, 0 of very strong smoothing; by the original's where
-    /// strong smoothing does not lessen it.
+    /// Integral of |H|: 1 of the original, 0 of the strong change; by the original's where the
+    /// strong change does not lessen it.
     double curvature = 1.0;
-    double error = 0.0;   ///< mean local error by that of very strong smoothing
-    double volume = 0.0;  ///< size of the volume change by that of very strong smoothing
+    double error = 0.0;      ///< by that of the strong change
+    double volume = 0.0;     ///< size of the volume change by that of the strong change
+    double triangles = 0.0;  ///< by the original's
+
+    [[nodiscard]] double of(QualityMeasure measure) const;
 };
 
 /// What one value of a parameter gives while the others stay; empty where the set is left out.
@@ -37,18 +42,23 @@ struct QualityCurve {
 /// What 100 % of a graph stands for.
 struct QualityScale {
     double curvature_abs = 0.0;    ///< of the original [mm]
-    double curvature_zero = 0.0;   ///< of very strong smoothing, what 0 % stands for [mm]
-    double error = 0.0;            ///< of very strong smoothing [mm]
-    double volume = 0.0;           ///< change by very strong smoothing [mm^3], with its sign
+    double curvature_zero = 0.0;   ///< of the strong change, what 0 % stands for [mm]
+    double error = 0.0;            ///< of the strong change [mm]
+    double volume = 0.0;           ///< change by the strong change [mm^3], with its sign
     double original_volume = 0.0;  ///< [mm^3]
+    double triangles = 0.0;        ///< of the original; 0 where they cannot change
+    std::string strong;            ///< how the strong change is made
 };
+
+/// The measures that change: the number of triangles only where it can.
+[[nodiscard]] std::vector<QualityMeasure> measures_of(const QualityScale& scale);
 
 struct SensitivityAnalysis {
     QualityScale scale;
     std::vector<QualityCurve> curves;  ///< one for each parameter of the space
 };
 
-[[nodiscard]] QualityScale quality_scale(QualityTable& table, const Progress& progress = {});
+[[nodiscard]] QualityScale quality_scale(MeasureSource& table, const Progress& progress = {});
 
 [[nodiscard]] ScaledQuality scaled_quality(const QualityScale& scale,
                                            const QualityMeasures& measures);
@@ -59,15 +69,12 @@ struct SensitivityAnalysis {
                                          const ParameterSet& current, bool coarse = false,
                                          const Progress& progress = {});
 
-/// The graphs of all parameters. One run goes through all iteration counts. \throw Cancelled
+/// The graphs of all parameters. One run of a filter goes through all iteration counts. \throw
+/// Cancelled
 [[nodiscard]] SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& current,
                                               bool coarse = false, const Progress& progress = {});
 
 /// Model quality bars (6.5.4): the measures of the curves side by side, each value a colour.
-enum class QualityMeasure { Curvature, Error, Volume };
-
-[[nodiscard]] std::string to_string(QualityMeasure measure);
-
 struct QualityBar {
     std::size_t curve = 0;  ///< whose parameter it is
     QualityMeasure measure = QualityMeasure::Curvature;

@@ -3,9 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "quality/surface_meter.h"
-
 #include "geometry/progress.h"
+#include "quality/surface_meter.h"
 #include "smoothing/filter_run.h"
 
 namespace vesselbench {

@@ -101,7 +101,7 @@ std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options
             list.back().values.push_back(slices * options.slice);
         list.push_back({"beta_min", "-", steps(0.0, 1.0, 0.1), 3});
     }
-    list.push_back({kIterations, "", steps(0.0, options.most_iterations, 1.0), 5});
+    list.push_back({kIterations, "", steps(0.0, options.most_iterations, 1.0), 5, 0.0});
     return list;
 }
 

@@ -5,12 +5,12 @@
 #include <numeric>
 #include <string>
 
-#include "quality/ring_kernels.h"
 #include <tbb/parallel_for.h>
 
 #include "geometry/errors.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
+#include "quality/ring_kernels.h"
 #include "smoothing/filter_support.h"
 
 namespace vesselbench {

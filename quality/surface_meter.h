@@ -7,20 +7,10 @@
 #include "geometry/progress.h"
 #include "geometry/topology.h"
 #include "geometry/vec3.h"
+#include "quality/quality_measures.h"
 #include "smoothing/linear_step.h"
 
 namespace vesselbench {
-
-/// What smoothing does to a surface, in a few numbers (thesis 6.4-6.5).
-struct QualityMeasures {
-    double error = 0.0;          ///< mean local error against the original [mm] (6.4.1)
-    double error_thesis = 0.0;   ///< the same as Eq. 6.2 prints it [mm]
-    double curvature = 0.0;      ///< integral of H = H_M n / 2 [mm] (Eqs. 6.3-6.4)
-    double curvature_abs = 0.0;  ///< integral of |H| [mm]
-    double volume = 0.0;         ///< [mm^3] (Eq. 6.5)
-
-    bool operator==(const QualityMeasures&) const = default;
-};
 
 /// Measures states of one surface against their original, again and again: all measures in two
 /// passes over the vertices, on all threads, about the time of 20 sweeps of a filter. The same

@@ -41,17 +41,19 @@ constexpr const char* kPictureFooter =
     "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
 
 constexpr const char* kSuggestFooter =
-    "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by "
-    "tau;\n"
-    "the rows below the first one are little, medium and strong smoothing.\n\n"
+    "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by\n"
+    "tau; the rows below the first one are for little, medium and much of it. Of remesh, fewer\n"
+    "triangles count in place of less curvature.\n\n"
     "  vesselbench suggest aorta.vbench --filter laplace --tau 0.4\n"
-    "  vesselbench suggest aorta.vbench staircase=true";
+    "  vesselbench suggest aorta.vbench staircase=true\n"
+    "  vesselbench suggest aorta.vbench --operation remesh";
 
 constexpr const char* kQualityFooter =
-    "Graphs and bars start from the given arguments of smooth (or its defaults) and change one\n"
-    "parameter at a time. Errors and volumes are shares of what 50 iterations of Laplace with\n"
-    "lambda 1 do; curvature is a share of the original's.\n\n"
-    "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png";
+    "Graphs and bars start from the given arguments of the operation (or its defaults) and change\n"
+    "one parameter at a time. Errors and volumes are shares of what a strong change does: of\n"
+    "smooth, 50 iterations of Laplace with lambda 1. Curvature is a share of the original's.\n\n"
+    "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png\n"
+    "  vesselbench quality aorta.stl --operation remesh --out graphs.svg";
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
@@ -262,29 +264,36 @@ void add_picture(CommandLine& line) {
 }
 
 void add_subject(CLI::App& command, std::string& source, std::vector<std::string>& arguments,
-                 std::string& filter) {
+                 std::string& operation, std::string& filter) {
     command.add_option("SOURCE", source, "Project (.vbench) or surface file")
         ->required()
         ->type_name("");
     command
         .add_option("parameter=value", arguments,
-                    "Arguments of the operation smooth that stay; staircase=true searches its "
+                    "Arguments of the operation that stay; staircase=true of smooth searches its "
                     "thresholds, too")
         ->type_name("");
-    command.add_option("--filter", filter, "Filter (default: what smooth takes)")
+    command
+        .add_option("--operation", operation,
+                    "Operation: smooth, remesh or subdivide (default: smooth)")
+        ->type_name("NAME");
+    command.add_option("--filter", filter, "Filter of smooth (default: what smooth takes)")
         ->type_name("NAME");
 }
 
 void add_suggest(CommandLine& line) {
     const auto options = std::make_shared<SuggestOptions>();
-    CLI::App& command =
-        add_command(line, "suggest", "Suggest parameters for smoothing a surface",
-                    [options, &line] { return suggest_parameters(*options, line.progress), 0; });
-    add_subject(command, options->source, options->arguments, options->filter);
+    CLI::App& command = add_command(
+        line, "suggest", "Suggest parameters of smooth, or another operation, for a surface",
+        [options, &line] { return suggest_parameters(*options, line.progress), 0; });
+    add_subject(command, options->source, options->arguments, options->operation, options->filter);
     command.add_option("--tau", options->tau, "Target smoothness, from 0 (accurate) to 1 (smooth)")
         ->capture_default_str()
         ->type_name("TAU");
-    command.add_option("--score", options->score, "default, or thesis: its Eq. 6.6 as printed")
+    command
+        .add_option(
+            "--score", options->score,
+            "default, thesis (its Eq. 6.6 as printed) or compact (few triangles; remesh takes it)")
         ->capture_default_str()
         ->type_name("FORM");
     command
@@ -308,10 +317,10 @@ void add_suggest(CommandLine& line) {
 
 void add_quality(CommandLine& line) {
     const auto options = std::make_shared<QualityOptions>();
-    CLI::App& command =
-        add_command(line, "quality", "Draw how smoothing parameters change a surface's quality",
-                    [options, &line] { return draw_quality(*options, line.progress), 0; });
-    add_subject(command, options->source, options->arguments, options->filter);
+    CLI::App& command = add_command(
+        line, "quality", "Draw how parameters of smooth, or another operation, change a surface",
+        [options, &line] { return draw_quality(*options, line.progress), 0; });
+    add_subject(command, options->source, options->arguments, options->operation, options->filter);
     command
         .add_option("--out", options->out,
                     "Where to: an .svg gets graphs, or bars if its name holds that word; a .png "

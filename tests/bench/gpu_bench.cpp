@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "quality/quality_table.h"
-
 #include "geometry/errors.h"
 #include "geometry/measure.h"
 #include "gpu/device_caps.h"
@@ -21,6 +19,7 @@
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/gpu_weights.h"
+#include "quality/quality_table.h"
 #include "smoothing/caps.h"
 #include "smoothing/staircase_weights.h"
 #include "smoothing/staircases.h"

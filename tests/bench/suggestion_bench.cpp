@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "quality/quality_table.h"
 #include <tbb/global_control.h>
 
+#include "quality/quality_table.h"
 #include "smoothing/laplace.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/stopwatch.h"

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "quality/smoothing_space.h"
 #include <catch2/catch.hpp>
 
+#include "quality/smoothing_space.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 
@@ -64,7 +64,7 @@ private:
 SCENARIO("Answers come coarsely first, then finer", "[quality][live]") {
     const Surface ball = with_noise(icosphere(10.0, 3), 0.2);
     std::vector<LiveAnswer> answers;
-    LiveAnalysis live(engine_of(ball), laplace_space(),
+    LiveAnalysis live({engine_of(ball), laplace_space(), {}},
                       [&](const LiveAnswer& answer) { answers.push_back(answer); });
     live.ask({0.5, 20.0}, {.tau = 0.5});
     live.wait();
@@ -79,7 +79,7 @@ SCENARIO("Answers come coarsely first, then finer", "[quality][live]") {
 SCENARIO("A new value stops what is under way, and nothing old comes after it", "[quality][live]") {
     const Surface ball = with_noise(icosphere(10.0, 3), 0.2);
     std::vector<LiveAnswer> answers;
-    LiveAnalysis live(engine_of(ball), laplace_space(),
+    LiveAnalysis live({engine_of(ball), laplace_space(), {}},
                       [&](const LiveAnswer& answer) { answers.push_back(answer); });
     std::uint64_t last = 0;
     for (int i = 0; i < 40; ++i) last = live.ask({0.02 * i, 20.0}, {.tau = 0.02 * i});
@@ -103,7 +103,7 @@ SCENARIO("A new value stops what is under way, and nothing old comes after it", 
 SCENARIO("What never ends is stopped by the next value, and by the end", "[quality][live]") {
     int answers = 0;
     {
-        LiveAnalysis live(std::make_shared<EndlessEngine>(), laplace_space(),
+        LiveAnalysis live({std::make_shared<EndlessEngine>(), laplace_space(), {}},
                           [&](const LiveAnswer&) { ++answers; });
         for (int i = 0; i < 5; ++i) {
             live.ask({0.5, 20.0}, {});

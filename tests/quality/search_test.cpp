@@ -3,11 +3,11 @@
 #include <cmath>
 #include <random>
 
-#include "quality/smoothing_space.h"
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
 #include "geometry/errors.h"
+#include "quality/smoothing_space.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 
@@ -74,7 +74,7 @@ SCENARIO("Table 6.2: more target smoothness never smooths less", "[quality][sear
             if (tau == 0.0) CHECK(best.values == ParameterSet{0.0, 0.0});
             if (last) {
                 CHECK(best.values[0] * best.values[1] >= last->values[0] * last->values[1]);
-                CHECK(best.terms.curvature <= last->terms.curvature);
+                CHECK(best.terms.target <= last->terms.target);
                 CHECK(best.terms.error + best.terms.volume >=
                       last->terms.error + last->terms.volume);
             }
@@ -120,7 +120,7 @@ SCENARIO("What is known is not computed again", "[quality][search]") {
     search.set_score({.tau = 0.8});
     const Suggestion smoother = search.exhaustive(true);
     CHECK(search.table().work().evaluations == work.evaluations);
-    CHECK(smoother.terms.curvature <= first.terms.curvature);
+    CHECK(smoother.terms.target <= first.terms.target);
     const Suggestion along = search.along(1, {0.5, 17.0});
     CHECK(along.values[0] == 0.5);
     CHECK(search.table().work().runs == work.runs + 1);
@@ -199,7 +199,7 @@ SCENARIO("Both scores are Eq. 6.6, in units and without", "[quality][score]") {
     CHECK(score(score_terms(base, smooth, ScoreForm::Thesis), 0.6) ==
           Approx(0.6 * 0.9 + 0.4 * 0.5 * (0.3 + 0.05)));
     const ScoreTerms terms = score_terms(base, smooth, ScoreForm::Default);
-    CHECK(terms.curvature == Approx(0.75));
+    CHECK(terms.target == Approx(0.75));
     CHECK(terms.error == Approx(kErrorWeight * 0.25));
     CHECK(terms.volume == Approx(kVolumeWeight * 0.05));
     CHECK_THROWS_AS(score(terms, 1.1), InvalidInput);

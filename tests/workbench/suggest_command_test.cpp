@@ -81,6 +81,12 @@ SCENARIO("The command line suggests parameters", "[workbench][suggest]") {
     GIVEN("nonsense") {
         CHECK(program({"suggest", ball, "--tau", "2"}).exit_code == 2);
         CHECK(program({"suggest", ball, "--search", "fast"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--score", "best"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--score", "compact"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--operation", "repair"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--operation", "remesh", "min_edge=1"}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--operation", "remesh", "--filter", "taubin"}).exit_code ==
+              2);
         CHECK(program({"suggest", ball, "lambda=7"}).exit_code == 2);
         CHECK(program({"suggest", folder + "/none.vtp"}).exit_code == 3);
         CHECK(program({"suggest", ball, "--truth", ball}).exit_code == 2);
@@ -105,6 +111,43 @@ SCENARIO("The command line draws model quality graphs and bars", "[workbench][su
     CHECK(curves[2]["points"].size() == 51);
     CHECK(curves[2]["points"][0]["error"] == 0.0);
     CHECK(curves[2]["points"][0]["curvature"] == 1.0);
+}
+
+SCENARIO("Parameters of operations that change triangles are suggested", "[workbench][suggest]") {
+    const std::string folder = temporary_folder(), ball = ball_file(folder);
+    WHEN("few triangles are wanted of remesh") {
+        const ProgramRun run = program({"suggest", ball, "--operation", "remesh", "--json"});
+        REQUIRE(run.exit_code == 0);
+        const Json json = Json::parse(run.out);
+        THEN("more target means fewer triangles at a larger distance") {
+            const Json &little = json["presets"][0], &much = json["presets"][2];
+            CHECK(json["score_form"] == "compact");
+            CHECK(much["parameters"]["edge"] >= little["parameters"]["edge"]);
+            CHECK(much["triangles"] <= little["triangles"]);
+            CHECK(much["error_mm"] >= little["error_mm"]);
+            CHECK(json["suggestion"]["terms"].contains("triangles"));
+        }
+    }
+    WHEN("a rough ball is to be subdivided") {
+        const ProgramRun run = program({"suggest", ball, "--operation", "subdivide", "--tau", "1"});
+        REQUIRE(run.exit_code == 0);
+        CHECK(run.out.find("vesselbench apply PROJECT subdivide iterations=") != std::string::npos);
+    }
+    WHEN("graphs are drawn") {
+        const std::string graphs = folder + "/graphs.svg";
+        const ProgramRun run =
+            program({"quality", ball, "--operation", "subdivide", "--out", graphs, "--json"});
+        REQUIRE(run.exit_code == 0);
+        CHECK(text_of(graphs).find("triangles") != std::string::npos);
+        const Json json = Json::parse(run.out);
+        CHECK(json["scale"]["triangles"] == 1280.0);
+        CHECK(json["scale"]["strong"] == "subdivide iterations=3");
+        const Json points = json["curves"][0]["points"];
+        REQUIRE(points.size() == 4);
+        CHECK(points[0]["error"] == 0.0);
+        CHECK(points[3]["triangles"] == 64.0);
+        CHECK(points[3]["error"] == 1.0);
+    }
 }
 
 SCENARIO("A search on the GPU suggests what the CPU suggests", "[workbench][suggest][device]") {

@@ -79,10 +79,11 @@ void draw_picture(const PictureArguments& arguments);
 
 struct SuggestOptions {
     std::string source;                  ///< project or surface file
-    std::vector<std::string> arguments;  ///< "parameter=value" of smooth
-    std::string filter;                  ///< empty: as smooth decides
-    double tau = 0.5;                    ///< target smoothness
-    std::string score = "default";
+    std::vector<std::string> arguments;  ///< "parameter=value" of the operation
+    std::string operation = "smooth";
+    std::string filter;  ///< of smooth; empty: as smooth decides
+    double tau = 0.5;    ///< target smoothness
+    std::string score;   ///< empty: what suits the operation
     std::string search = "automatic";
     std::string truth;  ///< surface file; empty: none
     std::string units;  ///< of surface files; empty: mm
@@ -90,14 +91,15 @@ struct SuggestOptions {
     bool json = false;
 };
 
-/// Suggests parameters for smoothing a surface.
+/// Suggests parameters of an operation for a surface.
 void suggest_parameters(const SuggestOptions& options, const Progress& progress);
 
 struct QualityOptions {
     std::string source;
     std::vector<std::string> arguments;
     std::vector<std::string> out;  ///< .svg (graphs, or bars if its name holds that) and .png
-    std::string filter;
+    std::string operation = "smooth";
+    std::string filter;  ///< of smooth; empty: as smooth decides
     double tau = 0.5;
     std::string sort = "parameter";  ///< of bars: parameter or measure
     std::vector<double> at;          ///< artifact of the gallery, 3 numbers [mm]; empty: found
@@ -105,7 +107,7 @@ struct QualityOptions {
     bool json = false;
 };
 
-/// Draws how smoothing parameters change a surface's quality.
+/// Draws how the parameters of an operation change a surface's quality.
 void draw_quality(const QualityOptions& options, const Progress& progress);
 
 struct CenterlineOptions {

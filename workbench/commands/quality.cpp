@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <iostream>
 
-#include "quality/sensitivity.h"
 #include <nlohmann/json.hpp>
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/wording.h"
+#include "quality/sensitivity.h"
 #include "workbench/commands/commands.h"
 #include "workbench/console.h"
 #include "workbench/pending_files.h"
@@ -45,16 +45,18 @@ bool wants_bars(const std::string& out) {
 QualityTitle title_of(const SearchSubject& subject, double tau) {
     return {subject.name + (subject.state.empty() ? "" : ", " + subject.state) + ", " +
                 counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices"),
-            subject.arguments.text("filter"), tau};
+            change_text(subject), tau};
 }
 
 Json json_of(const SensitivityAnalysis& analysis) {
     Json json = {{"scale",
-                  {{"curvature_abs_mm", analysis.scale.curvature_abs},
+                  {{"strong", analysis.scale.strong},
+                   {"curvature_abs_mm", analysis.scale.curvature_abs},
                    {"curvature_zero_mm", analysis.scale.curvature_zero},
                    {"error_mm", analysis.scale.error},
                    {"volume_mm3", analysis.scale.volume},
-                   {"original_volume_mm3", analysis.scale.original_volume}}},
+                   {"original_volume_mm3", analysis.scale.original_volume},
+                   {"triangles", analysis.scale.triangles}}},
                  {"curves", Json::array()}};
     for (const QualityCurve& curve : analysis.curves) {
         Json one = {{"parameter", curve.name},
@@ -68,6 +70,7 @@ Json json_of(const SensitivityAnalysis& analysis) {
                                          {"curvature", point.scaled.curvature},
                                          {"error", point.scaled.error},
                                          {"volume", point.scaled.volume},
+                                         {"triangles", point.scaled.triangles},
                                          {"score", point.score}});
         json["curves"].push_back(std::move(one));
     }
@@ -77,15 +80,17 @@ Json json_of(const SensitivityAnalysis& analysis) {
 SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
                                 const Progress& progress) {
     const SearchSpace space = space_for(subject, true);
-    ParameterSearch search(engine_for(subject).engine, space, {.tau = tau});
-    return sensitivity(search, given_set(subject, space), false, progress);
+    ParameterSearch search =
+        search_for(subject, engine_for(subject), space, {.form = usual_score(subject), .tau = tau});
+    const ParameterSet now = given_set(subject, space, progress.part(0.0, 0.1));
+    return sensitivity(search, now, false, progress.part(0.1, 1.0));
 }
 
 /// The target and the parameters, in lines that fit under a model.
 std::vector<std::string> caption(double tau, const SearchSpace& space, const ParameterSet& set) {
     constexpr std::size_t kMostLetters = 34;
     std::vector<std::string> lines = {"tau " + formatted(tau, "%g")};
-    if (set.back() == 0.0) return {lines.front() + ": do not smooth"};
+    if (does_nothing(space, set)) return {lines.front() + ": leave it as it is"};
     lines.emplace_back();
     for (std::size_t i = 0; i < set.size(); ++i) {
         const std::string word = space.parameters[i].name + " " + formatted(set[i], "%g");
@@ -107,10 +112,12 @@ Surface outward(const Surface& surface, double volume) {
 
 std::string gallery_of(const SearchSubject& subject, const QualityOptions& options,
                        const Progress& progress) {
-    SuggestionSearch search(subject, {}, SearchWay::Automatic);
+    SuggestionSearch search(subject, usual_score(subject), SearchWay::Automatic);
     std::vector<GalleryModel> models;
     for (const double tau : kPresetTaus) {
-        const Suggestion found = search.suggest(tau, progress);
+        const double done = static_cast<double>(models.size()) / kPresetTaus.size();
+        const Suggestion found =
+            search.suggest(tau, progress.part(done, done + 1.0 / kPresetTaus.size()));
         const QualityMeasures& original = search.original();
         const double volume = 100.0 * (found.measures.volume / original.volume - 1.0);
         const double curvature = 100.0 * found.measures.curvature_abs / original.curvature_abs;
@@ -118,14 +125,16 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
         lines.push_back("volume " + formatted(volume, "%+.2f") + " %, curvature " +
                         formatted(curvature, "%.0f") + " %");
         lines.push_back("mean distance " + formatted(found.measures.error, "%.2g") + " mm");
+        if (found.measures.triangles > 0.0)
+            lines.push_back(formatted(found.measures.triangles, "%.0f") + " triangles");
         models.push_back(
-            {outward(search.smoothed(found.values, progress), original.volume), std::move(lines)});
+            {outward(search.changed(found.values, progress), original.volume), std::move(lines)});
     }
     std::optional<Vec3> at;
     if (!options.at.empty()) at = Vec3(options.at[0], options.at[1], options.at[2]);
     return png(quality_gallery(outward(surface_of(subject.scene), search.original().volume), models,
-                               subject.name + ", filter " + subject.arguments.text("filter") +
-                                   ": little, medium and strong smoothing",
+                               subject.name + ", " + change_text(subject) +
+                                   ": suggestions for little, medium and much of it",
                                at));
 }
 
@@ -134,7 +143,8 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
 void draw_quality(const QualityOptions& options, const Progress& progress) {
     check(options);
     const SearchSubject subject = search_subject(
-        {options.source, options.units, options.filter, options.arguments}, progress);
+        {options.source, options.units, options.operation, options.filter, options.arguments},
+        progress);
     for (const std::string& note : subject.notes) remark(note);
     std::optional<SensitivityAnalysis> analysis;
     const auto figures = [&]() -> const SensitivityAnalysis& {

@@ -30,7 +30,7 @@ double volume_percent(const QualityMeasures& original, const QualityMeasures& me
 Json found_json(const SearchSpace& space, const ParameterSet& set) {
     Json json;
     for (std::size_t i = 0; i < set.size(); ++i)
-        if (space.parameters[i].name == "iterations")
+        if (space.parameters[i].unit.empty())
             json[space.parameters[i].name] = static_cast<int>(set[i]);
         else
             json[space.parameters[i].name] = set[i];
@@ -38,27 +38,29 @@ Json found_json(const SearchSpace& space, const ParameterSet& set) {
 }
 
 Json measures_json(const QualityMeasures& original, const QualityMeasures& measures) {
-    return {{"error_mm", measures.error},
-            {"error_thesis_mm", measures.error_thesis},
-            {"curvature_mm", measures.curvature},
-            {"curvature_abs_mm", measures.curvature_abs},
-            {"volume_mm3", measures.volume},
-            {"volume_change_percent", volume_percent(original, measures)}};
+    Json json = {{"error_mm", measures.error},
+                 {"error_thesis_mm", measures.error_thesis},
+                 {"curvature_mm", measures.curvature},
+                 {"curvature_abs_mm", measures.curvature_abs},
+                 {"volume_mm3", measures.volume},
+                 {"volume_change_percent", volume_percent(original, measures)}};
+    if (measures.triangles > 0.0) json["triangles"] = static_cast<std::size_t>(measures.triangles);
+    return json;
 }
 
-Json suggestion_json(const SuggestionSearch& search, double tau, const Suggestion& suggestion) {
+Json suggestion_json(SuggestionSearch& search, double tau, const Suggestion& suggestion) {
     Json json = {{"tau", tau},
                  {"parameters", found_json(search.space(), suggestion.values)},
                  {"score", suggestion.score},
                  {"terms",
-                  {{"curvature", suggestion.terms.curvature},
+                  {{target_name(search.form()), suggestion.terms.target},
                    {"error", suggestion.terms.error},
                    {"volume", suggestion.terms.volume}}}};
     json.update(measures_json(search.original(), suggestion.measures));
     return json;
 }
 
-/// Mean distance of a smoothed surface's vertices from a surface known to be true [mm].
+/// Mean distance of a changed surface's vertices from a surface known to be true [mm].
 double distance_from(const SurfaceDistance& truth, const Surface& surface) {
     double sum = 0.0;
     for (const SurfacePoint& closest : truth.closest_points(surface.points()))
@@ -75,7 +77,7 @@ Json grid_json(SuggestionSearch& search, const SuggestOptions& options, const Pr
         if (!measures) continue;
         Json one = {{"parameters", found_json(search.space(), set)}};
         one.update(measures_json(search.original(), *measures));
-        if (truth) one["truth_mm"] = distance_from(*truth, search.smoothed(set, progress));
+        if (truth) one["truth_mm"] = distance_from(*truth, search.changed(set, progress));
         list.push_back(std::move(one));
     }
     return list;
@@ -92,25 +94,29 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
                        const std::vector<std::pair<double, Suggestion>>& found) {
     std::vector<std::vector<std::string>> rows = {
         {"tau", "suggestion", "curvature", "mean distance [mm]", "volume", "score"}};
+    const bool counts = search.original().triangles > 0.0;
+    if (counts) rows.front().emplace_back("triangles");
     for (const auto& [tau, one] : found) {
-        const bool nothing = one.values.back() == 0.0;
+        const bool nothing = does_nothing(search.space(), one.values);
         const double kept =
             search.original().curvature_abs > 0.0
                 ? 100.0 * one.measures.curvature_abs / search.original().curvature_abs
                 : 100.0;
-        rows.push_back({formatted(tau, "%g"),
-                        nothing ? "do not smooth" : set_text(search.space(), one.values),
-                        formatted(kept, "%.1f") + " %", formatted(one.measures.error),
-                        formatted(volume_percent(search.original(), one.measures), "%+.2f") + " %",
-                        formatted(one.score, "%.4f")});
+        rows.push_back(
+            {formatted(tau, "%g"),
+             nothing ? "do not " + subject.operation->name : set_text(search.space(), one.values),
+             formatted(kept, "%.1f") + " %", formatted(one.measures.error),
+             formatted(volume_percent(search.original(), one.measures), "%+.2f") + " %",
+             formatted(one.score, "%.4f")});
+        if (counts) rows.back().push_back(formatted(one.measures.triangles, "%.0f"));
     }
     std::cout << as_columns(rows);
     const Suggestion& first = found.front().second;
-    if (first.values.back() == 0.0) return;
+    if (does_nothing(search.space(), first.values)) return;
     const Arguments arguments = typed_arguments(subject, search.space(), first.values);
     const std::string project = subject.is_project ? subject.name : "PROJECT";
-    std::cout << "\nvesselbench apply " << project << " smooth "
-              << argument_summary(find_operation("smooth"), arguments) << "\n";
+    std::cout << "\nvesselbench apply " << project << " " << subject.operation->name << " "
+              << argument_summary(*subject.operation, arguments) << "\n";
 }
 
 Json work_json(const QualityTable::Work& work, double seconds) {
@@ -118,6 +124,17 @@ Json work_json(const QualityTable::Work& work, double seconds) {
             {"runs", work.runs},
             {"sweeps", work.sweeps},
             {"seconds", seconds}};
+}
+
+/// The score that the user names, or the operation's usual one.
+ScoreForm form_for(const SuggestOptions& options, const SearchSubject& subject) {
+    if (options.score.empty()) return usual_score(subject);
+    const ScoreForm form = score_form_from(options.score);
+    if (form == ScoreForm::Compact && subject.smoothing)
+        throw UsageError("--score compact is of operations that change the number of triangles");
+    if (form == ScoreForm::Thesis && !subject.smoothing)
+        throw UsageError("--score thesis is of smooth: its error needs the same triangles");
+    return form;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -129,13 +146,14 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
                 const std::vector<std::pair<double, Suggestion>>& found, const Json& work,
                 const Progress& progress) {
     Json json = {{"source", subject.name},
-                 {"filter", subject.arguments.text("filter")},
-                 {"score_form", options.score},
+                 {"operation", subject.operation->name},
+                 {"score_form", to_string(search.form())},
                  {"search", options.search},
                  {"device", search.chosen().on_gpu ? "gpu" : "cpu"},
                  {"vertices", surface_of(subject.scene).vertex_count()},
                  {"mean_edge_mm", search.mean_edge()},
                  {"original", measures_json(search.original(), search.original())}};
+    if (subject.smoothing) json["filter"] = subject.arguments.text("filter");
     json["suggestion"] = suggestion_json(search, found.front().first, found.front().second);
     const Arguments arguments = arguments_of(subject, search.space(), found.front().second.values);
     for (const auto& [name, value] : arguments.values())
@@ -153,28 +171,33 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
     if (!options.truth.empty() && !(options.json && options.grid))
         throw UsageError("--truth goes with --json --grid: it adds a distance to each set");
     const SearchSubject subject = search_subject(
-        {options.source, options.units, options.filter, options.arguments}, progress);
+        {options.source, options.units, options.operation, options.filter, options.arguments},
+        progress);
     const auto start = std::chrono::steady_clock::now();
-    SuggestionSearch search(subject, {.form = score_form_from(options.score), .tau = options.tau},
-                            search_way_from(options.search), options.grid);
+    SuggestionSearch search(subject, form_for(options, subject), search_way_from(options.search),
+                            options.grid);
     std::vector<std::pair<double, Suggestion>> found;
     found.emplace_back(options.tau, search.suggest(options.tau, progress.part(0.1, 0.6)));
     const Json work = work_json(search.work(), seconds_since(start));
-    for (const double tau : kPresetTaus)
-        found.emplace_back(tau, search.suggest(tau, progress.part(0.6, 1.0)));
+    for (double done = 0.6; const double tau : kPresetTaus) {
+        found.emplace_back(tau, search.suggest(tau, progress.part(done, done + 0.13)));
+        done += 0.13;
+    }
     for (const std::string& note : subject.notes) remark(note);
-    if (subject.arguments.text("device") == "gpu" && !search.chosen().reason.empty())
+    if (subject.smoothing && subject.arguments.text("device") == "gpu" &&
+        !search.chosen().reason.empty())
         remark("device=gpu: the CPU searched instead, because " + search.chosen().reason);
     if (options.json) return print_json(search, subject, options, found, work, progress);
     std::cout << subject.name << (subject.state.empty() ? "" : ", " + subject.state) << ": "
               << counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices")
-              << ", mean edge " << formatted(search.mean_edge()) << " mm; filter "
-              << subject.arguments.text("filter") << ", score " << options.score << "\n\n";
+              << ", mean edge " << formatted(search.mean_edge()) << " mm; " << change_text(subject)
+              << ", score " << to_string(search.form()) << "\n\n";
     print_suggestions(search, subject, found);
     std::cout
         << "\ncurvature: integral of |H|, of the original's; mean distance: from the original "
            "surface\nsearched: "
-        << work["evaluations"] << " parameter sets, " << work["sweeps"] << " iterations, "
+        << work["evaluations"] << " parameter sets, "
+        << (subject.smoothing ? work["sweeps"].dump() + " iterations, " : "")
         << formatted(work["seconds"].get<double>()) << " s"
         << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
 }

@@ -124,18 +124,19 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
     std::vector<std::vector<double>> deviations;
     for (const GalleryModel& model : models)
         deviations.push_back(distance.signed_distances(model.surface.points()));
-    // The middle one of the models decides the scale: strong smoothing would leave the others pale.
+    // The middle one of the models decides the scale: strong changes would leave the others pale.
     std::vector<double> fulls;
     for (const auto& one : deviations) fulls.push_back(deviation_of_full_colour(one));
     std::ranges::sort(fulls);
     const double full = fulls[fulls.size() / 2];
+    const std::size_t middle = models.size() / 2;
+    const Surface& shown = models[middle].surface;
     const VertexId place =
-        at ? nearest(original, *at) : most_changed(original, deviations[deviations.size() / 2]);
+        nearest(original, at ? *at : shown.points()[most_changed(shown, deviations[middle])]);
     const auto frame = std::make_shared<const Surface>(original);
     const Vec3 view = sight(original);
     PictureOptions near = magnified(frame, place);
     near.back = kInside;
-    near.wires = frame;
     write_text(page, 2.0 * kGap, 34.0, title, 17.0);
     for (int i = 0; i < count; ++i) {
         const GalleryModel& model = models[static_cast<std::size_t>(i)];
@@ -156,6 +157,9 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
             y += kLine;
         }
         near.vertex_colours = colours;
+        near.wires = std::ranges::equal(model.surface.triangles(), original.triangles())
+                         ? frame
+                         : std::make_shared<const Surface>(model.surface);
         paste(page, draw(model.surface, near), left, kHead + kCell + caption);
     }
     add_scale(page, full);

@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-/// One of the smoothed models of a gallery.
+/// One of the changed models of a gallery.
 struct GalleryModel {
     Surface surface;
     std::vector<std::string> captions;  ///< lines under it
@@ -17,7 +17,7 @@ struct GalleryModel {
 
 /// The preview gallery (thesis 6.5.6, Figs. 6.18 and 6.19): the models side by side, coloured by
 /// their deviation from the original; below them an artifact, magnified, under the wireframe of
-/// the original; a colour scale in mm.
+/// the original (or its own, where its triangles are others); a colour scale in mm.
 /// \param at place of the artifact [mm]; none: where the middle model deviates most
 /// \throw GpuUnavailable if there is no usable OpenGL
 [[nodiscard]] Picture quality_gallery(const Surface& original,

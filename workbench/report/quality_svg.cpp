@@ -22,10 +22,20 @@ struct Look {
     const char* dashes;
 };
 
-constexpr std::array<Look, 3> kLooks = {
+constexpr std::array<Look, 4> kLooks = {
     {{QualityMeasure::Curvature, "curvature", "#1b6ca8", ""},
      {QualityMeasure::Error, "error", "#c8442b", "7 3"},
-     {QualityMeasure::Volume, "volume change", "#2e8b57", "2 3"}}};
+     {QualityMeasure::Volume, "volume change", "#2e8b57", "2 3"},
+     {QualityMeasure::Triangles, "triangles", "#7a6a00", "10 3 2 3"}}};
+
+/// Looks of the measures that change.
+std::vector<Look> looks_of(const QualityScale& scale) {
+    const std::vector<QualityMeasure> measures = measures_of(scale);
+    std::vector<Look> looks;
+    for (const Look& look : kLooks)
+        if (std::ranges::find(measures, look.measure) != measures.end()) looks.push_back(look);
+    return looks;
+}
 
 constexpr const char* kInk = "#222";
 constexpr const char* kFaint = "#d9d9d9";
@@ -114,16 +124,9 @@ std::vector<double> ticks(double from, double to, int wanted) {
     return list;
 }
 
-double scaled(const CurvePoint& point, QualityMeasure measure) {
-    return measure == QualityMeasure::Curvature ? point.scaled.curvature
-           : measure == QualityMeasure::Error   ? point.scaled.error
-                                                : point.scaled.volume;
-}
-
 void add_head(Drawing& drawing, const QualityTitle& title, const std::string& what) {
     drawing.text(20, 26, what + ": " + title.source, "font-size=\"16\" font-weight=\"bold\"");
-    drawing.text(
-        20, 46, "filter " + title.filter + "; one parameter changes, the others keep their values");
+    drawing.text(20, 46, title.change + "; one parameter changes, the others keep their values");
 }
 
 /// What 100 % is, of each measure.
@@ -132,17 +135,20 @@ std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
         case QualityMeasure::Curvature:
             return "integral of |H|, 100 % = original (" + formatted(scale.curvature_abs) + " mm)" +
                    (scale.curvature_zero > 0.0
-                        ? ", 0 % = strong smoothing (" + formatted(scale.curvature_zero) + " mm)"
+                        ? ", 0 % = strong change (" + formatted(scale.curvature_zero) + " mm)"
                         : "");
         case QualityMeasure::Error:
-            return "mean distance from the original, 100 % = strong smoothing (" +
+            return "mean distance from the original, 100 % = strong change (" +
                    formatted(scale.error) + " mm)";
         case QualityMeasure::Volume:
-            return "100 % = strong smoothing (" +
+            return "100 % = strong change (" +
                    formatted(scale.original_volume != 0.0
                                  ? 100.0 * scale.volume / scale.original_volume
                                  : 0.0) +
                    " % of the volume)";
+        case QualityMeasure::Triangles:
+            return "how many, 100 % = original (" + std::to_string(std::llround(scale.triangles)) +
+                   ")";
     }
     return "";
 }
@@ -150,7 +156,7 @@ std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
 /// Lower edge of a legend that begins at y.
 double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const QualityTitle& title,
                   double y) {
-    for (const Look& look : kLooks) {
+    for (const Look& look : looks_of(analysis.scale)) {
         drawing.line(20, y - 4, 56, y - 4, stroke(look.colour, 2.2, look.dashes));
         drawing.text(64, y, look.name, "font-weight=\"bold\"");
         drawing.text(170, y, whole_text(analysis.scale, look.measure));
@@ -160,8 +166,7 @@ double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const Q
     drawing.text(64, y, "current value");
     drawing.mark(176, y - 8, false, "fill=\"#8a2be2\"");
     drawing.text(190, y, "suggested, with the others kept (tau " + formatted(title.tau) + ")");
-    drawing.text(20, y + 20, "strong smoothing: 50 iterations of laplace with lambda 1",
-                 "fill=\"#666\"");
+    drawing.text(20, y + 20, "strong change: " + analysis.scale.strong, "fill=\"#666\"");
     return y + 26;
 }
 
@@ -197,8 +202,9 @@ void add_grid(Drawing& drawing, const Panel& panel, const QualityCurve& curve, b
                  "text-anchor=\"middle\" font-weight=\"bold\"");
 }
 
-void add_curves(Drawing& drawing, const Panel& panel, const QualityCurve& curve) {
-    for (const Look& look : kLooks) {
+void add_curves(Drawing& drawing, const Panel& panel, const QualityCurve& curve,
+                const std::vector<Look>& looks) {
+    for (const Look& look : looks) {
         std::string points;
         const auto finish = [&] {
             if (!points.empty()) drawing.curve(points, stroke(look.colour, 2.2, look.dashes));
@@ -211,7 +217,8 @@ void add_curves(Drawing& drawing, const Panel& panel, const QualityCurve& curve)
             }
             points +=
                 coordinate(panel.x(point.value)) + ',' +
-                coordinate(panel.y(std::clamp(scaled(point, look.measure), 0.0, panel.high))) + ' ';
+                coordinate(panel.y(std::clamp(point.scaled.of(look.measure), 0.0, panel.high))) +
+                ' ';
         }
         finish();
     }
@@ -223,11 +230,13 @@ void add_curves(Drawing& drawing, const Panel& panel, const QualityCurve& curve)
 /// Top of the percent axis, the same for all panels.
 double highest_share(const SensitivityAnalysis& analysis) {
     double high = 1.0;
+    const std::vector<QualityMeasure> measures = measures_of(analysis.scale);
     for (const QualityCurve& curve : analysis.curves)
         for (const CurvePoint& point : curve.points)
             if (point.measures)
-                for (const Look& look : kLooks) high = std::max(high, scaled(point, look.measure));
-    return std::min(high * 1.04, 2.0);  // beyond twice the strong smoothing nobody needs figures
+                for (const QualityMeasure measure : measures)
+                    high = std::max(high, point.scaled.of(measure));
+    return std::min(high * 1.04, 2.0);  // beyond twice the strong change nobody needs figures
 }
 
 std::string colour_text(const Colour& linear) {
@@ -275,7 +284,7 @@ double add_colour_scale(Drawing& drawing, double y, const QualityScale& scale) {
     drawing.text(182, y, "worse (100 %)", "text-anchor=\"end\"");
     drawing.text(438, y, "better (0 %)");
     y += 24;
-    for (const Look& look : kLooks) {
+    for (const Look& look : looks_of(scale)) {
         drawing.text(20, y, look.name, "font-weight=\"bold\"");
         drawing.text(130, y, whole_text(scale, look.measure));
         y += 18;
@@ -284,8 +293,7 @@ double add_colour_scale(Drawing& drawing, double y, const QualityScale& scale) {
     drawing.text(40, y, "current value");
     drawing.mark(144, y - 8, false, "fill=\"#8a2be2\"");
     drawing.text(158, y, "suggested, with the others kept");
-    drawing.text(20, y + 20, "strong smoothing: 50 iterations of laplace with lambda 1",
-                 "fill=\"#666\"");
+    drawing.text(20, y + 20, "strong change: " + scale.strong, "fill=\"#666\"");
     return y + 30;
 }
 
@@ -294,7 +302,8 @@ double add_colour_scale(Drawing& drawing, double y, const QualityScale& scale) {
 std::string quality_graphs_svg(const SensitivityAnalysis& analysis, const QualityTitle& title) {
     constexpr double kWidth = 300, kHeight = 240, kGap = 34, kLeft = 70, kTop = 72;
     const auto count = static_cast<double>(analysis.curves.size());
-    Drawing drawing(std::max(kLeft + count * (kWidth + kGap), 660.0), kTop + kHeight + 178);
+    const double legend = 124.0 + 18.0 * static_cast<double>(measures_of(analysis.scale).size());
+    Drawing drawing(std::max(kLeft + count * (kWidth + kGap), 660.0), kTop + kHeight + legend);
     add_head(drawing, title, "Model quality graphs");
     const double high = highest_share(analysis);
     for (std::size_t i = 0; i < analysis.curves.size(); ++i) {
@@ -307,7 +316,7 @@ std::string quality_graphs_svg(const SensitivityAnalysis& analysis, const Qualit
                           curve.points.back().value,
                           high};
         add_grid(drawing, panel, curve, i == 0);
-        add_curves(drawing, panel, curve);
+        add_curves(drawing, panel, curve, looks_of(analysis.scale));
     }
     drawing.text(22, kTop + kHeight / 2, "measure [%]",
                  "text-anchor=\"middle\" font-weight=\"bold\" transform=\"rotate(-90 22 " +
@@ -320,12 +329,14 @@ std::string quality_bars_svg(const SensitivityAnalysis& analysis, const QualityT
                              BarOrder order) {
     constexpr double kLeft = 190, kWidth = 460, kBar = 24, kStep = 38;
     const std::vector<QualityBar> bars = quality_bars(analysis, order);
-    const std::size_t groups = order == BarOrder::Parameter ? analysis.curves.size() : 3;
+    const std::size_t groups =
+        order == BarOrder::Parameter ? analysis.curves.size() : measures_of(analysis.scale).size();
     const double axes = order == BarOrder::Parameter ? static_cast<double>(groups) * 26.0
                                                      : static_cast<double>(bars.size()) * 22.0;
     const double height =
         74 + static_cast<double>(bars.size()) * kStep + axes + static_cast<double>(groups) * 14;
-    Drawing drawing(820, height + 150);
+    Drawing drawing(820,
+                    height + 96.0 + 18.0 * static_cast<double>(measures_of(analysis.scale).size()));
     add_head(drawing, title, "Model quality bars");
     double y = 74;
     for (std::size_t i = 0; i < bars.size(); ++i) {

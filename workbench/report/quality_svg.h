@@ -9,11 +9,11 @@ namespace vesselbench {
 /// What stands above graphs and bars.
 struct QualityTitle {
     std::string source;  ///< "aorta.stl, 12,345 vertices"
-    std::string filter;  ///< "laplace"
+    std::string change;  ///< "filter laplace"
     double tau = 0.5;    ///< of the suggestions
 };
 
-/// Model quality graphs (thesis 6.5.3): a panel for each parameter, the three measures as curves,
+/// Model quality graphs (thesis 6.5.3): a panel for each parameter, the measures as curves,
 /// the current value as a dashed line, the suggested one as a mark on the axis.
 [[nodiscard]] std::string quality_graphs_svg(const SensitivityAnalysis& analysis,
                                              const QualityTitle& title);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "quality/search.h"
-
 #include "workbench/suggest/search_subject.h"
 
 namespace vesselbench {
@@ -30,7 +29,7 @@ enum class SearchWay {
 class SuggestionSearch {
 public:
     /// \param planes measures the error as Eq. 6.2 prints it, too
-    SuggestionSearch(const SearchSubject& subject, ScoreSettings settings, SearchWay way,
+    SuggestionSearch(const SearchSubject& subject, ScoreForm form, SearchWay way,
                      bool planes = false);
 
     /// \throw UsageError unless tau is in [0, 1]; Cancelled
@@ -42,29 +41,28 @@ public:
     [[nodiscard]] std::optional<QualityMeasures> measures(const ParameterSet& set,
                                                           const Progress& progress = {});
 
-    [[nodiscard]] Surface smoothed(const ParameterSet& set, const Progress& progress = {}) const;
+    /// What the operation makes of the surface.
+    [[nodiscard]] Surface changed(const ParameterSet& set, const Progress& progress = {}) const;
 
     [[nodiscard]] const SearchSpace& space() const { return search_.space(); }
 
-    [[nodiscard]] const QualityMeasures& original() const { return chosen_.engine->original(); }
+    [[nodiscard]] const QualityMeasures& original() { return search_.table().original(); }
 
-    [[nodiscard]] double mean_edge() const { return chosen_.engine->mean_edge(); }
+    [[nodiscard]] double mean_edge() { return search_.table().mean_edge(); }  ///< [mm]
 
-    /// Who smooths and measures.
+    [[nodiscard]] ScoreForm form() const { return search_.settings().form; }
+
+    /// Who smooths and measures; of other operations the CPU.
     [[nodiscard]] const ChosenEngine& chosen() const { return chosen_; }
 
-    [[nodiscard]] QualityTable::Work work() const { return search_.work(); }
+    [[nodiscard]] MeasureSource::Work work() const { return search_.work(); }
 
 private:
-    /// With many parameters, another tau is searched from what the last one found.
-    [[nodiscard]] Suggestion from_pattern(const Progress& progress);
-
     const SearchSubject& subject_;
     SearchWay way_;
-    ScoreSettings settings_;
     ChosenEngine chosen_;
     ParameterSearch search_;
-    std::optional<Suggestion> last_;
+    std::optional<Suggestion> last_;  ///< with many parameters, where another tau begins
 };
 
 }  // namespace vesselbench

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace vesselbench {
+
+/// What a change did to a surface, in a few numbers (thesis 6.4-6.5).
+struct QualityMeasures {
+    double error = 0.0;          ///< mean distance from the original [mm]: local error (6.4.1), or
+                                 ///< both ways to the surface where triangles change
+    double error_thesis = 0.0;   ///< the local error as Eq. 6.2 prints it [mm]
+    double curvature = 0.0;      ///< integral of H = H_M n / 2 [mm] (Eqs. 6.3-6.4)
+    double curvature_abs = 0.0;  ///< integral of |H| [mm]
+    double volume = 0.0;         ///< [mm^3] (Eq. 6.5)
+    double triangles = 0.0;      ///< how many; 0 where they cannot change
+
+    bool operator==(const QualityMeasures&) const = default;
+};
+
+}  // namespace vesselbench

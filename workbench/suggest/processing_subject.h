@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "quality/processing_table.h"
+#include "quality/search.h"
+#include "workbench/arguments.h"
+#include "workbench/operation.h"
+
+namespace vesselbench {
+
+/// Operations that change triangles and whose parameters can be searched, by name.
+[[nodiscard]] std::vector<std::string> searched_operations();
+
+/// Compact where the number of triangles is what the operation is for; else default.
+[[nodiscard]] ScoreForm usual_score_of(const Operation& operation);
+
+/// The grid of an operation's parameters on a surface.
+/// \param all_parameters for graphs
+/// \throw UsageError if a given argument stands against what is searched
+[[nodiscard]] SearchSpace processing_space(const Operation& operation, const Surface& surface,
+                                           const Arguments& given, bool all_parameters);
+
+/// What the operation makes of a scene's surface with a set; the other arguments stay.
+/// \throw AlgorithmFailure, InvalidInput as the operation; Cancelled
+[[nodiscard]] Surface processed_with(const Operation& operation, const Scene& scene,
+                                     const Arguments& arguments, const SearchSpace& space,
+                                     const ParameterSet& set, const Progress& progress);
+
+/// The measures of that. Sets with which the operation fails are left out.
+[[nodiscard]] std::shared_ptr<MeasureSource> processing_table(const Operation& operation,
+                                                              const Scene& scene,
+                                                              const Arguments& arguments,
+                                                              const SearchSpace& space);
+
+/// The arguments as a set of that space; what is absent is what the operation decides.
+[[nodiscard]] ParameterSet processing_set(const Operation& operation, const Scene& scene,
+                                          const Arguments& arguments, const SearchSpace& space,
+                                          const Progress& progress);
+
+/// Puts a set's values among arguments.
+void set_values(Arguments& arguments, const Operation& operation, const SearchSpace& space,
+                const ParameterSet& set);
+
+}  // namespace vesselbench
