@@ -42,11 +42,11 @@ constexpr const char* kPictureFooter =
 
 constexpr const char* kSuggestFooter =
     "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by\n"
-    "tau; the rows below the first one are for little, medium and much of it. Of remesh, fewer\n"
-    "triangles count in place of less curvature.\n\n"
+    "tau; the rows below the first one are for little, medium and much of it. Of remesh and\n"
+    "decimate, fewer triangles count in place of less curvature.\n\n"
     "  vesselbench suggest aorta.vbench --filter laplace --tau 0.4\n"
     "  vesselbench suggest aorta.vbench staircase=true\n"
-    "  vesselbench suggest aorta.vbench --operation remesh";
+    "  vesselbench suggest aorta.vbench --operation decimate";
 
 constexpr const char* kQualityFooter =
     "Graphs and bars start from the given arguments of the operation (or its defaults) and change\n"
@@ -275,7 +275,7 @@ void add_subject(CLI::App& command, std::string& source, std::vector<std::string
         ->type_name("");
     command
         .add_option("--operation", operation,
-                    "Operation: smooth, remesh or subdivide (default: smooth)")
+                    "Operation: smooth, remesh, decimate or subdivide (default: smooth)")
         ->type_name("NAME");
     command.add_option("--filter", filter, "Filter of smooth (default: what smooth takes)")
         ->type_name("NAME");
@@ -291,9 +291,8 @@ void add_suggest(CommandLine& line) {
         ->capture_default_str()
         ->type_name("TAU");
     command
-        .add_option(
-            "--score", options->score,
-            "default, thesis (its Eq. 6.6 as printed) or compact (few triangles; remesh takes it)")
+        .add_option("--score", options->score,
+                    "default, thesis (its Eq. 6.6 as printed) or compact (few triangles)")
         ->capture_default_str()
         ->type_name("FORM");
     command

@@ -115,18 +115,17 @@ SCENARIO("The command line draws model quality graphs and bars", "[workbench][su
 
 SCENARIO("Parameters of operations that change triangles are suggested", "[workbench][suggest]") {
     const std::string folder = temporary_folder(), ball = ball_file(folder);
-    WHEN("few triangles are wanted of remesh") {
-        const ProgramRun run = program({"suggest", ball, "--operation", "remesh", "--json"});
+    for (const std::string operation : {"remesh", "decimate"}) {
+        const ProgramRun run = program({"suggest", ball, "--operation", operation, "--json"});
         REQUIRE(run.exit_code == 0);
         const Json json = Json::parse(run.out);
-        THEN("more target means fewer triangles at a larger distance") {
-            const Json &little = json["presets"][0], &much = json["presets"][2];
-            CHECK(json["score_form"] == "compact");
-            CHECK(much["parameters"]["edge"] >= little["parameters"]["edge"]);
-            CHECK(much["triangles"] <= little["triangles"]);
-            CHECK(much["error_mm"] >= little["error_mm"]);
-            CHECK(json["suggestion"]["terms"].contains("triangles"));
-        }
+        INFO(operation << ": more target means fewer triangles at a larger distance");
+        const Json &little = json["presets"][0], &much = json["presets"][2];
+        CHECK(json["score_form"] == "compact");
+        CHECK(much["triangles"] < little["triangles"]);
+        CHECK(much["error_mm"] > little["error_mm"]);
+        CHECK(json["suggestion"]["terms"].contains("triangles"));
+        CHECK(json["suggestion"]["arguments"].contains(operation == "remesh" ? "edge" : "share"));
     }
     WHEN("a rough ball is to be subdivided") {
         const ProgramRun run = program({"suggest", ball, "--operation", "subdivide", "--tau", "1"});

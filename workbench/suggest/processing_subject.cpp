@@ -66,7 +66,7 @@ struct SearchedOperation {
 
 const std::array<SearchedOperation, 3>& table() {
     static const std::array<SearchedOperation, 3> kTable = {
-        {{"decimate", ScoreForm::Compact, &of_decimate, {"triangles", "max_error"}, true},
+        {{"decimate", ScoreForm::Compact, &of_decimate, {"triangles"}, true},
          {"remesh", ScoreForm::Compact, &of_remesh, {"min_edge", "max_edge"}},
          {"subdivide", ScoreForm::Default, &of_subdivide, {}}}};
     return kTable;
