@@ -15,8 +15,16 @@ namespace {
 /// planes [-]: where planes leave a choice the middle is taken, and short edges go first.
 constexpr double kPoints = 1e-5;
 
-/// Weights below this count as this [-]: finite quadrics.
-constexpr double kLeastWeight = 1e-3;
+/// Weights below this count as this [-]. With much less, what is free is ruined to keep the rest,
+/// and takes the rest's border with it.
+constexpr double kLeastWeight = 0.1;
+
+/// At weight 0 a collapse costs at least as much as moving its ends by a third of the edge would
+/// cost at weight 1: so even plane parts stay until then.
+constexpr double kKept = 0.1;
+
+/// Finite penalties for triangles without area [-].
+constexpr double kLeastDivisor = 1e-3;
 
 /// A triangle's normal may turn so far in one collapse (cosine).
 constexpr double kLeastCosine = 0.2;
@@ -78,7 +86,7 @@ void for_each_survivor(const EditMesh& mesh, VertexId a, VertexId b, const Visit
 }  // namespace
 
 bool Decimater::Entry::operator<(const Entry& other) const {
-    return std::tie(last_resort, cost, edge) > std::tie(other.last_resort, other.cost, other.edge);
+    return std::tie(cost, edge) > std::tie(other.cost, other.edge);
 }
 
 Decimater::Decimater(const Surface& source, std::span<const double> weights,
@@ -213,19 +221,26 @@ double Decimater::dearness(const Collapse& collapse) const {
     const double carried = 3.0 * (areas_[a] + areas_[b]);
     return std::max(1.0, area / std::max(carried, kLeastShare * area)) *
            (1.0 + kTurn * (1.0 - least_cosine)) *
-           (1.0 + kShape * (1.0 / std::max(worst, kLeastWeight) - 1.0));
+           (1.0 + kShape * (1.0 / std::max(worst, kLeastDivisor) - 1.0));
+}
+
+double Decimater::full_cost(const Collapse& collapse) const {
+    const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
+    const double cost = collapse.cost * dearness(collapse);
+    if (keep_[a] == 0 && keep_[b] == 0) return cost;
+    const double square = (mesh_.points[a] - mesh_.points[b]).squaredNorm();
+    return cost + kKept * (areas_[a] + areas_[b]) * square;
 }
 
 void Decimater::push(HalfEdge h) {
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     if (locked_[a] != 0 || locked_[b] != 0) return;
     if (mesh_.is_hole(mesh_.patch_at(h)) && mesh_.is_hole(mesh_.patch_at(mesh_.twin(h)))) return;
-    const bool last_resort = keep_[a] != 0 || keep_[b] != 0;
-    if (last_resort && bound_ != nullptr) return;
+    if (bound_ != nullptr && (keep_[a] != 0 || keep_[b] != 0)) return;  // no error is allowed
     const auto collapse = best_collapse(h);
     if (!collapse) return;
-    const double cost = collapse->cost * dearness(*collapse);
-    queue_.push({last_resort, cost, h, stamps_[a], stamps_[b]});
+    const double cost = full_cost(*collapse);
+    queue_.push({cost, h, stamps_[a], stamps_[b]});
 }
 
 void Decimater::push_all() {
@@ -256,7 +271,7 @@ void Decimater::commit(const Collapse& collapse) {
 bool Decimater::try_collapse(const Entry& entry) {
     const auto collapse = best_collapse(entry.edge);
     if (!collapse || !mesh_.can_collapse(collapse->edge) || folds(*collapse)) return false;
-    const double cost = collapse->cost * dearness(*collapse);
+    const double cost = full_cost(*collapse);
     if (cost > entry.cost && !queue_.empty()) {  // its neighbours have changed
         Entry later = entry;
         later.cost = cost;

@@ -45,7 +45,6 @@ private:
 
     /// An edge in the queue, as of the time when its ends had these stamps.
     struct Entry {
-        bool last_resort = false;  ///< touches a vertex of weight 0
         double cost = 0.0;
         HalfEdge edge = EditMesh::kNone;
         std::uint32_t origin_stamp = 0, target_stamp = 0;
@@ -64,6 +63,7 @@ private:
     [[nodiscard]] std::optional<Collapse> best_collapse(HalfEdge h);
     [[nodiscard]] Vec3 place_inside(VertexId a, VertexId b, const Quadric& sum) const;
     [[nodiscard]] double dearness(const Collapse& collapse) const;
+    [[nodiscard]] double full_cost(const Collapse& collapse) const;
     [[nodiscard]] Vec3 facing(TriangleId t, VertexId v) const;
     [[nodiscard]] bool folds(const Collapse& collapse) const;
     [[nodiscard]] bool work_off_queue(std::size_t triangles, const Progress& progress);

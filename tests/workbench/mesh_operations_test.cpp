@@ -1,9 +1,13 @@
+#include <cmath>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stack_phantoms.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/operation.h"
 
@@ -99,4 +103,31 @@ SCENARIO("decimate goes where a neighbour is far, and shows what that gains",
     CHECK(report.at("unweighted_triangles_after") == report.at("triangles_after"));
     const Outcome again = run("decimate", scene, outcome.resolved);
     CHECK(again.scene.surface->points() == outcome.scene.surface->points());
+}
+
+SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
+    // a ball in slices of 3 mm above its middle, and smooth below
+    const auto ball = [](const Vec3& p) {
+        const double z = p.z() > 0.0 ? 3.0 * std::floor(p.z() / 3.0) + 1.5 : p.z();
+        return Vec3(p.x(), p.y(), z).norm() - 20.03;
+    };
+    const Surface stairs = iso_surface(ball, {Vec3(-22, -22, -22), Vec3(22, 22, 22)}, 0.71);
+    const double share = GENERATE(0.25, 0.1, 0.05);
+    const Arguments arguments{
+        {"share", share}, {"staircase", true}, {"tau_theta", 0.5}, {"stack_axis", Vec3(0, 0, 1)}};
+    const auto report = *run("decimate", stairs, arguments).report;
+    const auto figure = [&](const char* key) { return report.at(key).get<double>(); };
+    CAPTURE(share, report.dump());
+    CHECK(figure("unweighted_triangles_after") == figure("triangles_after"));
+    CHECK(figure("outside_mean_distance_mm") <
+          0.85 * figure("unweighted_outside_mean_distance_mm"));
+    CHECK(figure("inside_mean_distance_mm") < 0.5);
+}
+
+SCENARIO("decimate estimates the stack axis once, and replays it", "[workbench][decimate]") {
+    const Surface vessel = of_mask(vessel_in_slices());
+    const Outcome outcome = run("decimate", vessel, {{"share", 0.1}, {"staircase", true}});
+    CHECK(outcome.resolved.has("stack_axis"));
+    CHECK(run("decimate", vessel, outcome.resolved).scene.surface->points() ==
+          outcome.scene.surface->points());
 }

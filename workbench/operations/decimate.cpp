@@ -97,8 +97,8 @@ void warn(const DecimateReport& figures, const DecimateParameters& target, Outco
             ": fewer would fold the surface over, or lose a part of it");
     if (figures.kept_vertices_lost > 0)
         add(counted(figures.kept_vertices_lost, "vertex", "vertices") +
-            " of weight 0 had to go or to move, for nothing else was left; ask for more triangles "
-            "to keep them");
+            " of weight 0 had to go or to move, or so few triangles would ruin the rest; ask for "
+            "more to keep them");
     if (figures.crossings_left > 0)
         add("walls that all but touch near " + place_text(figures.crossing) + " cross in " +
             counted(figures.crossings_left, "place") +
@@ -155,9 +155,10 @@ std::vector<Parameter> parameter_table() {
     add(staircase_parameter_table(action));
     add({{.name = "beta_min",
           .unit = "-",
-          .default_value = 0.1,
-          .help = "how much of the error of staircases all that is none may get: 0 is kept as "
-                  "long as possible, 1 is decimated as staircases are",
+          .default_value = 0.3,
+          .help =
+              "how much of the error [mm] of staircases all that is none may get: near 0 is kept "
+              "as long as that ruins no staircase, 1 is decimated as staircases are",
           .minimum = 0.0,
           .maximum = 1.0,
           .only_with = Condition{"staircase", {"true"}}}});
