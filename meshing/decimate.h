@@ -12,8 +12,8 @@ namespace vesselbench {
 struct DecimateParameters {
     std::optional<std::size_t> triangles = {};  ///< no more than so many are left, > 0
     /// No sample of the source is farther from the result, nor the other way, than this, times its
-    /// weight [mm], > 0. Samples are the source's vertices and middles of edges, and places in the
-    /// result's triangles as far apart as the source's edges are long.
+    /// weight [mm], > 0. Samples are about half of the source's mean edge apart, so that between
+    /// them the distance may be a few per cent more.
     std::optional<double> max_error = {};
 };
 

@@ -280,23 +280,25 @@ bool Decimater::try_collapse(const Entry& entry) {
             return false;
         }
     }
-    if (bound_ == nullptr) {
-        commit(*collapse);
-        return true;
-    }
-    const VertexId a = mesh_.origin(collapse->edge), b = mesh_.target(collapse->edge);
+    if (bound_ != nullptr && !stays_near(*collapse)) return false;
+    commit(*collapse);
+    return true;
+}
+
+/// True if the bound allows the collapse, which it then counts as done.
+bool Decimater::stays_near(const Collapse& collapse) {
+    const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
     std::vector<TriangleId> gone;
     std::vector<ErrorBound::Fresh> fresh;
-    for (const HalfEdge k : {collapse->edge, mesh_.twin(collapse->edge)})
+    for (const HalfEdge k : {collapse.edge, mesh_.twin(collapse.edge)})
         if (!mesh_.is_hole(mesh_.patch_at(k))) gone.push_back(EditMesh::triangle_of(k));
     for (const auto& [end, other] : {std::pair(a, b), std::pair(b, a)})
         for_each_survivor(mesh_, end, other, [&](TriangleId t, VertexId u, VertexId w) {
             gone.push_back(t);
-            fresh.push_back({t, collapse->place, mesh_.points[u], mesh_.points[w]});
+            fresh.push_back({t, collapse.place, mesh_.points[u], mesh_.points[w]});
         });
     if (!bound_->allows(gone, fresh)) return false;
     bound_->accept(gone, fresh);
-    commit(*collapse);
     return true;
 }
 

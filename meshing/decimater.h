@@ -67,6 +67,7 @@ private:
     [[nodiscard]] Vec3 facing(TriangleId t, VertexId v) const;
     [[nodiscard]] bool folds(const Collapse& collapse) const;
     [[nodiscard]] bool work_off_queue(std::size_t triangles, const Progress& progress);
+    [[nodiscard]] bool stays_near(const Collapse& collapse);
     bool try_collapse(const Entry& entry);
     void commit(const Collapse& collapse);
 

@@ -11,7 +11,10 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kMostSamples = 16;  // along an edge of a new triangle
+constexpr int kMostSamples = 16;  // along an edge of a triangle
+
+/// A triangle is large whose longest edge is this many spacings of samples.
+constexpr double kLarge = 3.0;
 
 }  // namespace
 
@@ -25,19 +28,35 @@ ErrorBound::ErrorBound(const Surface& source, std::span<const double> weights, d
       samples_of_(source.triangle_count()) {
     weights_.resize(points_.size(), 1.0);
     std::vector<std::uint8_t> seen(points_.size(), 0);
+    const std::vector<std::uint8_t>& on_boundary = source.topology->boundary_vertices();
     for (TriangleId t = 0; t < triangles_.size(); ++t) {
-        Vec3 centroid = Vec3::Zero();
-        double mean_weight = 0.0;
         for (int i = 0; i < 3; ++i) {
             const VertexId a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
-            centroid += points_[a] / 3.0;
-            mean_weight += weights_[a] / 3.0;
             if (seen[a] == 0) add_sample(points_[a], weights_[a], t);
             seen[a] = 1;
-            add_sample(0.5 * (points_[a] + points_[b]), 0.5 * (weights_[a] + weights_[b]), t);
+            if (a < b || (on_boundary[a] != 0 && on_boundary[b] != 0))  // the other side has it
+                add_sample(0.5 * (points_[a] + points_[b]), 0.5 * (weights_[a] + weights_[b]), t);
         }
-        add_sample(centroid, mean_weight, t);
+        add_inner_samples(t);
     }
+}
+
+/// The centroid, or the centres of equal parts of a triangle that is larger than most.
+void ErrorBound::add_inner_samples(TriangleId t) {
+    const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]],
+               &c = points_[triangles_[t][2]];
+    const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+    const int parts = longest > kLarge * spacing_
+                          ? std::min(static_cast<int>(std::ceil(longest / spacing_)), kMostSamples)
+                          : 1;
+    for (int i = 0; i < parts; ++i)
+        for (int j = 0; i + j < parts; ++j) {
+            const double u = (i + 1.0 / 3.0) / parts, v = (j + 1.0 / 3.0) / parts;
+            add_sample((1.0 - u - v) * a + u * b + v * c,
+                       (1.0 - u - v) * weights_[triangles_[t][0]] + u * weights_[triangles_[t][1]] +
+                           v * weights_[triangles_[t][2]],
+                       t);
+        }
 }
 
 void ErrorBound::add_sample(const Vec3& place, double weight, TriangleId triangle) {

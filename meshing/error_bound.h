@@ -9,11 +9,11 @@
 namespace vesselbench {
 
 /// Keeps a mesh within a distance of the surface it came from while its triangles are replaced,
-/// few by few. Samples of the source (vertices, middles of edges) belong to the triangle they are
-/// nearest to among those that took their triangle's place, so that their true distance is at most
-/// the one that is looked at; places in the new triangles are looked up in the source.
-/// Source: the bookkeeping of Klein, Liebich & Strasser, "Mesh reduction with error control",
-/// Visualization 1996.
+/// few by few. Samples of the source (vertices, middles of edges, inner places) belong to the
+/// triangle they are nearest to among those that took their triangle's place, so that their true
+/// distance is at most the one that is looked at; places in the new triangles are looked up in the
+/// source. Source: the bookkeeping of Klein, Liebich & Strasser, "Mesh reduction with error
+/// control", Visualization 1996.
 class ErrorBound {
 public:
     /// A triangle that takes a place in the mesh.
@@ -38,6 +38,7 @@ private:
         double allowed = 0.0;       ///< [mm]
     };
 
+    void add_inner_samples(TriangleId t);
     void add_sample(const Vec3& place, double weight, TriangleId triangle);
     [[nodiscard]] double allowed_at(const SurfacePoint& at) const;
     [[nodiscard]] bool is_near_source(const Fresh& triangle) const;
@@ -46,7 +47,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<double> weights_;
     double max_error_ = 0.0;
-    double spacing_ = 0.0;  ///< of samples in new triangles [mm]
+    double spacing_ = 0.0;  ///< of samples in triangles: half of the source's mean edge [mm]
     SurfaceDistance search_;
     std::vector<Sample> samples_;
     std::vector<std::vector<std::uint32_t>> samples_of_;          ///< by triangle

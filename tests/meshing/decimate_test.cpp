@@ -237,6 +237,16 @@ SCENARIO("Real vessels stay sound when decimated", "[meshing][decimate]") {
     CHECK(measure(coarse).equiangle_skewness.mean < 0.5);
 }
 
+SCENARIO("A largest error holds on a surface full of slivers, too", "[meshing][decimate]") {
+    const std::string path = shared_data("surfaces/vmtk_aorta_surface.stl");
+    if (path.empty()) return;
+    const Surface vessel = read_surface(path).surface;
+    const Surface coarse = decimate(vessel, {.max_error = 0.1}).surface;
+    CHECK(coarse.triangle_count() < vessel.triangle_count() / 5);
+    CHECK(compare_with_reference(coarse, vessel).hausdorff < 0.105);
+    CHECK(self_intersections(coarse).empty());
+}
+
 SCENARIO("Decimation refuses what makes no sense", "[meshing][decimate]") {
     const Surface sphere = icosphere(1.0, 2);
     CHECK_THROWS_AS(decimate(Surface{}, {.triangles = 10}), InvalidInput);
