@@ -7,6 +7,7 @@
 #include "geometry/measure.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
+#include "gpu/gpu_weights.h"
 
 namespace vesselbench {
 
@@ -81,8 +82,10 @@ constexpr std::size_t kWeightsKept = 16;  // as much memory as a run, all of the
 
 class GpuEngine final : public SmoothingEngine {
 public:
-    GpuEngine(HeldDevice held, const FilterGround& ground, bool planes)
-        : common_(make_common(std::move(held), ground, planes)),
+    GpuEngine(HeldDevice held, const FilterGround& ground, bool planes,
+              std::optional<StaircaseGround> staircases)
+        : staircases_(std::move(staircases)),
+          common_(make_common(std::move(held), ground, planes)),
           prototype_(common_->surface, {.fixed = ground.fixed,
                                         .keep_boundary = ground.keep_boundary,
                                         .rings = ground.rings,
@@ -90,11 +93,17 @@ public:
           mean_edge_(mean_edge_length(common_->surface->surface())) {
         common_->meter.measure(common_->surface->shifts());
         original_ = common_->meter.read().front().quality;
+        if (!staircases_) return;
+        staircase_weights_.emplace(common_->surface);
+        staircase_weights_->find_orientation_change(staircases_->stack_axis);
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
         GpuSmoother smoother = prototype_.copy();
-        if (choice.weights) smoother.set_weights(uploaded(choice.weights));
+        if (choice.staircase && staircases_)
+            smoother.set_weights(made(choice.staircase->values));
+        else if (const SharedWeights weights = weights_of(choice))
+            smoother.set_weights(uploaded(weights));
         smoother.start(choice.filter);
         return std::make_unique<GpuRun>(common_, std::move(smoother));
     }
@@ -103,6 +112,8 @@ public:
 
     [[nodiscard]] double mean_edge() const override { return mean_edge_; }
 
+    [[nodiscard]] bool weighs_staircases() const override { return staircases_.has_value(); }
+
     [[nodiscard]] bool concurrent() const override { return false; }
 
     [[nodiscard]] std::size_t run_bytes() const override {
@@ -110,15 +121,39 @@ public:
     }
 
 private:
-    using Weights = std::shared_ptr<const std::vector<double>>;
+    /// Weights on the device; a search has few, and many runs with each.
+    struct KnownWeights {
+        SharedWeights from;                 ///< the CPU's, or
+        std::optional<StaircaseValues> of;  ///< made there
+        Buffer buffer;
+    };
 
-    /// The weights on the device; a search has few, and many runs with each.
-    const Buffer& uploaded(const Weights& weights) const {
-        const auto known = std::ranges::find(weights_, weights, &UploadedWeights::weights);
-        if (known != weights_.end()) return known->buffer;
+    const Buffer& keep(KnownWeights weights) const {
         if (weights_.size() >= kWeightsKept) weights_.erase(weights_.begin());
-        weights_.push_back({weights, GpuSmoother::upload_weights(*common_->surface, *weights)});
+        weights_.push_back(std::move(weights));
         return weights_.back().buffer;
+    }
+
+    const Buffer& uploaded(const SharedWeights& weights) const {
+        const auto known = std::ranges::find(weights_, weights, &KnownWeights::from);
+        if (known != weights_.end()) return known->buffer;
+        return keep({weights, {}, GpuSmoother::upload_weights(*common_->surface, *weights)});
+    }
+
+    const Buffer& made(const StaircaseValues& values) const {
+        const auto known = std::ranges::find(weights_, std::optional(values), &KnownWeights::of);
+        if (known != weights_.end()) return known->buffer;
+        staircase_weights_->restart();
+        staircase_weights_->multiply_staircases({.tau_theta = values.tau_theta,
+                                                 .tau_max = values.tau_max,
+                                                 .beta_min = values.beta_min,
+                                                 .scaling = staircases_->scaling,
+                                                 .caps = staircases_->caps});
+        if (staircases_->others) staircase_weights_->multiply(uploaded(staircases_->others));
+        const std::size_t bytes = common_->surface->vertex_count() * sizeof(float);
+        Buffer buffer = make_storage(common_->surface->device(), bytes, "weights");
+        copy_storage(staircase_weights_->weights(), buffer, bytes);
+        return keep({nullptr, values, std::move(buffer)});
     }
 
     static std::shared_ptr<Common> make_common(HeldDevice held, const FilterGround& ground,
@@ -129,14 +164,11 @@ private:
             Common{std::move(held), std::move(surface), std::move(meter)});
     }
 
-    struct UploadedWeights {
-        Weights weights;
-        Buffer buffer;
-    };
-
+    std::optional<StaircaseGround> staircases_;
     std::shared_ptr<Common> common_;
     GpuSmoother prototype_;
-    mutable std::vector<UploadedWeights> weights_;  ///< the oldest first
+    mutable std::optional<GpuWeights> staircase_weights_;  ///< with `staircases_`
+    mutable std::vector<KnownWeights> weights_;            ///< the oldest first
     double mean_edge_ = 0.0;
     QualityMeasures original_;
 };
@@ -152,6 +184,8 @@ public:
     [[nodiscard]] const QualityMeasures& original() const override { return gpu_->original(); }
 
     [[nodiscard]] double mean_edge() const override { return gpu_->mean_edge(); }
+
+    [[nodiscard]] bool weighs_staircases() const override { return gpu_->weighs_staircases(); }
 
     [[nodiscard]] bool concurrent() const override { return false; }
 
@@ -234,16 +268,18 @@ std::unique_ptr<MeasuredRun> SafeEngine::start(const SmoothingChoice& choice) co
 }  // namespace
 
 std::shared_ptr<const SmoothingEngine> make_gpu_engine(HeldDevice device,
-                                                       const FilterGround& ground, bool planes) {
-    return std::make_shared<GpuEngine>(std::move(device), ground, planes);
+                                                       const FilterGround& ground, bool planes,
+                                                       std::optional<StaircaseGround> staircases) {
+    return std::make_shared<GpuEngine>(std::move(device), ground, planes, std::move(staircases));
 }
 
 ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground, bool planes,
-                         const DeviceSource& source) {
+                         const DeviceSource& source, std::optional<StaircaseGround> staircases) {
     ChosenDevice chosen = choose_device(choice, source);
     if (chosen.device) try {
             const std::string name = chosen.device->device.limits.renderer;
-            auto gpu = make_gpu_engine(std::move(*chosen.device), ground, planes);
+            auto gpu =
+                make_gpu_engine(std::move(*chosen.device), ground, planes, std::move(staircases));
             return {std::make_shared<SafeEngine>(std::move(gpu), ground, planes), true, name, ""};
         } catch (const GpuUnavailable& error) {
             chosen.reason = error.what();

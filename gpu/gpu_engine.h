@@ -1,22 +1,36 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu/device_choice.h"
 #include "quality/smoothing_engine.h"
+#include "smoothing/staircase_weights.h"
 
 namespace vesselbench {
+
+/// What staircase weights are made from, whatever their thresholds.
+struct StaircaseGround {
+    Vec3 stack_axis = Vec3::UnitZ();
+    std::vector<std::uint8_t> caps;  ///< as in StaircaseParameters
+    StaircaseScaling scaling = StaircaseScaling::TauMax;
+    SharedWeights others;  ///< that multiply them
+};
 
 /// The engine of GpuSmoother and GpuMeter on a device; single precision.
 /// The engine and its runs are used and go on the thread where the device is current; a second one
 /// on another thread needs a context of its own.
 /// \param planes measures error_thesis too
+/// \param staircases of the ground's start: makes the weights of SmoothingChoice::staircase on the
+///        device; without it the choice's own function makes them
 /// \throw InvalidInput if the ground does not fit together; GpuUnavailable if it does not fit the
 /// device. Runs throw GpuUnavailable when the context is lost.
-[[nodiscard]] std::shared_ptr<const SmoothingEngine> make_gpu_engine(HeldDevice device,
-                                                                     const FilterGround& ground,
-                                                                     bool planes = false);
+[[nodiscard]] std::shared_ptr<const SmoothingEngine> make_gpu_engine(
+    HeldDevice device, const FilterGround& ground, bool planes = false,
+    std::optional<StaircaseGround> staircases = std::nullopt);
 
 /// The engine that a choice stands for.
 struct ChosenEngine {
@@ -31,6 +45,7 @@ struct ChosenEngine {
 /// \throw InvalidInput if the ground does not fit together
 [[nodiscard]] ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground,
                                        bool planes = false,
-                                       const DeviceSource& source = offscreen_device);
+                                       const DeviceSource& source = offscreen_device,
+                                       std::optional<StaircaseGround> staircases = std::nullopt);
 
 }  // namespace vesselbench

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFar = 3e38;  // gpu/shaders/distance_weight.comp
 
-enum Kind { kStaircases, kLinear, kExponential };
+enum Kind { kStaircases, kLinear, kExponential, kNoDistance };
 
 }  // namespace
 
@@ -103,6 +103,10 @@ void GpuWeights::multiply_distances(const NeighbourDistances& distances,
                               static_cast<float>(parameters.omega), 0.0F};
     multiply(distances.distances, ones_, scale,
              parameters.scaling == DistanceScaling::Exponential ? kExponential : kLinear);
+}
+
+void GpuWeights::multiply(const Buffer& others) {
+    multiply(ones_, others, std::array<float, 4>{}, kNoDistance);
 }
 
 }  // namespace vesselbench

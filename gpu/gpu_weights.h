@@ -45,6 +45,9 @@ public:
     void multiply_distances(const NeighbourDistances& distances,
                             const DistanceParameters& parameters = {});
 
+    /// Multiplies by other weights in [0, 1]: float, #V.
+    void multiply(const Buffer& others);
+
     /// The weights in [0, 1]: float, #V.
     [[nodiscard]] const Buffer& weights() const { return weights_; }
 

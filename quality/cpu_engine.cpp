@@ -17,7 +17,7 @@ public:
            const SmoothingChoice& choice, Sample sample)
         : meter_(meter),
           sample_(sample),
-          run_(ground, choice.filter, choice.weights),
+          run_(ground, choice.filter, weights_of(choice)),
           references_(meter.own_references()) {}
 
     void advance_to(int iterations, const Progress& progress) override {
@@ -99,6 +99,12 @@ private:
 };
 
 }  // namespace
+
+SharedWeights weights_of(const SmoothingChoice& choice) {
+    if (!choice.staircase) return choice.weights;
+    const auto& [tau_theta, tau_max, beta_min] = choice.staircase->values;
+    return choice.staircase->on_cpu(tau_theta, tau_max, beta_min);
+}
 
 std::shared_ptr<const SmoothingEngine> make_cpu_engine(FilterGround ground, bool planes) {
     return std::make_shared<CpuEngine>(std::move(ground), planes);

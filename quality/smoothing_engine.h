@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -9,11 +10,35 @@
 
 namespace vesselbench {
 
+/// Weights of a run, #V, as in FilterSettings; null: all 1.
+using SharedWeights = std::shared_ptr<const std::vector<double>>;
+
+/// Parameters of staircase awareness that a search changes (thesis 5.3.3, 7.2).
+struct StaircaseValues {
+    double tau_theta = 0.7, tau_max = 3.0, beta_min = 0.0;
+    bool operator==(const StaircaseValues&) const = default;
+};
+
+/// Makes weights of staircase awareness for other values of its parameters, times all weights that
+/// stay. Called by one thread at a time.
+using StaircaseWeights =
+    std::function<SharedWeights(double tau_theta, double tau_max, double beta_min)>;
+
 /// A filter with all its parameters but the number of iterations.
 struct SmoothingChoice {
+    /// Staircase weights that an engine makes itself, and what makes them if it cannot.
+    struct Staircase {
+        StaircaseValues values;
+        StaircaseWeights on_cpu;
+    };
+
     FilterParameters filter;
-    std::shared_ptr<const std::vector<double>> weights;  ///< #V, as in FilterSettings; null: all 1
+    SharedWeights weights;
+    std::shared_ptr<const Staircase> staircase = nullptr;  ///< in place of `weights`
 };
+
+/// The weights of a choice on the CPU.
+[[nodiscard]] SharedWeights weights_of(const SmoothingChoice& choice);
 
 /// A filter on its way over the engine's surface, which can be measured after any iteration. The
 /// references of the local error are followed at every 5th iteration, whatever is measured: so a
@@ -45,6 +70,9 @@ public:
     /// \throw InvalidInput as the filter
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> start(
         const SmoothingChoice& choice) const = 0;
+
+    /// True if it makes staircase weights itself, faster than SmoothingChoice::Staircase::on_cpu.
+    [[nodiscard]] virtual bool weighs_staircases() const { return false; }
 
     /// True if start_estimate is worth it here.
     [[nodiscard]] virtual bool estimates() const { return false; }

@@ -120,8 +120,12 @@ SearchSpace smoothing_space(const SmoothingSpaceOptions& options) {
             if (parameters[i].name == "tau_max") staircase.tau_max = values[i];
             if (parameters[i].name == "beta_min") staircase.beta_min = values[i];
         }
-        choice.weights =
-            options.staircase(staircase.tau_theta, staircase.tau_max, staircase.beta_min);
+        if (options.engine_weighs)
+            choice.staircase = std::make_shared<const SmoothingChoice::Staircase>(
+                SmoothingChoice::Staircase{staircase, options.staircase});
+        else
+            choice.weights =
+                options.staircase(staircase.tau_theta, staircase.tau_max, staircase.beta_min);
         return choice;
     };
     return space;

@@ -1,22 +1,17 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "quality/search.h"
 
 namespace vesselbench {
 
-/// Weights of staircase awareness for other values of its parameters, times all weights that stay.
-/// Called by one thread at a time.
-using StaircaseWeights = std::function<std::shared_ptr<const std::vector<double>>(
-    double tau_theta, double tau_max, double beta_min)>;
-
 /// What a search of smoothing parameters is to go through.
 struct SmoothingSpaceOptions {
     FilterParameters filter;  ///< values of the parameters that stay
     std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< that stay; null: all 1
     StaircaseWeights staircase = nullptr;  ///< searches tau_theta, tau_max, beta_min too (7.2)
+    bool engine_weighs = false;            ///< SmoothingEngine::weighs_staircases
     double slice = 1.0;                    ///< distance of the image's slices, scales tau_max [mm]
     int most_iterations = 50;
     bool all_parameters = false;  ///< also those that the search leaves alone: for graphs
@@ -29,10 +24,6 @@ struct SmoothingSpaceOptions {
 [[nodiscard]] SearchSpace smoothing_space(const SmoothingSpaceOptions& options);
 
 /// The values of a filter as a set of that space; staircases take the given values.
-struct StaircaseValues {
-    double tau_theta = 0.7, tau_max = 3.0, beta_min = 0.0;
-};
-
 [[nodiscard]] ParameterSet current_set(const SearchSpace& space, const FilterParameters& filter,
                                        int iterations, const StaircaseValues& staircase = {});
 

@@ -2,13 +2,13 @@
 // Multiplies weights by what a distance [mm] makes of them, as `kind` says: 0 staircases (thesis
 // Eqs. 5.5-5.6), scale x the largest distance, y beta_min; 1 neighbours, linear or from a margin on,
 // 2 neighbours, Eq. 5.2, scale x where weights begin to grow, y the largest distance less that,
-// z omega [1/mm].
-// 0 distances [mm], 1 weights, 2 caps: 0 where a weight is 0 anyway
+// z omega [1/mm]; 3 nothing.
+// 0 distances [mm], 1 weights, 2 what multiplies them anyway: 0 on caps, or other weights
 #include "elements.glsl"
 
 layout(std430, binding = 0) readonly buffer Distances { float distances[]; };
 layout(std430, binding = 1) buffer Weights { float weights[]; };
-layout(std430, binding = 2) readonly buffer Free { float free_of_caps[]; };
+layout(std430, binding = 2) readonly buffer Factors { float factors[]; };
 layout(location = 1) uniform vec4 scale;
 layout(location = 2) uniform int kind;
 
@@ -34,5 +34,5 @@ void main() {
     uint v = element();
     if (v >= element_count) return;
     float d = distances[v];
-    weights[v] *= free_of_caps[v] * clamp(kind == 0 ? staircase_weight(d) : neighbour_weight(d), 0.0, 1.0);
+    weights[v] *= factors[v] * (kind == 3 ? 1.0 : clamp(kind == 0 ? staircase_weight(d) : neighbour_weight(d), 0.0, 1.0));
 }

@@ -2,13 +2,17 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/errors.h"
 #include "geometry/measure.h"
+#include "smoothing/caps.h"
+#include "smoothing/staircases.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stack_phantoms.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -29,6 +33,12 @@ void check_close(const QualityMeasures& device, const QualityMeasures& cpu, doub
     near(device.curvature, cpu.curvature);
     near(device.curvature_abs, cpu.curvature_abs);
     near(device.volume, cpu.volume);
+}
+
+std::shared_ptr<const SmoothingChoice::Staircase> staircase_choice(const StaircaseValues& values,
+                                                                   const StaircaseWeights& on_cpu) {
+    return std::make_shared<const SmoothingChoice::Staircase>(
+        SmoothingChoice::Staircase{values, on_cpu});
 }
 
 /// Both engines' measures at the same iterations.
@@ -85,6 +95,68 @@ SCENARIO("Weights that were uploaded before serve again", "[gpu][engine]") {
     }
     for (int i = 19; i >= 0; --i) CHECK(measured(all[i]) == first[i]);
     CHECK_THROWS_AS(measured(std::make_shared<std::vector<double>>(3, 1.0)), InvalidInput);
+}
+
+SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface surface = of_mask(vessel_in_slices());
+    StaircaseGround staircases{.stack_axis = Vec3(0.0, 0.1, 1.0)};
+    staircases.caps = cap_vertices(find_caps(surface), surface.vertex_count());
+    auto others = std::make_shared<std::vector<double>>(surface.vertex_count(), 1.0);
+    for (std::size_t v = 0; v < others->size(); v += 5) (*others)[v] = 0.4;
+    const auto change =
+        orientation_change(*surface.topology, surface.points(), staircases.stack_axis);
+    int asked = 0;
+    SharedWeights also;
+    const StaircaseWeights on_cpu = [&](double tau_theta, double tau_max, double beta_min) {
+        ++asked;
+        auto weights = staircase_weights(*surface.topology, surface.points(), change,
+                                         {.tau_theta = tau_theta,
+                                          .tau_max = tau_max,
+                                          .beta_min = beta_min,
+                                          .caps = staircases.caps});
+        if (also)
+            for (std::size_t v = 0; v < weights.size(); ++v) weights[v] *= (*also)[v];
+        return std::make_shared<const std::vector<double>>(std::move(weights));
+    };
+    const auto cpu = make_cpu_engine(ground_of(surface));
+    const double diagonal = bounds(surface).diagonal();
+    bool lost = false;
+    const DeviceSource source = [&] {
+        HeldDevice held = offscreen_device();
+        held.device.lost = [&] { return lost; };
+        return held;
+    };
+    for (const SharedWeights& more : {SharedWeights(), SharedWeights(others)}) {
+        also = staircases.others = more;
+        const auto engine =
+            make_engine(DeviceChoice::Gpu, ground_of(surface), false, source, staircases).engine;
+        REQUIRE(engine->weighs_staircases());
+        CHECK_FALSE(cpu->weighs_staircases());
+        for (const StaircaseValues& values :
+             {StaircaseValues{0.3, 2.0, 0.0}, StaircaseValues{0.5, 4.0, 0.3},
+              StaircaseValues{0.5, 4.0, 0.6}, StaircaseValues{0.3, 2.0, 0.0}}) {
+            const SmoothingChoice choice{LaplaceParameters{0.8}, nullptr,
+                                         staircase_choice(values, on_cpu)};
+            compare_runs(*engine, *cpu, choice, diagonal);
+        }
+        CHECK(std::exchange(asked, 0) == 4);  // by the CPU's engine alone
+        const SmoothingChoice choice{LaplaceParameters{0.8}, nullptr,
+                                     staircase_choice({0.4, 3.0, 0.1}, on_cpu)};
+        lost = true;
+        const auto run = engine->start(choice), wanted = cpu->start(choice);
+        run->advance_to(10, {});
+        wanted->advance_to(10, {});
+        CHECK(run->measure() == wanted->measure());
+        CHECK(std::exchange(asked, 0) == 2);
+        lost = false;
+    }
+    const auto without = make_engine(DeviceChoice::Gpu, ground_of(surface)).engine;
+    CHECK_FALSE(without->weighs_staircases());
+    compare_runs(*without, *cpu,
+                 {LaplaceParameters{0.8}, nullptr, staircase_choice({0.4, 3.0, 0.1}, on_cpu)},
+                 diagonal);
 }
 
 SCENARIO("A copied run of the device goes on as the run itself", "[gpu][engine]") {

@@ -79,9 +79,10 @@ Json json_of(const SensitivityAnalysis& analysis) {
 
 SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
                                 const Progress& progress) {
-    const SearchSpace space = space_for(subject, true);
+    const ChosenEngine chosen = engine_for(subject);
+    const SearchSpace space = space_for(subject, chosen, true);
     ParameterSearch search =
-        search_for(subject, engine_for(subject), space, {.form = usual_score(subject), .tau = tau});
+        search_for(subject, chosen, space, {.form = usual_score(subject), .tau = tau});
     const ParameterSet now = given_set(subject, space, progress.part(0.0, 0.1));
     return sensitivity(search, now, false, progress.part(0.1, 1.0));
 }

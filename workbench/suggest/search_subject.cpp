@@ -74,8 +74,10 @@ ScoreForm usual_score(const SearchSubject& subject) {
     return subject.smoothing ? ScoreForm::Default : usual_score_of(*subject.operation);
 }
 
-SearchSpace space_for(const SearchSubject& subject, bool all_parameters) {
-    if (subject.smoothing) return smoothing_space_for(*subject.smoothing, all_parameters);
+SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
+                      bool all_parameters) {
+    if (subject.smoothing)
+        return smoothing_space_for(*subject.smoothing, *chosen.engine, all_parameters);
     return processing_space(*subject.operation, surface_of(subject.scene), subject.given,
                             all_parameters);
 }

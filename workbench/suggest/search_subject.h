@@ -46,8 +46,10 @@ struct SearchSubject {
 /// that are there to change the number of triangles.
 [[nodiscard]] ScoreForm usual_score(const SearchSubject& subject);
 
+/// \param chosen as engine_for gave it
 /// \param all_parameters for graphs
-[[nodiscard]] SearchSpace space_for(const SearchSubject& subject, bool all_parameters = false);
+[[nodiscard]] SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
+                                    bool all_parameters = false);
 
 /// The engine of `smooth`; none of other operations, which the CPU runs.
 [[nodiscard]] ChosenEngine engine_for(const SearchSubject& subject, bool planes = false);

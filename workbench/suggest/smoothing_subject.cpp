@@ -40,6 +40,24 @@ StaircaseWeights staircase_weights_of(const Scene& scene, const Arguments& argum
     };
 }
 
+/// None where caps are rounded: staircases are those of the surface before.
+/// \param caps 1 at their vertices
+std::optional<StaircaseGround> staircase_ground_of(const Scene& scene, const Arguments& arguments,
+                                                   const std::vector<std::uint8_t>& caps) {
+    if (arguments.text("caps") == "round") return std::nullopt;
+    StaircaseGround ground{.stack_axis = arguments.point("stack_axis"),
+                           .caps = caps,
+                           .scaling = arguments.text("weight") == "thesis"
+                                          ? StaircaseScaling::Thesis
+                                          : StaircaseScaling::TauMax};
+    if (arguments.text("distance") == "none" && !arguments.has("painted")) return ground;
+    Arguments others = arguments;
+    others.set("staircase", false);
+    Json report;
+    ground.others = shared_weights(smoothing_context(scene, others, report).weights);
+    return ground;
+}
+
 }  // namespace
 
 SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
@@ -55,7 +73,10 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
                       .constraint = context.constraint,
                       .rings = static_cast<int>(arguments.integer("rings"))};
     if (scene.sampling) subject.slice = scene.sampling->spacing.z();
-    if (arguments.flag("staircase")) subject.staircase = staircase_weights_of(scene, arguments);
+    if (arguments.flag("staircase")) {
+        subject.staircase = staircase_weights_of(scene, arguments);
+        subject.staircase_ground = staircase_ground_of(scene, arguments, subject.ground.fixed);
+    }
     return subject;
 }
 
@@ -65,13 +86,15 @@ ChosenEngine smoothing_engine(const SmoothingSubject& subject, const Arguments& 
     const DeviceChoice choice = device == "gpu"   ? DeviceChoice::Gpu
                                 : device == "cpu" ? DeviceChoice::Cpu
                                                   : DeviceChoice::Auto;
-    return make_engine(choice, subject.ground, planes);
+    return make_engine(choice, subject.ground, planes, offscreen_device, subject.staircase_ground);
 }
 
-SearchSpace smoothing_space_for(const SmoothingSubject& subject, bool all_parameters) {
+SearchSpace smoothing_space_for(const SmoothingSubject& subject, const SmoothingEngine& engine,
+                                bool all_parameters) {
     return smoothing_space({.filter = subject.filter,
                             .weights = subject.weights,
                             .staircase = subject.staircase,
+                            .engine_weighs = engine.weighs_staircases(),
                             .slice = subject.slice,
                             .all_parameters = all_parameters});
 }
@@ -88,7 +111,7 @@ Surface smoothed_with(const SmoothingSubject& subject, const Surface& surface,
                       const SearchSpace& space, const ParameterSet& set, const Progress& progress) {
     const auto choice = space.chooser(std::span(set.data(), set.size() - 1));
     if (!choice) throw InvalidInput("these parameters would roughen the surface");
-    FilterRun run(FilterRun::prepare(subject.ground), choice->filter, choice->weights);
+    FilterRun run(FilterRun::prepare(subject.ground), choice->filter, weights_of(*choice));
     run.advance(static_cast<int>(set.back()), progress);
     Positions moved;
     run.write_positions(moved);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "gpu/gpu_engine.h"
@@ -16,6 +17,7 @@ struct SmoothingSubject {
     FilterGround ground;
     std::shared_ptr<const std::vector<double>> weights;  ///< at the given arguments; null: all 1
     StaircaseWeights staircase;                          ///< null without staircase=true
+    std::optional<StaircaseGround> staircase_ground;     ///< what a GPU makes the same from
     double slice = 1.0;                                  ///< distance of the image's slices [mm]
 };
 
@@ -29,8 +31,10 @@ struct SmoothingSubject {
 [[nodiscard]] ChosenEngine smoothing_engine(const SmoothingSubject& subject,
                                             const Arguments& arguments, bool planes);
 
+/// \param engine that goes through the space
 /// \param all_parameters for graphs
-[[nodiscard]] SearchSpace smoothing_space_for(const SmoothingSubject& subject, bool all_parameters);
+[[nodiscard]] SearchSpace smoothing_space_for(const SmoothingSubject& subject,
+                                              const SmoothingEngine& engine, bool all_parameters);
 
 /// The arguments of `smooth` as a set of that space.
 [[nodiscard]] ParameterSet smoothing_set(const SmoothingSubject& subject,

@@ -23,7 +23,7 @@ SuggestionSearch::SuggestionSearch(const SearchSubject& subject, ScoreForm form,
     : subject_(subject),
       way_(way),
       chosen_(engine_for(subject, planes || form == ScoreForm::Thesis)),
-      search_(search_for(subject, chosen_, space_for(subject), {.form = form})) {}
+      search_(search_for(subject, chosen_, space_for(subject, chosen_), {.form = form})) {}
 
 Suggestion SuggestionSearch::suggest(double tau, const Progress& progress) {
     if (!(tau >= 0.0 && tau <= 1.0))
