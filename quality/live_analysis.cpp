@@ -56,7 +56,6 @@ void LiveAnalysis::send(const Request& request, const LiveAnswer& answer) {
 }
 
 void LiveAnalysis::answer(const Request& request) {
-    constexpr int kReach = 2;
     const Progress progress(nullptr, request.stop);
     search_.set_score(request.settings);
     LiveAnswer known{.request = request.number,
@@ -64,10 +63,9 @@ void LiveAnalysis::answer(const Request& request) {
     send(request, known);
     known.analysis = sensitivity(search_, request.current, false, progress);
     send(request, known);
-    const bool small = search_.space().parameters.size() <= 3;  // else its grid takes too long
-    known.best = small ? search_.estimated(progress) : search_.estimated_pattern({}, progress);
+    known.best = search_.first_look({}, progress);
     send(request, known);
-    if (small) known.best = search_.refined(*known.best, kReach, progress);
+    known.best = search_.settled(*known.best, progress);
     known.complete = true;
     send(request, known);
 }

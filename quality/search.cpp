@@ -32,6 +32,11 @@ ParameterSearch::ParameterSearch(const std::shared_ptr<const SmoothingEngine>& e
         estimates_ = std::make_shared<QualityTable>(engine, space_.chooser, 0, Fidelity::Estimate);
 }
 
+bool ParameterSearch::has_small_grid() const {
+    constexpr std::size_t kMostForGrid = 3;
+    return space_.parameters.size() <= kMostForGrid;
+}
+
 ParameterSearch::ParameterSearch(std::shared_ptr<MeasureSource> table, SearchSpace space,
                                  ScoreSettings settings)
     : space_(std::move(space)), settings_(settings), table_(std::move(table)) {
@@ -53,7 +58,7 @@ MeasureSource::Work ParameterSearch::work() const {
             full.sweeps + rough.sweeps};
 }
 
-Suggestion ParameterSearch::estimated(const Progress& progress) {
+Suggestion ParameterSearch::estimated_grid(const Progress& progress) {
     if (!estimates_) return exhaustive(true, progress);
     const Suggestion rough = vesselbench::best_of(*estimates_, grid(true), settings_, progress);
     return best_of({rough.values}, progress);
@@ -85,6 +90,16 @@ Suggestion ParameterSearch::estimated_pattern(const std::optional<Suggestion>& f
 
 Suggestion ParameterSearch::refined(const Suggestion& from, int reach, const Progress& progress) {
     return PatternSearch(*table_, space_, settings_).from(from.values, reach, progress);
+}
+
+Suggestion ParameterSearch::first_look(const std::optional<Suggestion>& last,
+                                       const Progress& progress) {
+    return has_small_grid() ? estimated_grid(progress) : estimated_pattern(last, progress);
+}
+
+Suggestion ParameterSearch::settled(const Suggestion& first, const Progress& progress) {
+    constexpr int kReach = 2;
+    return has_small_grid() ? refined(first, kReach, progress) : first;
 }
 
 Suggestion ParameterSearch::along(std::size_t parameter, const ParameterSet& current,

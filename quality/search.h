@@ -58,9 +58,16 @@ public:
     /// The best of them. \throw Cancelled
     [[nodiscard]] Suggestion exhaustive(bool coarse, const Progress& progress = {});
 
-    /// The best coarse set by estimates from a sample of the vertices, where the surface has enough
-    /// of them for that (20,000), measured in full. \throw Cancelled
-    [[nodiscard]] Suggestion estimated(const Progress& progress = {});
+    /// What to suggest, at first: the best coarse set; of four parameters or more, whose coarse
+    /// grid takes too long, what a pattern search finds. Where the surface has enough vertices for
+    /// that (20,000), both look at estimates from a sample of them, and measure what they find in
+    /// full. \param last of a search of many parameters with another score: where this one begins
+    /// \throw Cancelled
+    [[nodiscard]] Suggestion first_look(const std::optional<Suggestion>& last = {},
+                                        const Progress& progress = {});
+
+    /// What to suggest in the end: that, with the grid's single steps. \throw Cancelled
+    [[nodiscard]] Suggestion settled(const Suggestion& first, const Progress& progress = {});
 
     /// From n starts, each near the largest value of one of the n parameters and near the smallest
     /// of the others, to the best set of the (3^n - 1)-neighbourhood until none is better. At first
@@ -70,11 +77,6 @@ public:
     /// weak and many, so that good sets lie along a valley, which single steps do not follow.
     /// \throw Cancelled
     [[nodiscard]] Suggestion pattern(int reach = 8, const Progress& progress = {});
-
-    /// The same, or one from where an earlier one ended, among estimates where the surface has
-    /// enough vertices for them; what it finds is measured in full. \throw Cancelled
-    [[nodiscard]] Suggestion estimated_pattern(const std::optional<Suggestion>& from = {},
-                                               const Progress& progress = {});
 
     /// A pattern search from one set of the grid. \throw Cancelled
     [[nodiscard]] Suggestion refined(const Suggestion& from, int reach,
@@ -102,6 +104,11 @@ public:
                                      const Progress& progress = {});
 
 private:
+    [[nodiscard]] bool has_small_grid() const;
+    [[nodiscard]] Suggestion estimated_grid(const Progress& progress);
+    [[nodiscard]] Suggestion estimated_pattern(const std::optional<Suggestion>& from,
+                                               const Progress& progress);
+
     SearchSpace space_;
     ScoreSettings settings_;
     std::shared_ptr<MeasureSource> table_, estimates_;  ///< null: not worth it

@@ -121,7 +121,7 @@ SCENARIO("Searches and graphs work for any operation", "[quality]") {
     CHECK_FALSE(does_nothing(space, {1.1}));
     THEN("the compact score weighs triangles, which are the same here") {
         search.set_score({.form = ScoreForm::Compact, .tau = 1.0});
-        const Suggestion found = search.estimated();
+        const Suggestion found = search.first_look();
         CHECK(found.values == ParameterSet{1.0});
         CHECK(found.score == Approx(1.0));
     }

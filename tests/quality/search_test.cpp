@@ -182,7 +182,7 @@ SCENARIO("Estimates lead to a set that is as good as the best", "[quality][searc
     ParameterSearch search = search_on(surface);
     for (const double tau : {0.3, 0.5, 0.8}) {
         search.set_score({.tau = tau});
-        const Suggestion estimated = search.estimated(), best = search.exhaustive(true);
+        const Suggestion estimated = search.first_look(), best = search.exhaustive(true);
         INFO("tau " << tau << ": lambda " << estimated.values[0] << " / " << best.values[0]);
         CHECK(estimated.score <= 1.02 * best.score);
     }

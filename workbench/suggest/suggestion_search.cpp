@@ -4,12 +4,6 @@
 
 namespace vesselbench {
 
-namespace {
-
-constexpr std::size_t kMostForGrid = 3;  // parameters: the coarse grid of four takes too long
-
-}  // namespace
-
 SearchWay search_way_from(const std::string& name) {
     if (name == "automatic") return SearchWay::Automatic;
     if (name == "coarse") return SearchWay::Coarse;
@@ -39,9 +33,9 @@ Suggestion SuggestionSearch::suggest(double tau, const Progress& progress) {
         case SearchWay::Automatic:
             break;
     }
-    if (space().parameters.size() > kMostForGrid)
-        return *(last_ = search_.estimated_pattern(last_, progress));
-    return search_.refined(search_.estimated(progress.part(0.0, 0.7)), 2, progress.part(0.7, 1.0));
+    last_ = search_.settled(search_.first_look(last_, progress.part(0.0, 0.7)),
+                            progress.part(0.7, 1.0));
+    return *last_;
 }
 
 std::vector<ParameterSet> SuggestionSearch::coarse_sets() const {
