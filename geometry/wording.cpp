@@ -19,6 +19,17 @@ std::string counted(std::size_t count, const std::string& noun, const std::strin
     return std::to_string(count) + " " + (count == 1 ? noun : many);
 }
 
+std::string xml_escaped(const std::string& text) {
+    std::string result;
+    for (const char letter : text)
+        result += letter == '&'   ? "&amp;"
+                  : letter == '<' ? "&lt;"
+                  : letter == '>' ? "&gt;"
+                  : letter == '"' ? "&quot;"
+                                  : std::string(1, letter);
+    return result;
+}
+
 std::string formatted(double value, const char* format) {
     char text[32];
     std::snprintf(text, sizeof text, format, value);

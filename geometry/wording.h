@@ -18,6 +18,9 @@ namespace vesselbench {
 [[nodiscard]] std::string counted(std::size_t count, const std::string& noun,
                                   const std::string& plural = "");
 
+/// The text as it stands in XML and HTML, in attributes too.
+[[nodiscard]] std::string xml_escaped(const std::string& text);
+
 /// A number in printf's words: formatted(0.1234) is "0.123".
 /// \param format one conversion for a double
 [[nodiscard]] std::string formatted(double value, const char* format = "%.3g");

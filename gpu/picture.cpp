@@ -1,5 +1,6 @@
 #include "gpu/picture.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include <epoxy/gl.h>
@@ -127,6 +128,10 @@ void check(const Surface& surface, const PictureOptions& options) {
 }
 
 }  // namespace
+
+Vec3 upward_for(const Vec3& view) {
+    return std::abs(view.z()) < 0.95 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
+}
 
 Picture draw(const Surface& surface, const PictureOptions& options) {
     check(surface, options);

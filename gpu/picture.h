@@ -55,6 +55,9 @@ struct PictureOptions {
 /// The picture as a PNG file's bytes.
 [[nodiscard]] std::string png(const Picture& picture);
 
+/// What is up in a picture along a unit direction: the head, or, from above or below, the front.
+[[nodiscard]] Vec3 upward_for(const Vec3& view);
+
 /// A colour as pictures hold it (gamma 2.2).
 [[nodiscard]] PixelColour pixel_colour(const Colour& linear);
 

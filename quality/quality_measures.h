@@ -15,4 +15,17 @@ struct QualityMeasures {
     bool operator==(const QualityMeasures&) const = default;
 };
 
+/// Change of the volume [%]; 0 where the original has none.
+[[nodiscard]] inline double volume_change_percent(const QualityMeasures& original,
+                                                  const QualityMeasures& measures) {
+    return original.volume != 0.0 ? 100.0 * (measures.volume / original.volume - 1.0) : 0.0;
+}
+
+/// What is left of the integral of |H| [%]; 100 where the original has none.
+[[nodiscard]] inline double curvature_percent(const QualityMeasures& original,
+                                              const QualityMeasures& measures) {
+    return original.curvature_abs > 0.0 ? 100.0 * measures.curvature_abs / original.curvature_abs
+                                        : 100.0;
+}
+
 }  // namespace vesselbench

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/vec3.h"
+#include "geometry/wording.h"
 
 namespace vesselbench {
 
@@ -17,7 +18,7 @@ public:
     template <class T>
     void array(const std::string& name, const char* type, int components,
                const std::vector<T>& values) {
-        xml_ += "<DataArray type=\"" + std::string(type) + "\" Name=\"" + escaped(name) +
+        xml_ += "<DataArray type=\"" + std::string(type) + "\" Name=\"" + xml_escaped(name) +
                 "\" NumberOfComponents=\"" + std::to_string(components) +
                 "\" format=\"appended\" offset=\"" + std::to_string(data_.size()) + "\"/>\n";
         const std::uint64_t bytes = values.size() * sizeof(T);
@@ -47,16 +48,6 @@ public:
     }
 
 private:
-    static std::string escaped(const std::string& text) {
-        std::string safe;
-        for (const char c : text)
-            safe += c == '&'   ? "&amp;"
-                    : c == '<' ? "&lt;"
-                    : c == '"' ? "&quot;"
-                               : std::string(1, c);
-        return safe;
-    }
-
     std::string xml_, data_;
 };
 

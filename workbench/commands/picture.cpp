@@ -35,18 +35,13 @@ Vec3 view_of(const std::vector<double>& numbers) {
     throw UsageError("--view has no direction: give three numbers x,y,z that are not all 0");
 }
 
-/// The head is up, or, seen from above or below, the front.
-Vec3 up_of(const Vec3& view) {
-    return std::abs(view.z()) < 0.99 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
-}
-
 }  // namespace
 
 void draw_picture(const PictureArguments& arguments) {
     check(arguments);
     const Vec3 view = view_of(arguments.view);
     PictureOptions options{
-        .width = arguments.size, .height = arguments.size, .view = view, .up = up_of(view)};
+        .width = arguments.size, .height = arguments.size, .view = view, .up = upward_for(view)};
     const Surface surface = read_foreign_surface(arguments.surface, arguments.units);
     std::string legend = "patches in their colours";
     if (!arguments.reference.empty()) {

@@ -120,11 +120,11 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
         const Suggestion found =
             search.suggest(tau, progress.part(done, done + 1.0 / kPresetTaus.size()));
         const QualityMeasures& original = search.original();
-        const double volume = 100.0 * (found.measures.volume / original.volume - 1.0);
-        const double curvature = 100.0 * found.measures.curvature_abs / original.curvature_abs;
         auto lines = caption(tau, search.space(), found.values);
-        lines.push_back("volume " + formatted(volume, "%+.2f") + " %, curvature " +
-                        formatted(curvature, "%.0f") + " %");
+        lines.push_back("volume " +
+                        formatted(volume_change_percent(original, found.measures), "%+.2f") +
+                        " %, curvature " +
+                        formatted(curvature_percent(original, found.measures), "%.0f") + " %");
         lines.push_back("mean distance " + formatted(found.measures.error, "%.2g") + " mm");
         if (found.measures.triangles > 0.0)
             lines.push_back(formatted(found.measures.triangles, "%.0f") + " triangles");

@@ -22,10 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double volume_percent(const QualityMeasures& original, const QualityMeasures& measures) {
-    return original.volume != 0.0 ? 100.0 * (measures.volume / original.volume - 1.0) : 0.0;
-}
-
 /// The arguments that the search found, without those that stay.
 Json found_json(const SearchSpace& space, const ParameterSet& set) {
     Json json;
@@ -43,7 +39,7 @@ Json measures_json(const QualityMeasures& original, const QualityMeasures& measu
                  {"curvature_mm", measures.curvature},
                  {"curvature_abs_mm", measures.curvature_abs},
                  {"volume_mm3", measures.volume},
-                 {"volume_change_percent", volume_percent(original, measures)}};
+                 {"volume_change_percent", volume_change_percent(original, measures)}};
     if (measures.triangles > 0.0) json["triangles"] = static_cast<std::size_t>(measures.triangles);
     return json;
 }
@@ -98,15 +94,12 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
     if (counts) rows.front().emplace_back("triangles");
     for (const auto& [tau, one] : found) {
         const bool nothing = does_nothing(search.space(), one.values);
-        const double kept =
-            search.original().curvature_abs > 0.0
-                ? 100.0 * one.measures.curvature_abs / search.original().curvature_abs
-                : 100.0;
         rows.push_back(
             {formatted(tau, "%g"),
              nothing ? "do not " + subject.operation->name : set_text(search.space(), one.values),
-             formatted(kept, "%.1f") + " %", formatted(one.measures.error),
-             formatted(volume_percent(search.original(), one.measures), "%+.2f") + " %",
+             formatted(curvature_percent(search.original(), one.measures), "%.1f") + " %",
+             formatted(one.measures.error),
+             formatted(volume_change_percent(search.original(), one.measures), "%+.2f") + " %",
              formatted(one.score, "%.4f")});
         if (counts) rows.back().push_back(formatted(one.measures.triangles, "%.0f"));
     }

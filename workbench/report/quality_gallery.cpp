@@ -39,10 +39,6 @@ Vec3 sight(const Surface& surface) {
     return size.z() < 0.6 * size.y() ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
 }
 
-Vec3 up_for(const Vec3& view) {
-    return std::abs(view.z()) < 0.9 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
-}
-
 /// Where the surface was taken away most, within the middle of what deviates: the largest mean
 /// deviation of a vertex and its neighbours, away from open rims.
 VertexId most_changed(const Surface& surface, const std::vector<double>& deviations) {
@@ -82,7 +78,7 @@ PictureOptions magnified(const std::shared_ptr<const Surface>& frame, VertexId v
     Vec3 normal = vertex_normals(original)[v];
     if (!(normal.norm() > 0.5)) normal = Vec3(0, -1, 0);
     options.view = -normal;
-    options.up = up_for(options.view);
+    options.up = upward_for(options.view);
     options.shift = original.points()[v] - bounds(original).centre();
     options.frame = frame;
     options.half_height = 0.5 * kEdgesAcross * mean_edge_length(original);
@@ -146,7 +142,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
               draw(model.surface, {.width = kCell,
                                    .height = kCell,
                                    .view = view,
-                                   .up = up_for(view),
+                                   .up = upward_for(view),
                                    .vertex_colours = colours,
                                    .back = kInside,
                                    .frame = frame}),

@@ -44,13 +44,6 @@ std::string coordinate(double value) {
     return formatted(value, "%.1f");
 }
 
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text)
-        safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return safe;
-}
-
 /// An SVG document that grows.
 class Drawing {
 public:
@@ -63,7 +56,7 @@ public:
 
     void text(double x, double y, const std::string& words, const std::string& more = "") {
         out_ << "<text x=\"" << coordinate(x) << "\" y=\"" << coordinate(y) << "\" " << more << ">"
-             << escaped(words) << "</text>\n";
+             << xml_escaped(words) << "</text>\n";
     }
 
     void line(double x1, double y1, double x2, double y2, const std::string& look) {

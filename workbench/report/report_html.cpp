@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/wording.h"
+
 namespace vesselbench {
 
 namespace {
@@ -23,27 +25,6 @@ margin:1rem 0}.tile{background:#f2f5f8;border-radius:6px;padding:.6rem 1rem}.til
 border:1px solid #e6ebf0}figcaption{color:#5a6875;font-size:.9rem}.good{color:#1a7f37}.bad{color:#b42318}
 )";
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char letter : text) switch (letter) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += letter;
-        }
-    return result;
-}
-
 std::string number_text(double number) {
     char buffer[64];
     const double size = std::abs(number);
@@ -59,7 +40,7 @@ std::string shown(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
     if (value.is_number()) return number_text(value.get<double>());
-    if (value.is_string()) return escaped(value.get<std::string>());
+    if (value.is_string()) return xml_escaped(value.get<std::string>());
     if (value.is_array()) {
         std::string text;
         for (const Json& part : value) text += (text.empty() ? "" : ", ") + shown(part);
@@ -67,7 +48,7 @@ std::string shown(const Json& value) {
     }
     std::string text;
     for (const auto& [key, part] : value.items())
-        text += (text.empty() ? "" : ", ") + escaped(key) + " " + shown(part);
+        text += (text.empty() ? "" : ", ") + xml_escaped(key) + " " + shown(part);
     return text;
 }
 
@@ -127,9 +108,9 @@ std::string gallery(std::span<const ReportPicture> pictures) {
     if (pictures.empty()) return "";
     std::string html = "<h2>Pictures</h2>\n<div class=pictures>";
     for (const ReportPicture& picture : pictures)
-        html += "<figure><img alt=\"" + escaped(picture.title) + "\" src=\"data:image/png;base64," +
-                base64(picture.png) + "\"><figcaption>" + escaped(picture.title) +
-                "</figcaption></figure>\n";
+        html += "<figure><img alt=\"" + xml_escaped(picture.title) +
+                "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" +
+                xml_escaped(picture.title) + "</figcaption></figure>\n";
     return html + "</div>\n";
 }
 
@@ -142,7 +123,7 @@ std::string step_row(const Json& step) {
         volume = number_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
     std::string arguments;
     for (const auto& [name, value] : part_of(step, "resolved").items())
-        arguments += (arguments.empty() ? "" : ", ") + escaped(name) + "=" + shown(value);
+        arguments += (arguments.empty() ? "" : ", ") + xml_escaped(name) + "=" + shown(value);
     return "<tr><td>" + shown(part_of(step, "step")) + "</td><td><b>" +
            shown(part_of(step, "operation")) + "</b><br><span class=about>" + arguments +
            "</span></td><td class=n>" + shown(part_of(step, "duration_s")) + "</td><td class=n>" +
@@ -209,7 +190,7 @@ std::string plain_table(const Json& report, const std::string& key, const std::s
     if (!part.is_object()) return "";
     std::string html = "<h2>" + title + "</h2>\n<p class=about>" + about + "</p>\n<table>";
     for (const auto& [name, value] : part.items()) {
-        std::string words = escaped(name);
+        std::string words = xml_escaped(name);
         for (char& letter : words) letter = letter == '_' ? ' ' : letter;
         html += row({words, shown(value)});
     }
