@@ -29,53 +29,45 @@ struct Common {
     GpuMeter meter;
 };
 
-class GpuRun final : public MeasuredRun {
+class GpuRun final : public FollowingRun {
 public:
     GpuRun(std::shared_ptr<Common> common, GpuSmoother smoother)
         : common_(std::move(common)),
           smoother_(std::move(smoother)),
           references_(common_->meter.make_references()) {}
 
-    void advance_to(int iterations, const Progress& progress) override {
-        while (smoother_.iterations_done() < iterations) {
-            follow();
-            const int done = smoother_.iterations_done();
-            const int next = (done / kFollowEvery + 1) * kFollowEvery;
-            smoother_.run(std::min(next, iterations) - done, progress);
-            followed_ = false;
-            progress.check_cancelled();
-        }
+    GpuRun(const GpuRun& other)
+        : FollowingRun(other),
+          common_(other.common_),
+          smoother_(other.smoother_.copy()),
+          references_(common_->meter.make_references()) {
+        copy_storage(other.references_, references_,
+                     common_->surface->vertex_count() * sizeof(VertexId));
     }
 
     [[nodiscard]] int iterations() const override { return smoother_.iterations_done(); }
 
     [[nodiscard]] QualityMeasures measure() override {
-        const bool follows = !followed_ && at_stop();
+        const bool follows = due();
         common_->meter.measure(smoother_.shifts(), references_, follows);
-        followed_ = followed_ || follows;
+        if (follows) set_followed();
         return common_->meter.read().front().quality;
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
-        auto other = std::make_unique<GpuRun>(common_, smoother_.copy());
-        copy_storage(references_, other->references_,
-                     common_->surface->vertex_count() * sizeof(VertexId));
-        other->followed_ = followed_;
-        return other;
+        return std::make_unique<GpuRun>(*this);
     }
 
 private:
-    [[nodiscard]] bool at_stop() const { return iterations() % kFollowEvery == 0; }
-
-    void follow() {
-        if (!followed_ && at_stop()) common_->meter.follow(smoother_.shifts(), references_);
-        followed_ = true;
+    void smooth(int iterations, const Progress& progress) override {
+        smoother_.run(iterations, progress);
     }
+
+    void follow() override { common_->meter.follow(smoother_.shifts(), references_); }
 
     std::shared_ptr<Common> common_;
     GpuSmoother smoother_;
     Buffer references_;
-    bool followed_ = true;  ///< the references passed the last stop
 };
 
 constexpr std::size_t kWeightsKept = 16;  // as much memory as a run, all of them

@@ -11,7 +11,7 @@ constexpr std::size_t kEnoughToEstimate = 20000;  // vertices: their sample errs
 
 enum class Sample { All, Some };
 
-class CpuRun final : public MeasuredRun {
+class CpuRun final : public FollowingRun {
 public:
     CpuRun(const SurfaceMeter& meter, const std::shared_ptr<const FilterRun::Ground>& ground,
            const SmoothingChoice& choice, Sample sample)
@@ -19,16 +19,6 @@ public:
           sample_(sample),
           run_(ground, choice.filter, weights_of(choice)),
           references_(meter.own_references()) {}
-
-    void advance_to(int iterations, const Progress& progress) override {
-        while (run_.iterations() < iterations) {
-            follow();
-            const int next = (run_.iterations() / kFollowEvery + 1) * kFollowEvery;
-            run_.advance(std::min(next, iterations) - run_.iterations(), progress);
-            followed_ = false;
-            progress.check_cancelled();
-        }
-    }
 
     [[nodiscard]] int iterations() const override { return run_.iterations(); }
 
@@ -38,8 +28,8 @@ public:
             std::vector<VertexId> references = references_;  // the run's own wait for the stop
             return meter_.follow_and_estimate(run_.packs(), references);
         }
-        if (followed_ || !at_stop()) return meter_.measure(run_.packs(), references_);
-        followed_ = true;
+        if (!due()) return meter_.measure(run_.packs(), references_);
+        set_followed();
         return meter_.follow_and_measure(run_.packs(), references_);
     }
 
@@ -48,19 +38,18 @@ public:
     }
 
 private:
-    [[nodiscard]] bool at_stop() const { return run_.iterations() % kFollowEvery == 0; }
+    void smooth(int iterations, const Progress& progress) override {
+        run_.advance(iterations, progress);
+    }
 
-    void follow() {
-        if (sample_ == Sample::All && !followed_ && at_stop())
-            meter_.follow(run_.packs(), references_);
-        followed_ = true;
+    void follow() override {
+        if (sample_ == Sample::All) meter_.follow(run_.packs(), references_);
     }
 
     const SurfaceMeter& meter_;
     Sample sample_;
     FilterRun run_;
     std::vector<VertexId> references_;
-    bool followed_ = true;  ///< the references passed the last stop
 };
 
 class CpuEngine final : public SmoothingEngine {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -59,6 +60,35 @@ public:
 
     /// Another run that stands where this one does.
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> copy() const = 0;
+};
+
+/// A run that follows its references as every MeasuredRun does, whatever they are kept in.
+class FollowingRun : public MeasuredRun {
+public:
+    void advance_to(int iterations, const Progress& progress) final {
+        while (this->iterations() < iterations) {
+            if (due()) follow();
+            const int done = this->iterations(), next = (done / kFollowEvery + 1) * kFollowEvery;
+            smooth(std::min(next, iterations) - done, progress);
+            followed_ = false;
+            progress.check_cancelled();
+        }
+    }
+
+protected:
+    [[nodiscard]] bool at_stop() const { return iterations() % kFollowEvery == 0; }
+
+    /// True if the references have not passed the stop that the run stands at.
+    [[nodiscard]] bool due() const { return !followed_ && at_stop(); }
+
+    /// They have, by a measure.
+    void set_followed() { followed_ = true; }
+
+private:
+    virtual void smooth(int iterations, const Progress& progress) = 0;
+    virtual void follow() = 0;
+
+    bool followed_ = true;
 };
 
 /// What smooths one surface and measures the results: the door through which searches and
