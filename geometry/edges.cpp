@@ -50,15 +50,14 @@ std::vector<VertexId> several_fans(const Topology& topology, const EdgeTable& ed
     // A corner (triangle, k) is joined with the corner at the same vertex across an edge.
     const auto triangles = topology.triangles();
     DisjointSets corners(triangles.size() * 3);
-    const auto corner_of = [&](std::uint32_t triangle, VertexId v) {
-        const Triangle& t = triangles[triangle];
-        return triangle * 3 + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+    const auto half_edge = [&](std::uint32_t triangle, VertexId v) {
+        return triangle * 3 + corner_of(triangles[triangle], v);
     };
     for (std::size_t e = 0; e < edges.edges.size(); ++e) {
         const auto row = edges.half_edges.row(e);
         for (std::size_t i = 1; i < row.size(); ++i)
             for (const VertexId v : edges.edges[e])
-                corners.join(corner_of(row[0] / 3, v), corner_of(row[i] / 3, v));
+                corners.join(half_edge(row[0] / 3, v), half_edge(row[i] / 3, v));
     }
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> fan(topology.vertex_count(), kNone);
@@ -66,7 +65,7 @@ std::vector<VertexId> several_fans(const Topology& topology, const EdgeTable& ed
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (names_vertex_twice(triangles[t])) continue;
         for (const VertexId v : triangles[t]) {
-            const std::uint32_t root = corners.root(corner_of(t, v));
+            const std::uint32_t root = corners.root(half_edge(t, v));
             if (fan[v] == kNone) fan[v] = root;
             if (fan[v] != root) found.push_back(v);
         }

@@ -7,6 +7,11 @@
 
 namespace vesselbench {
 
+/// Which corner of a triangle a vertex is, 0 to 2; of a degenerate triangle the first.
+[[nodiscard]] inline std::uint32_t corner_of(const Triangle& triangle, VertexId v) {
+    return triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2;
+}
+
 /// Every edge once, with the half-edges (triangle corners) that lie on it.
 struct EdgeTable {
     std::vector<std::array<VertexId, 2>> edges;  ///< {low, high}, ascending

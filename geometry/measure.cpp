@@ -203,7 +203,7 @@ Positions vertex_normals(const Surface& surface) {
     Positions normals(points.size(), Vec3::Zero());
     visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId triangle) {
         const Triangle& t = surface.triangles()[triangle];
-        const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        const std::size_t k = corner_of(t, v);
         const Vec3 normal = area_normal(points, t);
         const double length = normal.norm();
         if (!(length > 0.0)) return;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/measure.h"
 #include "smoothing/filter_support.h"
@@ -16,11 +17,6 @@ namespace {
 using Eigen::Vector4f;
 
 constexpr std::uint32_t kBoundary = 0x80000000;
-
-/// Which corner of the triangle v is; a degenerate triangle's first.
-std::size_t corner_of(const Triangle& t, VertexId v) {
-    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
-}
 
 DeviceRows upload(const Device& device, const CompressedRows& rows, const std::string& label) {
     return {make_storage(device, std::span<const std::uint32_t>(rows.offsets), label + " offsets"),

@@ -5,6 +5,8 @@
 #include <immintrin.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/edges.h"
+
 // Functions that return wide vectors are inlined everywhere: how they would be called is no matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -27,7 +29,7 @@ bool append_fan(const Topology& topology, VertexId v, std::vector<Side>& sides,
     sides.clear();
     for (const TriangleId t : topology.triangles_at().row(v)) {
         const Triangle& c = topology.triangles()[t];
-        const int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+        const std::uint32_t k = corner_of(c, v);
         const VertexId from = c[(k + 1) % 3], to = c[(k + 2) % 3];
         if (from == to || from == v || to == v) return false;
         sides.emplace_back(from, to);

@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "geometry/edges.h"
 #include "geometry/errors.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
@@ -182,7 +183,7 @@ void SurfaceMeter::Data::add_irregular(Packs moved, std::uint32_t place,
     Vec3 flow = Vec3::Zero(), normal = Vec3::Zero();
     for (const TriangleId t : surface.topology->triangles_at().row(place)) {
         const Triangle& c = surface.triangles()[t];
-        const int k = c[0] == place ? 0 : c[1] == place ? 1 : 2;
+        const std::uint32_t k = corner_of(c, place);
         const Vec3 v = point_of(moved[place]), e = point_of(moved[c[(k + 1) % 3]]) - v,
                    f = point_of(moved[c[(k + 2) % 3]]) - v;
         const Vec3 n = e.cross(f);

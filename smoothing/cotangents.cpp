@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/edges.h"
 #include "smoothing/filter_support.h"
 
 namespace vesselbench::detail {
@@ -11,11 +12,6 @@ namespace vesselbench::detail {
 namespace {
 
 constexpr double kLargestCotangent = 20.0;  // an angle of 3 degrees
-
-/// Which corner of the triangle v is; a degenerate triangle's first.
-int corner_of(const Triangle& t, VertexId v) {
-    return t[0] == v ? 0 : t[1] == v ? 1 : 2;
-}
 
 double clamped_cotangent(double dot, double doubled_area) {
     if (doubled_area > 0.0) return std::clamp(dot / doubled_area, 0.0, kLargestCotangent);
@@ -30,7 +26,7 @@ struct CornerShare {
 };
 
 CornerShare share_of(const Positions& x, const Triangle& t, VertexId v) {
-    const int k = corner_of(t, v);
+    const std::uint32_t k = corner_of(t, v);
     const Vec3 to_next = x[t[(k + 1) % 3]] - x[v], to_last = x[t[(k + 2) % 3]] - x[v];
     const Vec3 opposite = to_last - to_next;
     CornerShare share;
@@ -73,7 +69,7 @@ Vec3 cotangent_umbrella(const Topology& topology, const Positions& positions,
     double weights = 0.0;
     for (const TriangleId t : topology.triangles_at().row(v)) {
         const Triangle& triangle = topology.triangles()[t];
-        const int k = corner_of(triangle, v), next = (k + 1) % 3, last = (k + 2) % 3;
+        const std::uint32_t k = corner_of(triangle, v), next = (k + 1) % 3, last = (k + 2) % 3;
         const double to_next = cotangents[t][static_cast<std::size_t>(last)];
         const double to_last = cotangents[t][static_cast<std::size_t>(next)];
         sum += to_next * (positions[triangle[static_cast<std::size_t>(next)]] - positions[v]) +

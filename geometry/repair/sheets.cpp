@@ -190,8 +190,7 @@ public:
 
 private:
     [[nodiscard]] std::uint32_t corner(TriangleId triangle, VertexId v) const {
-        const Triangle& t = mesh_.triangles[triangle];
-        return 3 * triangle + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+        return 3 * triangle + corner_of(mesh_.triangles[triangle], v);
     }
 
     void join(std::uint32_t a, std::uint32_t b) {
