@@ -36,4 +36,8 @@ std::string formatted(double value, const char* format) {
     return text;
 }
 
+double three_digits(double value) {
+    return std::stod(formatted(value));
+}
+
 }  // namespace vesselbench

@@ -25,4 +25,7 @@ namespace vesselbench {
 /// \param format one conversion for a double
 [[nodiscard]] std::string formatted(double value, const char* format = "%.3g");
 
+/// A number as a user would type it: 3.00018 is 3.
+[[nodiscard]] double three_digits(double value);
+
 }  // namespace vesselbench

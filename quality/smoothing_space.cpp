@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/wording.h"
+
 namespace vesselbench {
 
 namespace {
@@ -98,7 +100,7 @@ std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options
         list.push_back({"tau_theta", "-", steps(0.2, 0.9, 0.1), 3});
         list.push_back({"tau_max", "mm", {}, 2});
         for (const double slices : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
-            list.back().values.push_back(slices * options.slice);
+            list.back().values.push_back(three_digits(slices * options.slice));
         list.push_back({"beta_min", "-", steps(0.0, 1.0, 0.1), 3});
     }
     list.push_back({kIterations, "", steps(0.0, options.most_iterations, 1.0), 5, 0.0});

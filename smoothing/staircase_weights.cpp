@@ -46,7 +46,13 @@ std::vector<double> staircase_distances(const Topology& topology, const Position
 std::vector<double> staircase_weights(const Topology& topology, const Positions& positions,
                                       std::span<const double> change,
                                       const StaircaseParameters& parameters) {
-    std::vector<double> weights = staircase_distances(topology, positions, change, parameters);
+    return weights_of_distances(staircase_distances(topology, positions, change, parameters),
+                                parameters);
+}
+
+std::vector<double> weights_of_distances(std::vector<double> weights,
+                                         const StaircaseParameters& parameters) {
+    detail::require_staircase_parameters(weights.size(), parameters);
     double largest = parameters.tau_max;
     if (parameters.scaling == StaircaseScaling::Thesis) {
         largest = 0.0;

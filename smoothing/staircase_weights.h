@@ -46,6 +46,11 @@ struct StaircaseParameters {
                                                     std::span<const double> change,
                                                     const StaircaseParameters& parameters = {});
 
+/// The same from distances found before, which hold for any beta_min and scaling.
+/// \param distances as staircase_distances gives them for these parameters; reused
+[[nodiscard]] std::vector<double> weights_of_distances(std::vector<double> distances,
+                                                       const StaircaseParameters& parameters);
+
 namespace detail {
 
 /// \throw InvalidInput if a parameter is out of range, or the cap flags are not #V

@@ -18,12 +18,6 @@ namespace {
 
 constexpr double kMostTriangles = 4e6;  // of a result: a search must end
 
-/// A length as a user would type it.
-double three_digits(double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-    return std::stod(formatted(std::round(value / unit) * unit));
-}
-
 std::vector<SearchParameter> of_decimate(const Surface&, bool) {
     SearchParameter share{.name = "share", .unit = "-", .values = {0.02}, .coarse = 4, .idle = 1.0};
     for (int twentieths = 1; twentieths <= 20; ++twentieths)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
+#include "smoothing/staircases.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
 
@@ -16,35 +17,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kWeightsKept = 64;  // sets of staircase weights in memory
+constexpr std::size_t kWeightsKept = 64;  // sets of staircase weights or distances in memory
 
-std::shared_ptr<const std::vector<double>> shared_weights(std::vector<double> weights) {
+SharedWeights shared_weights(std::vector<double> weights) {
     if (weights.empty()) return nullptr;
     return std::make_shared<const std::vector<double>>(std::move(weights));
 }
 
-/// Weights of `smooth` for other thresholds; the last ones are kept.
-StaircaseWeights staircase_weights_of(const Scene& scene, const Arguments& arguments) {
-    using Key = std::array<double, 3>;
-    auto known = std::make_shared<std::map<Key, std::shared_ptr<const std::vector<double>>>>();
-    return [scene, arguments, known](double tau_theta, double tau_max, double beta_min) {
-        const Key key = {tau_theta, tau_max, beta_min};
-        if (const auto at = known->find(key); at != known->end()) return at->second;
-        Arguments changed = arguments;
-        changed.set("tau_theta", tau_theta);
-        changed.set("tau_max", tau_max);
-        changed.set("beta_min", beta_min);
-        Json report;
-        if (known->size() >= kWeightsKept) known->clear();
-        return (*known)[key] = shared_weights(smoothing_context(scene, changed, report).weights);
-    };
-}
-
-/// None where caps are rounded: staircases are those of the surface before.
-/// \param caps 1 at their vertices
-std::optional<StaircaseGround> staircase_ground_of(const Scene& scene, const Arguments& arguments,
-                                                   const std::vector<std::uint8_t>& caps) {
-    if (arguments.text("caps") == "round") return std::nullopt;
+StaircaseGround staircase_ground_of(const Scene& scene, const Arguments& arguments,
+                                    const std::vector<std::uint8_t>& caps) {
     StaircaseGround ground{.stack_axis = arguments.point("stack_axis"),
                            .caps = caps,
                            .scaling = arguments.text("weight") == "thesis"
@@ -57,6 +38,55 @@ std::optional<StaircaseGround> staircase_ground_of(const Scene& scene, const Arg
     ground.others = shared_weights(smoothing_context(scene, others, report).weights);
     return ground;
 }
+
+/// Weights of `smooth` for other thresholds. What does not depend on them is found once; the last
+/// distances and weights are kept.
+class WeightsOfThresholds {
+public:
+    /// \param cap_weight of the caps' vertices, whatever else weighs them
+    WeightsOfThresholds(const Surface& surface, StaircaseGround ground, double cap_weight)
+        : surface_(surface),
+          ground_(std::move(ground)),
+          cap_weight_(cap_weight),
+          change_(orientation_change(*surface.topology, surface.points(), ground_.stack_axis)) {}
+
+    [[nodiscard]] SharedWeights operator()(double tau_theta, double tau_max, double beta_min) {
+        const std::array<double, 3> key = {tau_theta, tau_max, beta_min};
+        if (const auto at = weights_.find(key); at != weights_.end()) return at->second;
+        if (weights_.size() >= kWeightsKept) weights_.clear();
+        return weights_[key] = shared_weights(made({.tau_theta = tau_theta,
+                                                    .tau_max = tau_max,
+                                                    .beta_min = beta_min,
+                                                    .scaling = ground_.scaling,
+                                                    .caps = ground_.caps}));
+    }
+
+private:
+    std::vector<double> made(const StaircaseParameters& parameters) {
+        std::vector<double> weights = weights_of_distances(distances(parameters), parameters);
+        for (std::size_t v = 0; v < weights.size(); ++v)
+            if (ground_.caps[v] != 0)
+                weights[v] = cap_weight_;
+            else if (ground_.others)
+                weights[v] *= (*ground_.others)[v];
+        return weights;
+    }
+
+    const std::vector<double>& distances(const StaircaseParameters& parameters) {
+        const std::array<double, 2> key = {parameters.tau_theta, parameters.tau_max};
+        if (const auto at = distances_.find(key); at != distances_.end()) return at->second;
+        if (distances_.size() >= kWeightsKept) distances_.clear();
+        return distances_[key] =
+                   staircase_distances(*surface_.topology, surface_.points(), change_, parameters);
+    }
+
+    Surface surface_;
+    StaircaseGround ground_;
+    double cap_weight_ = 0.0;
+    std::vector<double> change_;  ///< of orientation, #V
+    std::map<std::array<double, 2>, std::vector<double>> distances_;
+    std::map<std::array<double, 3>, SharedWeights> weights_;
+};
 
 }  // namespace
 
@@ -74,8 +104,14 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
                       .rings = static_cast<int>(arguments.integer("rings"))};
     if (scene.sampling) subject.slice = scene.sampling->spacing.z();
     if (arguments.flag("staircase")) {
-        subject.staircase = staircase_weights_of(scene, arguments);
-        subject.staircase_ground = staircase_ground_of(scene, arguments, subject.ground.fixed);
+        const bool round = arguments.text("caps") == "round";
+        StaircaseGround ground = staircase_ground_of(scene, arguments, context.caps);
+        if (!round) subject.staircase_ground = ground;  // a GPU would look at the rounded surface
+        const auto weights =
+            std::make_shared<WeightsOfThresholds>(surface, std::move(ground), round ? 1.0 : 0.0);
+        subject.staircase = [weights](double tau_theta, double tau_max, double beta_min) {
+            return (*weights)(tau_theta, tau_max, beta_min);
+        };
     }
     return subject;
 }

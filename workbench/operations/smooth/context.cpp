@@ -108,7 +108,7 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
     static_cast<void>(surface.topology->rings());  // what making them has taken is not needed again
     release_kept_memory();
     const std::vector<Cap> caps = caps_of(surface, arguments);
-    const std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
+    std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
     const bool round = arguments.text("caps") == "round";
     context.start =
         round ? std::make_shared<const Positions>(rounded_caps(surface, caps)) : surface.positions;
@@ -124,6 +124,7 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
     if (round && !context.weights.empty())
         for (std::size_t v = 0; v < on_caps.size(); ++v)
             if (on_caps[v] != 0) context.weights[v] = 1.0;
+    context.caps = std::move(on_caps);
     return context;
 }
 

@@ -20,6 +20,7 @@ namespace vesselbench {
 struct SmoothingContext {
     std::shared_ptr<const Positions> start;  ///< the surface's, or with domed caps (caps=round)
     std::vector<double> weights;             ///< product of all weights, #V; empty: 1 everywhere
+    std::vector<std::uint8_t> caps;          ///< 1 at their vertices, #V
     std::vector<std::uint8_t> fixed;         ///< caps that are kept, #V
     std::optional<PositionConstraint> constraint;
 };
