@@ -98,8 +98,10 @@ SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& cur
     SensitivityAnalysis analysis{.scale = quality_scale(search.table(), progress)};
     const std::size_t count = search.space().parameters.size();
     for (std::size_t i = 0; i < count; ++i) {
-        progress.report(static_cast<double>(i) / static_cast<double>(count), "measuring");
-        analysis.curves.push_back(quality_curve(search, i, current, coarse, progress));
+        const double done = static_cast<double>(i) / static_cast<double>(count);
+        const Progress part = progress.part(done, done + 1.0 / static_cast<double>(count));
+        part.report(0.0, "measuring");
+        analysis.curves.push_back(quality_curve(search, i, current, coarse, part));
     }
     return analysis;
 }

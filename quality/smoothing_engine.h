@@ -21,7 +21,7 @@ struct StaircaseValues {
 };
 
 /// Makes weights of staircase awareness for other values of its parameters, times all weights that
-/// stay. Called by one thread at a time.
+/// stay. Called from any thread.
 using StaircaseWeights =
     std::function<SharedWeights(double tau_theta, double tau_max, double beta_min)>;
 

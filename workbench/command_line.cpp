@@ -263,22 +263,28 @@ void add_picture(CommandLine& line) {
     command.footer(kPictureFooter);
 }
 
-void add_subject(CLI::App& command, std::string& source, std::vector<std::string>& arguments,
-                 std::string& operation, std::string& filter) {
-    command.add_option("SOURCE", source, "Project (.vbench) or surface file")
+void add_subject(CLI::App& command, SubjectOptions& subject) {
+    command.add_option("SOURCE", subject.source, "Project (.vbench) or surface file")
         ->required()
         ->type_name("");
     command
-        .add_option("parameter=value", arguments,
+        .add_option("parameter=value", subject.arguments,
                     "Arguments of the operation that stay; staircase=true of smooth searches its "
                     "thresholds, too")
         ->type_name("");
     command
-        .add_option("--operation", operation,
+        .add_option("--operation", subject.operation,
                     "Operation: smooth, remesh, decimate or subdivide (default: smooth)")
         ->type_name("NAME");
-    command.add_option("--filter", filter, "Filter of smooth (default: what smooth takes)")
+    command
+        .add_option("--variant", subject.variant,
+                    "Variant of a project, where the operation belongs to one (default: cfd)")
         ->type_name("NAME");
+    command.add_option("--filter", subject.filter, "Filter of smooth (default: what smooth takes)")
+        ->type_name("NAME");
+    command
+        .add_option("--units", subject.units, "Unit of surface files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
 }
 
 void add_suggest(CommandLine& line) {
@@ -286,8 +292,9 @@ void add_suggest(CommandLine& line) {
     CLI::App& command = add_command(
         line, "suggest", "Suggest parameters of smooth, or another operation, for a surface",
         [options, &line] { return suggest_parameters(*options, line.progress), 0; });
-    add_subject(command, options->source, options->arguments, options->operation, options->filter);
-    command.add_option("--tau", options->tau, "Target smoothness, from 0 (accurate) to 1 (smooth)")
+    add_subject(command, options->subject);
+    command
+        .add_option("--tau", options->tau, "Target, from 0 (accurate) to 1 (smooth; few triangles)")
         ->capture_default_str()
         ->type_name("TAU");
     command
@@ -296,9 +303,10 @@ void add_suggest(CommandLine& line) {
         ->capture_default_str()
         ->type_name("FORM");
     command
-        .add_option("--search", options->search,
-                    "automatic, coarse (steps of 0.1 and 5 iterations), exhaustive (0.05 and 1) or "
-                    "pattern")
+        .add_option(
+            "--search", options->search,
+            "automatic, coarse (of laplace: steps of 0.1 and 5 iterations), exhaustive (0.05 "
+            "and 1) or pattern")
         ->capture_default_str()
         ->type_name("WAY");
     command.add_flag("--json", options->json, "Print one JSON document");
@@ -308,9 +316,6 @@ void add_suggest(CommandLine& line) {
                     "With --grid: how far each set ends from this surface, which is known to be "
                     "true")
         ->type_name("FILE");
-    command
-        .add_option("--units", options->units, "Unit of surface files: mm, cm or m (default: mm)")
-        ->type_name("UNIT");
     command.footer(kSuggestFooter);
 }
 
@@ -319,16 +324,14 @@ void add_quality(CommandLine& line) {
     CLI::App& command = add_command(
         line, "quality", "Draw how parameters of smooth, or another operation, change a surface",
         [options, &line] { return draw_quality(*options, line.progress), 0; });
-    add_subject(command, options->source, options->arguments, options->operation, options->filter);
+    add_subject(command, options->subject);
     command
         .add_option("--out", options->out,
                     "Where to: an .svg gets graphs, or bars if its name holds that word; a .png "
                     "gets the gallery of three suggestions; may be repeated")
         ->allow_extra_args(false)
         ->type_name("FILE");
-    command
-        .add_option("--tau", options->tau,
-                    "Target smoothness of the suggestions in graphs and bars")
+    command.add_option("--tau", options->tau, "Target of the suggestions in graphs and bars")
         ->capture_default_str()
         ->type_name("TAU");
     command.add_option("--sort", options->sort, "Bars by parameter or by measure")
@@ -336,13 +339,10 @@ void add_quality(CommandLine& line) {
         ->type_name("ORDER");
     command
         .add_option("--at", options->at,
-                    "Place that the gallery magnifies [mm] (default: where smoothing moves most)")
+                    "Place that the gallery magnifies [mm] (default: where the surface moves most)")
         ->delimiter(',')
         ->expected(3)
         ->type_name("X,Y,Z");
-    command
-        .add_option("--units", options->units, "Unit of surface files: mm, cm or m (default: mm)")
-        ->type_name("UNIT");
     command.add_flag("--json", options->json, "Print the graphs' figures as one JSON document");
     command.footer(kQualityFooter);
 }

@@ -132,6 +132,36 @@ SCENARIO("Parameters of operations that change triangles are suggested", "[workb
         REQUIRE(run.exit_code == 0);
         CHECK(run.out.find("vesselbench apply PROJECT subdivide iterations=") != std::string::npos);
     }
+    WHEN("an error decides, and no share") {
+        const ProgramRun run = program({"quality", ball, "--operation", "decimate", "max_error=0.1",
+                                        "--out", folder + "/bars.svg", "--json"});
+        REQUIRE(run.exit_code == 0);
+        const Json curve = Json::parse(run.out)["curves"][0];
+        THEN("the share that it leads to is the current one") {
+            CHECK(curve["parameter"] == "share");
+            CHECK(curve["current"] > 0.02);
+            CHECK(curve["current"] < 1.0);
+        }
+    }
+    WHEN("a project has variants") {
+        const std::string project = folder + "/ball.vbench";
+        REQUIRE(program({"new", project, ball}).exit_code == 0);
+        REQUIRE(program({"apply", project, "decimate", "share=0.5", "--variant", "rp"}).exit_code ==
+                0);
+        const auto vertices = [&](const std::string& variant) {
+            const ProgramRun run = program({"suggest", project, "--operation", "decimate",
+                                            "--variant", variant, "--search", "coarse"});
+            REQUIRE(run.exit_code == 0);
+            CHECK((run.out.find("--variant rp") != std::string::npos) == (variant == "rp"));
+            CHECK((run.err.find("is a decimate already") != std::string::npos) ==
+                  (variant == "rp"));
+            return run.out.substr(0, run.out.find("vertices"));
+        };
+        THEN("each is searched by itself") {
+            CHECK(vertices("cfd").find(" 642 ") != std::string::npos);
+            CHECK(vertices("rp").find(" 322 ") != std::string::npos);
+        }
+    }
     WHEN("graphs are drawn") {
         const std::string graphs = folder + "/graphs.svg";
         const ProgramRun run =

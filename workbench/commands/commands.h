@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/progress.h"
+#include "workbench/suggest/subject_options.h"
 
 namespace vesselbench {
 
@@ -78,15 +79,11 @@ struct PictureArguments {
 void draw_picture(const PictureArguments& arguments);
 
 struct SuggestOptions {
-    std::string source;                  ///< project or surface file
-    std::vector<std::string> arguments;  ///< "parameter=value" of the operation
-    std::string operation = "smooth";
-    std::string filter;  ///< of smooth; empty: as smooth decides
-    double tau = 0.5;    ///< target smoothness
-    std::string score;   ///< empty: what suits the operation
+    SubjectOptions subject;
+    double tau = 0.5;   ///< target smoothness
+    std::string score;  ///< empty: what suits the operation
     std::string search = "automatic";
-    std::string truth;  ///< surface file; empty: none
-    std::string units;  ///< of surface files; empty: mm
+    std::string truth;  ///< surface file, in the units of the subject's; empty: none
     bool grid = false;  ///< adds all coarse sets to the JSON document
     bool json = false;
 };
@@ -95,15 +92,11 @@ struct SuggestOptions {
 void suggest_parameters(const SuggestOptions& options, const Progress& progress);
 
 struct QualityOptions {
-    std::string source;
-    std::vector<std::string> arguments;
+    SubjectOptions subject;
     std::vector<std::string> out;  ///< .svg (graphs, or bars if its name holds that) and .png
-    std::string operation = "smooth";
-    std::string filter;  ///< of smooth; empty: as smooth decides
     double tau = 0.5;
     std::string sort = "parameter";  ///< of bars: parameter or measure
     std::vector<double> at;          ///< artifact of the gallery, 3 numbers [mm]; empty: found
-    std::string units;
     bool json = false;
 };
 

@@ -66,7 +66,8 @@ double distance_from(const SurfaceDistance& truth, const Surface& surface) {
 
 Json grid_json(SuggestionSearch& search, const SuggestOptions& options, const Progress& progress) {
     std::optional<SurfaceDistance> truth;
-    if (!options.truth.empty()) truth.emplace(read_foreign_surface(options.truth, options.units));
+    if (!options.truth.empty())
+        truth.emplace(read_foreign_surface(options.truth, options.subject.units));
     Json list = Json::array();
     for (const ParameterSet& set : search.coarse_sets()) {
         const auto measures = search.measures(set, progress);
@@ -109,10 +110,14 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
     const Arguments arguments = typed_arguments(subject, search.space(), first.values);
     const std::string project = subject.is_project ? subject.name : "PROJECT";
     std::cout << "\nvesselbench apply " << project << " " << subject.operation->name << " "
-              << argument_summary(*subject.operation, arguments) << "\n";
+              << argument_summary(*subject.operation, arguments)
+              << (subject.variant.empty() || subject.variant == "cfd"
+                      ? ""
+                      : " --variant " + subject.variant)
+              << "\n";
 }
 
-Json work_json(const QualityTable::Work& work, double seconds) {
+Json work_json(const MeasureSource::Work& work, double seconds) {
     return {{"evaluations", work.evaluations},
             {"runs", work.runs},
             {"sweeps", work.sweeps},
@@ -163,9 +168,7 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
 void suggest_parameters(const SuggestOptions& options, const Progress& progress) {
     if (!options.truth.empty() && !(options.json && options.grid))
         throw UsageError("--truth goes with --json --grid: it adds a distance to each set");
-    const SearchSubject subject = search_subject(
-        {options.source, options.units, options.operation, options.filter, options.arguments},
-        progress);
+    const SearchSubject subject = search_subject(options.subject, progress);
     const auto start = std::chrono::steady_clock::now();
     SuggestionSearch search(subject, form_for(options, subject), search_way_from(options.search),
                             options.grid);

@@ -28,7 +28,7 @@ std::vector<SearchParameter> of_decimate(const Surface&, bool) {
 std::vector<SearchParameter> of_remesh(const Surface& surface, bool all_parameters) {
     const double radius = usual_radius(surface, local_radii(surface, nullptr));
     SearchParameter edge{.name = "edge", .unit = "mm", .values = {}, .coarse = 3};
-    for (const double factor :  // 45 ... 9 triangles around; 0.28 is the operation's own
+    for (const double factor :  // 45 ... 9 triangles around, as the operation's 0.28 makes 22
          {0.14, 0.17, 0.2, 0.24, 0.28, 0.33, 0.4, 0.5, 0.6, 0.7}) {
         const double length = three_digits(factor * radius);
         const double triangle = std::sqrt(3.0) / 4.0 * length * length;
@@ -88,6 +88,11 @@ StrongChange strong_change(const Operation& operation, const Arguments& argument
     return strong;
 }
 
+double share_of_triangles(const Scene& after, const Scene& before) {
+    return static_cast<double>(surface_of(after).triangle_count()) /
+           static_cast<double>(surface_of(before).triangle_count());
+}
+
 }  // namespace
 
 std::vector<std::string> searched_operations() {
@@ -104,6 +109,11 @@ SearchSpace processing_space(const Operation& operation, const Surface& surface,
                              const Arguments& given, bool all_parameters) {
     const SearchedOperation& how = searched(operation);
     SearchSpace space{.parameters = how.parameters(surface, all_parameters)};
+    if (space.parameters.front().values.empty())
+        throw InvalidInput(
+            operation.name +
+            ": the vessel is so thin for its area that every edge length in question "
+            "makes more than 4 million triangles");
     for (const std::string& rival : how.rivals)
         if (given.has(rival))
             throw UsageError(operation.name + ": " + rival + " cannot be given here, where " +
@@ -139,7 +149,9 @@ std::shared_ptr<MeasureSource> processing_table(const Operation& operation, cons
                              const ParameterSet& set,
                              const Progress& progress) -> std::optional<Surface> {
         try {
-            return processed_with(operation, scene, arguments, space, set, progress);
+            Surface result = processed_with(operation, scene, arguments, space, set, progress);
+            if (area(result) > 0.0) return result;
+            return std::nullopt;
         } catch (const AlgorithmFailure&) {
             return std::nullopt;
         }
@@ -153,15 +165,18 @@ std::shared_ptr<MeasureSource> processing_table(const Operation& operation, cons
 ParameterSet processing_set(const Operation& operation, const Scene& scene,
                             const Arguments& arguments, const SearchSpace& space,
                             const Progress& progress) {
-    Arguments known = arguments;
-    for (const SearchParameter& parameter : space.parameters)
-        if (!known.has(parameter.name)) {
-            Progress own = progress;
-            known = run_operation(operation, scene, arguments, own).resolved;
-        }
+    std::optional<Outcome> outcome;
     ParameterSet set;
-    for (const SearchParameter& parameter : space.parameters)
-        set.push_back(known.real(parameter.name));
+    for (const SearchParameter& parameter : space.parameters) {
+        std::optional<double> value = arguments.optional_real(parameter.name);
+        if (!value) {
+            Progress own = progress;
+            if (!outcome) outcome = run_operation(operation, scene, arguments, own);
+            value = outcome->resolved.optional_real(parameter.name);
+        }
+        // Only decimate leaves its share open, where max_error alone decides.
+        set.push_back(value ? *value : share_of_triangles(outcome->scene, scene));
+    }
     return set;
 }
 

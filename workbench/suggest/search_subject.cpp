@@ -15,13 +15,15 @@ namespace {
 
 constexpr const char* kSmooth = "smooth";
 
-void take_project(const std::string& file, SearchSubject& subject, const Progress& progress) {
-    Session session = Session::open(file);
+void take_project(const SubjectOptions& options, SearchSubject& subject, const Progress& progress) {
+    Session session = Session::open(options.source);
     const Operation& operation = *subject.operation;
     const std::vector<LogEntry> log = session.log();
     const LogEntry* last = nullptr;
     for (const LogEntry& entry : log) {
         if (entry.edit.place.step > operation.usual_step) break;
+        if (!entry.edit.place.variant.empty() && entry.edit.place.variant != options.variant)
+            continue;
         last = &entry;
         if (entry.edit.operation == operation.name)
             subject.notes.push_back("edit " + std::to_string(entry.edit.edit.id) + " is a " +
@@ -31,6 +33,7 @@ void take_project(const std::string& file, SearchSubject& subject, const Progres
     }
     if (last == nullptr) throw InvalidInput(subject.name + " holds no edit that made a surface");
     subject.is_project = true;
+    if (belongs_to_variant(operation.usual_step)) subject.variant = options.variant;
     subject.state = "after edit " + std::to_string(last->edit.edit.id) + " " + last->edit.operation;
     subject.scene = session.scene_after(last->edit.edit.id, progress);
 }
@@ -55,7 +58,7 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     subject.given = given_arguments(options);
     subject.arguments = checked_arguments(*subject.operation, subject.given);
     if (options.source.ends_with(".vbench"))
-        take_project(options.source, subject, progress);
+        take_project(options, subject, progress);
     else
         subject.scene.surface =
             read_foreign_surface(options.source, options.units, progress.part(0.0, 0.1));

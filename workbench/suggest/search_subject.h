@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,23 +7,16 @@
 #include "quality/search.h"
 #include "workbench/operation.h"
 #include "workbench/suggest/smoothing_subject.h"
+#include "workbench/suggest/subject_options.h"
 
 namespace vesselbench {
-
-/// What the command line says about a search of an operation's parameters.
-struct SubjectOptions {
-    std::string source;                  ///< a project or a surface file
-    std::string units;                   ///< of a surface file; empty: mm
-    std::string operation = "smooth";    ///< smooth, remesh, decimate or subdivide
-    std::string filter;                  ///< of smooth; empty: as `smooth` decides
-    std::vector<std::string> arguments;  ///< "parameter=value" of the operation, which stay
-};
 
 /// A surface as the operation would find it, and what the operation would be told.
 struct SearchSubject {
     std::string name;  ///< of the source, without its folder
     bool is_project = false;
-    std::string state;  ///< of a project: which edit it is after; else empty
+    std::string state;    ///< of a project: which edit it is after; else empty
+    std::string variant;  ///< of a project, where the operation belongs to one; else empty
     const Operation* operation = nullptr;
     Scene scene;
     Arguments given;                            ///< as the user gave them
@@ -34,7 +26,7 @@ struct SearchSubject {
 };
 
 /// A project's surface is the one after its last edit of the steps up to the operation's usual one:
-/// the one that `apply PROJECT OPERATION` would change.
+/// the one that `apply PROJECT OPERATION --variant V` would change.
 /// \throw UsageError if the operation is none that can be searched; UsageError, InvalidInput,
 /// AlgorithmFailure as `smooth` and the readers
 [[nodiscard]] SearchSubject search_subject(const SubjectOptions& options, const Progress& progress);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -51,6 +52,7 @@ public:
           change_(orientation_change(*surface.topology, surface.points(), ground_.stack_axis)) {}
 
     [[nodiscard]] SharedWeights operator()(double tau_theta, double tau_max, double beta_min) {
+        const std::lock_guard lock(mutex_);
         const std::array<double, 3> key = {tau_theta, tau_max, beta_min};
         if (const auto at = weights_.find(key); at != weights_.end()) return at->second;
         if (weights_.size() >= kWeightsKept) weights_.clear();
@@ -80,6 +82,7 @@ private:
                    staircase_distances(*surface_.topology, surface_.points(), change_, parameters);
     }
 
+    std::mutex mutex_;
     Surface surface_;
     StaircaseGround ground_;
     double cap_weight_ = 0.0;
