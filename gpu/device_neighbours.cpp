@@ -92,6 +92,7 @@ NeighbourDistances find_neighbour_distances(const DeviceSurface& surface,
     const Device& device = surface.device();
     const std::size_t count = surface.vertex_count();
     NeighbourDistances found;
+    found.count = count;
     found.distances = make_storage(device, count * sizeof(float), "distances to neighbours");
     fill_storage(found.distances, std::bit_cast<std::uint32_t>(kUnknown));
     for (const Surface& neighbour : neighbours) search(surface, neighbour, found.distances);

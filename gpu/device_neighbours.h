@@ -10,6 +10,7 @@ namespace vesselbench {
 struct NeighbourDistances {
     Buffer distances;                ///< [mm], >= 0: float, #V
     double least = 0.0, most = 0.0;  ///< of them [mm]
+    std::size_t count = 0;           ///< #V of the surface they are of
 };
 
 /// Distance of every vertex to the nearest of several neighbours, as neighbour_distances finds it:

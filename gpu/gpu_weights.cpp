@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <string>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -62,9 +63,11 @@ void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters)
     std::vector<float> free(surface_->vertex_count(), 1.0F);
     for (std::size_t v = 0; v < parameters.caps.size(); ++v)
         if (parameters.caps[v] != 0) free[v] = 0.0F;
-    free_of_caps_ = make_storage(surface_->device(), std::span<const float>(free), "free of caps");
-    staircases_ = search_staircases(*surface_, changes_, free_of_caps_, parameters.tau_theta,
+    Buffer free_of_caps =
+        make_storage(surface_->device(), std::span<const float>(free), "free of caps");
+    staircases_ = search_staircases(*surface_, changes_, free_of_caps, parameters.tau_theta,
                                     parameters.tau_max);
+    free_of_caps_ = std::move(free_of_caps);  // a search that failed has changed nothing
 }
 
 void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,
@@ -95,6 +98,9 @@ void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
 void GpuWeights::multiply_distances(const NeighbourDistances& distances,
                                     const DistanceParameters& parameters) {
     detail::require_distance_parameters(parameters);
+    if (distances.count != surface_->vertex_count())
+        throw InvalidInput("got " + std::to_string(distances.count) + " distances for " +
+                           std::to_string(surface_->vertex_count()) + " vertices");
     if (!(distances.most < kFar))
         throw InvalidInput("distances to neighbours must be finite and not negative");
     const double from =

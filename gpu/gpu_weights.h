@@ -37,11 +37,15 @@ public:
     /// Multiplies by staircase weights (Eqs. 5.5-5.6) of the orientation changes; caps are no
     /// staircases and get weight 0. Other scalings and beta_min need no new search. Agrees with the
     /// CPU's to single precision.
-    /// \throw InvalidInput as staircase_weights
+    /// \throw InvalidInput as staircase_weights; GpuUnavailable if the context is lost, a shader
+    /// does not compile or a buffer does not fit
     void multiply_staircases(const StaircaseParameters& parameters = {});
 
+    /// Vertices that were a staircase's, caps left out, for the last multiply_staircases.
+    [[nodiscard]] std::size_t staircase_vertices() const { return staircases_.sources; }
+
     /// Multiplies by weights from distances to neighbours (5.2, Eq. 5.2).
-    /// \throw InvalidInput as distance_weights
+    /// \throw InvalidInput as distance_weights, or if the distances are not #V
     void multiply_distances(const NeighbourDistances& distances,
                             const DistanceParameters& parameters = {});
 

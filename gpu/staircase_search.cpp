@@ -71,6 +71,7 @@ public:
     /// Distances to what has been found, and the largest of those that are settled [mm].
     DeviceDistances distances() {
         DeviceDistances result;
+        result.sources = sources_;
         result.distances = make_storage(device_, count_ * sizeof(float), "staircase distances");
         bind_storage({&surface_.exact(), &result.distances, &nearest_, nullptr, nullptr, &doubts_,
                       nullptr, &found_});

@@ -8,9 +8,10 @@ namespace vesselbench {
 
 /// Distances to staircases on the device.
 struct DeviceDistances {
-    Buffer distances;       ///< [mm], 3.1e38 where no staircase reaches: float, #V
-    double farthest = 0.0;  ///< largest distance of those that are reached [mm]
-    std::size_t open = 0;   ///< vertices that the CPU had to settle
+    Buffer distances;         ///< [mm], 3.1e38 where no staircase reaches: float, #V
+    double farthest = 0.0;    ///< largest distance of those that are reached [mm]
+    std::size_t sources = 0;  ///< staircase vertices
+    std::size_t open = 0;     ///< vertices that the CPU had to settle
 };
 
 /// Distance of every vertex to the nearest staircase vertex that reaches it (Eq. 5.5), as

@@ -102,6 +102,49 @@ SCENARIO("Where the context is lost half-way the CPU serves", "[gpu][device-choi
     }
 }
 
+SCENARIO("What the device found is forgotten where it fails later", "[gpu][device-choice]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface tube = open_tube(2.0, 30.0, 40, 60);
+    const std::vector<Surface> neighbours{icosphere(4.0, 3, Vec3(6, 0, 10))};
+    int preparations = 0;
+    std::vector<double> weights;
+    const auto prepare = [&](ContextFinder& finder) -> FilterStart {
+        ++preparations;
+        weights = finder.neighbours(neighbours, {}).weights;
+        return {tube.positions, {.weights = weights}};
+    };
+    const auto run = [&](DeviceChoice choice, const DeviceSource& source) {
+        preparations = 0;
+        return apply_filter_on(choice, tube, kFilter, prepare, {}, source);
+    };
+    const Positions wanted = run(DeviceChoice::Cpu, offscreen_device).positions;
+    CHECK(preparations == 1);
+    const DeviceRun whole = run(DeviceChoice::Gpu, offscreen_device);
+    CHECK(whole.on_gpu);
+    CHECK(preparations == 1);
+    CHECK(relative_distances(wanted, whole.positions).back() <= 1e-5);
+    CHECK(whole.positions != wanted);
+    for (const char* shader : {"distance_weight.comp", "linear_step.comp"}) {
+        std::map<std::string, std::string> texts = *test->device.shaders;
+        texts[shader] += "float wrong() { return nothing; }\n";
+        const DeviceRun failed =
+            run(DeviceChoice::Gpu, changed([&](Device& device) { device.shaders = &texts; }));
+        CHECK_FALSE(failed.on_gpu);
+        CHECK_THAT(failed.reason, Contains(std::string(shader) + " does not compile"));
+        CHECK(preparations == 2);
+        CHECK(failed.positions == wanted);
+    }
+    THEN("the filter starts where the preparation says, on the device as well") {
+        const auto start = mapped(tube, [](const Vec3& p) { return Vec3(1.1 * p); }).positions;
+        const auto elsewhere = [&](ContextFinder&) { return FilterStart{start, {}}; };
+        const DeviceRun moved = apply_filter_on(DeviceChoice::Gpu, tube, kFilter, elsewhere);
+        CHECK(moved.on_gpu);
+        CHECK(relative_distances(apply_filter(*tube.topology, *start, kFilter), moved.positions)
+                  .back() <= 2e-6);
+    }
+}
+
 SCENARIO("Wrong parameters and a wish to stop are not hidden by the CPU", "[gpu][device-choice]") {
     const Surface sphere = icosphere(5.0, 2);
     CHECK_THROWS_AS(apply_filter_on(DeviceChoice::Gpu, sphere, LaplaceParameters{2.0}),

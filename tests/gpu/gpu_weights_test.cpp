@@ -85,6 +85,27 @@ SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][
             }
 }
 
+SCENARIO("A search that failed changes no weights of the one before", "[gpu][weights]") {
+    auto test = test_device();
+    if (!test) return;
+    const Surface tube = open_tube(2.0, 30.0, 40, 60);
+    bool lost = false;
+    test->device.lost = [&] { return lost; };
+    GpuWeights weights(uploaded(*test, tube));
+    weights.find_orientation_change(kAxis);
+    const StaircaseParameters parameters{.tau_theta = 0.01, .tau_max = 1.0};
+    weights.multiply_staircases(parameters);
+    const auto before = read_storage<float>(weights.weights(), tube.vertex_count());
+    const std::vector<std::uint8_t> caps(tube.vertex_count(), 1);
+    lost = true;
+    CHECK_THROWS_AS(weights.multiply_staircases({.caps = caps}), GpuUnavailable);
+    lost = false;
+    weights.restart();
+    weights.multiply_staircases(parameters);
+    CHECK(read_storage<float>(weights.weights(), tube.vertex_count()) == before);
+    CHECK(std::ranges::max(before) > 0.5F);
+}
+
 SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
     const auto test = test_device();
     if (!test) return;
@@ -93,7 +114,8 @@ SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
     const auto [least, most] = std::ranges::minmax(distances);
     const std::vector<float> single(distances.begin(), distances.end());
     const NeighbourDistances known{
-        make_storage(test->device, std::span<const float>(single), "distances"), least, most};
+        make_storage(test->device, std::span<const float>(single), "distances"), least, most,
+        distances.size()};
     GpuWeights weights(uploaded(*test, sphere));
     for (const auto scaling :
          {DistanceScaling::Linear, DistanceScaling::Margin, DistanceScaling::Exponential})
@@ -111,6 +133,8 @@ SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
               0.0);
     }
     CHECK_THROWS_AS(weights.multiply_distances(known, {.omega = 0.0}), InvalidInput);
+    CHECK_THROWS_AS(GpuWeights(uploaded(*test, icosphere(1.0, 2))).multiply_distances(known),
+                    InvalidInput);
     CHECK_THROWS_AS(weights.multiply_distances(known, {.margin = -1.0}), InvalidInput);
     CHECK_THROWS_AS(weights.find_orientation_change(Vec3::Zero()), InvalidInput);
 }

@@ -306,6 +306,52 @@ SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU i
     }
 }
 
+SCENARIO("A GPU finds the context that the CPU finds", "[workbench][smooth][device]") {
+    const auto shape = [](const Vec3& p) {  // cut off where the image ends
+        const double z = 2.0 * std::round(p.z() / 2.0);
+        const double vessel = capsule(Vec3(p.x(), p.y(), z), Vec3(-8, 0, -6), Vec3(8, 0, 6), 4.0);
+        return std::max(vessel, -4.0 - p.z());
+    };
+    Scene scene = scene_of(iso_surface(shape, {Vec3(-14, -6, -12), Vec3(14, 6, 12)}, 0.43));
+    scene.neighbours["tumour"] = icosphere(3.0, 3, Vec3(9.0, 0, 0));
+    const Surface& surface = *scene.surface;
+    for (const char* caps : {"keep", "round"}) {
+        Arguments arguments{{"staircase", true},
+                            {"stack_axis", Vec3(0, 0, 1)},
+                            {"distance", "linear"},
+                            {"caps", std::string(caps)}};
+        arguments.set("device", std::string("cpu"));
+        const Outcome cpu = smooth(scene, arguments);
+        arguments.set("device", std::string("gpu"));
+        const Outcome gpu = smooth(scene, arguments);
+        CHECK(cpu.report->at("caps") == 1);
+        CHECK(cpu.report->at("vertices_moved") > 100);
+        double farthest = 0.0;
+        for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+            farthest = std::max(
+                farthest, (gpu.scene.surface->points()[v] - cpu.scene.surface->points()[v]).norm());
+        CHECK(farthest <= 1e-5 * bounds(surface).diagonal());
+        if (gpu.resolved.text("device") == "cpu") {
+            WARN("skipped: no OpenGL, the CPU served");
+            CHECK(*gpu.report == *cpu.report);
+            continue;
+        }
+        Arguments resolved = gpu.resolved;
+        resolved.set("device", std::string("cpu"));
+        CHECK(resolved == cpu.resolved);
+        CHECK(gpu.warnings == cpu.warnings);
+        REQUIRE(gpu.report->size() == cpu.report->size());
+        for (const auto& [name, value] : cpu.report->items()) {
+            INFO(name);
+            const Json& found = gpu.report->at(name);
+            if (value.is_number_float())
+                CHECK(found.get<double>() == Approx(value.get<double>()).epsilon(1e-4));
+            else if (name != "vertices_moved")  // some by less than single precision tells
+                CHECK(found == value);
+        }
+    }
+}
+
 SCENARIO("What a GPU smoothed is replayed by tolerance", "[workbench][smooth][device]") {
     const std::string folder = temporary_folder();
     write_surface(*terraced_vessel().surface, folder + "/vessel.vtp");

@@ -7,11 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/errors.h"
-#include "smoothing/caps.h"
-#include "smoothing/distance_weights.h"
 #include "smoothing/stack_orientation.h"
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
 #include "workbench/near_names.h"
 #include "workbench/point_json.h"
 
@@ -43,9 +39,9 @@ std::optional<Vec3> given_stack_axis(const Arguments& arguments, const std::stri
 }
 
 /// A flat end has a normal that many faces share, but is no staircase.
-Surface without_caps(const Surface& surface) {
+Surface without_caps(const Surface& surface, const std::vector<Cap>& caps) {
     std::vector<std::uint8_t> on_cap(surface.triangle_count(), 0);
-    for (const Cap& cap : find_caps(surface))
+    for (const Cap& cap : caps)
         for (const TriangleId t : cap.triangles) on_cap[t] = 1;
     std::vector<Triangle> wall;
     for (TriangleId t = 0; t < on_cap.size(); ++t)
@@ -54,8 +50,8 @@ Surface without_caps(const Surface& surface) {
 }
 
 /// Where the stack axis comes from: the user, the image, or the surface itself.
-Vec3 stack_axis(const Scene& scene, const std::string& operation, Arguments& arguments,
-                Json& report) {
+Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder& finder,
+                Arguments& arguments, Json& report) {
     if (const auto given = given_stack_axis(arguments, operation)) {
         report["stack_axis_from"] = "argument";
         return *given;
@@ -66,7 +62,8 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, Arguments& arg
         arguments.set("stack_axis", axis);
         return axis;
     }
-    const StackOrientation estimate = estimate_stack_orientation(without_caps(surface_of(scene)));
+    const StackOrientation estimate =
+        estimate_stack_orientation(without_caps(surface_of(scene), finder.caps()));
     report["stack_axis_confidence"] = estimate.confidence;
     if (!estimate.certain)
         throw AlgorithmFailure(
@@ -78,9 +75,8 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, Arguments& arg
 }
 
 std::vector<double> staircase_part(const Scene& scene, const WeightSettings& settings,
-                                   Arguments& arguments, Json& report) {
-    const Surface& surface = surface_of(scene);
-    const Vec3 axis = stack_axis(scene, settings.operation, arguments, report);
+                                   ContextFinder& finder, Arguments& arguments, Json& report) {
+    const Vec3 axis = stack_axis(scene, settings.operation, finder, arguments, report);
     const std::vector<std::uint8_t>& caps = settings.caps;
     const StaircaseParameters parameters{
         .tau_theta = arguments.real("tau_theta"),
@@ -88,16 +84,12 @@ std::vector<double> staircase_part(const Scene& scene, const WeightSettings& set
         .beta_min = settings.beta_min,
         .scaling = settings.thesis_scaling ? StaircaseScaling::Thesis : StaircaseScaling::TauMax,
         .caps = caps};
-    const auto change = orientation_change(*surface.topology, surface.points(), axis);
-    auto weights = staircase_weights(*surface.topology, surface.points(), change, parameters);
+    StaircaseContext found = finder.staircases(axis, parameters);
+    for (std::size_t v = 0; v < caps.size(); ++v)
+        if (caps[v] != 0) found.weights[v] = settings.cap_weight;
     report["stack_axis"] = point_json(axis);
-    std::size_t count = 0;
-    for (std::size_t v = 0; v < change.size(); ++v) {
-        count += change[v] > parameters.tau_theta && caps[v] == 0 ? 1 : 0;
-        if (caps[v] != 0) weights[v] = settings.cap_weight;
-    }
-    report["staircase_vertices"] = count;
-    return weights;
+    report["staircase_vertices"] = found.vertices;
+    return std::move(found.weights);
 }
 
 /// The names of the neighbours that count: those given, or all that are loaded.
@@ -135,7 +127,7 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
 }
 
 std::vector<double> distance_part(const Scene& scene, const std::string& operation,
-                                  Arguments& arguments, Json& report) {
+                                  ContextFinder& finder, Arguments& arguments, Json& report) {
     const std::string& name = arguments.text("distance");
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
     arguments.set("neighbours", joined(names, ","));  // one loaded later changes nothing here
@@ -145,11 +137,10 @@ std::vector<double> distance_part(const Scene& scene, const std::string& operati
                                                        : DistanceScaling::Linear,
                                         .margin = arguments.real("margin"),
                                         .omega = arguments.real("omega")};
-    const auto distances =
-        neighbour_distances(surface_of(scene).points(), neighbours_of(scene, names, operation));
-    report["smallest_neighbour_distance_mm"] = std::ranges::min(distances);
-    report["largest_neighbour_distance_mm"] = std::ranges::max(distances);
-    return distance_weights(distances, parameters);
+    NeighbourContext found = finder.neighbours(neighbours_of(scene, names, operation), parameters);
+    report["smallest_neighbour_distance_mm"] = found.least;
+    report["largest_neighbour_distance_mm"] = found.most;
+    return std::move(found.weights);
 }
 
 std::vector<double> painted_part(const Surface& surface, const std::string& name,
@@ -246,14 +237,16 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation) 
 }
 
 std::vector<double> context_weights(const Scene& scene, const WeightSettings& settings,
-                                    Arguments& arguments, Json& report) {
+                                    ContextFinder& finder, Arguments& arguments, Json& report) {
     const std::string& operation = settings.operation;
     check_stack_axis(arguments, operation);
     std::vector<double> weights;
     if (arguments.flag("staircase"))
-        weigh(weights, staircase_part(scene, settings, arguments, report), "staircase", report);
+        weigh(weights, staircase_part(scene, settings, finder, arguments, report), "staircase",
+              report);
     if (arguments.text("distance") != "none")
-        weigh(weights, distance_part(scene, operation, arguments, report), "distance", report);
+        weigh(weights, distance_part(scene, operation, finder, arguments, report), "distance",
+              report);
     if (const auto painted = arguments.optional_text("painted"))
         weigh(weights, painted_part(surface_of(scene), *painted, operation), "painted", report);
     return weights;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "smoothing/context_finder.h"
 #include "workbench/operation.h"
 
 namespace vesselbench {
@@ -41,13 +42,14 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation);
 
 /// The product of all weights that the arguments ask for; fills in what it decided (stack_axis,
 /// neighbours).
+/// \param finder of the scene's surface
 /// \param report what was found is added here
 /// \return #V; empty: 1 everywhere
 /// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks what they name;
 /// AlgorithmFailure if the stack orientation is uncertain
 [[nodiscard]] std::vector<double> context_weights(const Scene& scene,
                                                   const WeightSettings& settings,
-                                                  Arguments& arguments,
+                                                  ContextFinder& finder, Arguments& arguments,
                                                   nlohmann::ordered_json& report);
 
 /// Distance of the position that is nearest to a neighbour [mm]; 0 inside.

@@ -38,12 +38,13 @@ DecimateParameters target_from(const Surface& surface, Arguments& arguments) {
 
 std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json& report) {
     const Surface& surface = surface_of(scene);
+    const auto finder = make_cpu_finder(surface);
     WeightSettings settings{.operation = "decimate", .beta_min = arguments.real("beta_min")};
     if (arguments.flag("staircase")) {
         settings.cap_weight = settings.beta_min;  // a flat end is no staircase, nor to be spared
-        settings.caps = cap_vertices(find_caps(surface), surface.vertex_count());
+        settings.caps = cap_vertices(finder->caps(), surface.vertex_count());
     }
-    return context_weights(scene, settings, arguments, report);
+    return context_weights(scene, settings, *finder, arguments, report);
 }
 
 double mean_skewness(const Surface& surface) {

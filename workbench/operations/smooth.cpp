@@ -81,35 +81,34 @@ std::string why_little_moved(const Json& report, const Arguments& resolved) {
     return "nothing moved: every vertex is kept or has the weight 0";
 }
 
-/// Moves the vertices on the device that was asked for, and records which one did: what is
-/// committed is the CPU's result unless the GPU is asked for by name (DESIGN 1).
-Positions filtered(const Surface& start, const FilterParameters& filter,
-                   const FilterSettings& settings, Outcome& outcome, const Progress& progress) {
-    const bool by_name = outcome.resolved.text("device") == "gpu";
-    DeviceRun run = apply_filter_on(by_name ? DeviceChoice::Gpu : DeviceChoice::Cpu, start, filter,
-                                    settings, progress);
+/// What the filter makes of the surface in its context, on the device that was asked for; records
+/// which one it was: what is committed is the CPU's result unless the GPU is asked for by name
+/// (DESIGN 1).
+Positions filtered(const Scene& scene, const FilterParameters& filter, Outcome& outcome,
+                   Json& report, Progress& progress) {
+    const Arguments asked = outcome.resolved;
+    SmoothingContext context;
+    const auto prepare = [&](ContextFinder& finder) -> FilterStart {
+        progress.report(0.0, "looking at the context");
+        outcome.resolved = asked;
+        report = Json();
+        context = smoothing_context(scene, finder, outcome.resolved, report);
+        release_kept_memory();
+        if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
+        return {context.start,
+                {.iterations = static_cast<int>(asked.integer("iterations")),
+                 .weights = context.weights,
+                 .fixed = context.fixed,
+                 .rings = static_cast<int>(asked.integer("rings")),
+                 .constraint = context.constraint}};
+    };
+    const bool by_name = asked.text("device") == "gpu";
+    DeviceRun run = apply_filter_on(by_name ? DeviceChoice::Gpu : DeviceChoice::Cpu,
+                                    surface_of(scene), filter, prepare, progress.part(0.1, 0.8));
     if (!run.reason.empty())
         outcome.warnings.push_back("device=gpu: the CPU smoothed instead, because " + run.reason);
     outcome.resolved.set("device", std::string(run.on_gpu ? "gpu" : "cpu"));
     return std::move(run.positions);
-}
-
-/// What the filter makes of the surface in its context, which is not needed any more afterwards.
-Positions filtered_in_context(const Scene& scene, const FilterParameters& filter, Outcome& outcome,
-                              Json& report, Progress& progress) {
-    progress.report(0.0, "looking at the context");
-    const SmoothingContext context = smoothing_context(scene, outcome.resolved, report);
-    release_kept_memory();
-    if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
-    Surface start = surface_of(scene);
-    start.positions = context.start;
-    return filtered(start, filter,
-                    {.iterations = static_cast<int>(outcome.resolved.integer("iterations")),
-                     .weights = context.weights,
-                     .fixed = context.fixed,
-                     .rings = static_cast<int>(outcome.resolved.integer("rings")),
-                     .constraint = context.constraint},
-                    outcome, progress.part(0.1, 0.8));
 }
 
 Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -121,7 +120,7 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
     if (const std::string warning = filter_warning(filter); !warning.empty())
         outcome.warnings.push_back(warning);
     Json report;
-    Positions moved = filtered_in_context(scene, filter, outcome, report, progress);
+    Positions moved = filtered(scene, filter, outcome, report, progress);
     release_kept_memory();
     // No filter may make the surface pass through itself.
     warn_of_crossings(take_back_crossings(surface, moved, progress), "filter",
@@ -141,14 +140,14 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
 std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
     for (Parameter& parameter : context_parameter_table()) table.push_back(std::move(parameter));
-    table.push_back({.name = "device",
-                     .type = ParameterType::Choice,
-                     .default_value = std::string("auto"),
-                     .help =
-                         "where vertices are moved: auto and cpu give the same bits everywhere; "
-                         "gpu is faster on large surfaces, a replay compares by tolerance then, "
-                         "and without a usable GPU the CPU serves",
-                     .choices = {"auto", "cpu", "gpu"}});
+    table.push_back(
+        {.name = "device",
+         .type = ParameterType::Choice,
+         .default_value = std::string("auto"),
+         .help = "where the context is found and vertices are moved: auto and cpu give the same "
+                 "bits everywhere; gpu is faster on large surfaces, a replay compares by tolerance "
+                 "then, and without a usable GPU the CPU serves",
+         .choices = {"auto", "cpu", "gpu"}});
     return table;
 }
 

@@ -25,7 +25,8 @@ SharedWeights shared_weights(std::vector<double> weights) {
     return std::make_shared<const std::vector<double>>(std::move(weights));
 }
 
-StaircaseGround staircase_ground_of(const Scene& scene, const Arguments& arguments,
+StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
+                                    const Arguments& arguments,
                                     const std::vector<std::uint8_t>& caps) {
     StaircaseGround ground{.stack_axis = arguments.point("stack_axis"),
                            .caps = caps,
@@ -36,7 +37,7 @@ StaircaseGround staircase_ground_of(const Scene& scene, const Arguments& argumen
     Arguments others = arguments;
     others.set("staircase", false);
     Json report;
-    ground.others = shared_weights(smoothing_context(scene, others, report).weights);
+    ground.others = shared_weights(smoothing_context(scene, finder, others, report).weights);
     return ground;
 }
 
@@ -98,7 +99,8 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
     resolve_filter(surface, arguments);
     SmoothingSubject subject{.filter = filter_from(arguments)};
     Json report;
-    SmoothingContext context = smoothing_context(scene, arguments, report);
+    const auto finder = make_cpu_finder(surface);
+    SmoothingContext context = smoothing_context(scene, *finder, arguments, report);
     subject.weights = shared_weights(std::move(context.weights));
     subject.ground = {.topology = surface.topology,
                       .start = context.start,
@@ -108,7 +110,7 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
     if (scene.sampling) subject.slice = scene.sampling->spacing.z();
     if (arguments.flag("staircase")) {
         const bool round = arguments.text("caps") == "round";
-        StaircaseGround ground = staircase_ground_of(scene, arguments, context.caps);
+        StaircaseGround ground = staircase_ground_of(scene, *finder, arguments, context.caps);
         if (!round) subject.staircase_ground = ground;  // a GPU would look at the rounded surface
         const auto weights =
             std::make_shared<WeightsOfThresholds>(surface, std::move(ground), round ? 1.0 : 0.0);

@@ -34,9 +34,9 @@ std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments&
 }
 
 /// Caps as far as the arguments ask for them.
-std::vector<Cap> caps_of(const Surface& surface, const Arguments& arguments) {
+std::vector<Cap> caps_of(ContextFinder& finder, const Arguments& arguments) {
     if (arguments.text("caps") == "smooth") return {};
-    std::vector<Cap> caps = find_caps(surface);
+    std::vector<Cap> caps = finder.caps();
     if (!arguments.flag("find_caps"))
         std::erase_if(caps, [](const Cap& c) { return !c.from_patch; });
     return caps;
@@ -100,14 +100,15 @@ std::vector<Parameter> context_parameter_table() {
     return table;
 }
 
-SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Json& report) {
+SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Arguments& arguments,
+                                   Json& report) {
     const Surface& surface = surface_of(scene);
     check_stack_axis(arguments, "smooth");
     SmoothingContext context;
     context.constraint = constraint_part(scene, arguments);
     static_cast<void>(surface.topology->rings());  // what making them has taken is not needed again
     release_kept_memory();
-    const std::vector<Cap> caps = caps_of(surface, arguments);
+    const std::vector<Cap> caps = caps_of(finder, arguments);
     std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
     const bool round = arguments.text("caps") == "round";
     context.start =
@@ -120,7 +121,7 @@ SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments, Jso
                                        .beta_min = arguments.real("beta_min"),
                                        .thesis_scaling = arguments.text("weight") == "thesis",
                                        .caps = on_caps},
-                                      arguments, report);
+                                      finder, arguments, report);
     if (round && !context.weights.empty())
         for (std::size_t v = 0; v < on_caps.size(); ++v)
             if (on_caps[v] != 0) context.weights[v] = 1.0;

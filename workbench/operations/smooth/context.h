@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "smoothing/caps.h"
+#include "smoothing/context_finder.h"
 #include "smoothing/position_constraint.h"
 #include "workbench/operation.h"
 
@@ -27,10 +27,12 @@ struct SmoothingContext {
 
 /// Works out weights, fixed vertices and constraint, and fills in what it decided (stack_axis,
 /// cell).
+/// \param finder of the scene's surface
 /// \param report what was found is added here
 /// \throw UsageError if arguments do not go together; InvalidInput if the scene lacks what they
 /// name; AlgorithmFailure if the stack orientation is uncertain
-[[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, Arguments& arguments,
+[[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
+                                                 Arguments& arguments,
                                                  nlohmann::ordered_json& report);
 
 }  // namespace vesselbench
