@@ -83,11 +83,13 @@ bool has(const std::vector<SearchParameter>& parameters, const std::string& name
     return false;
 }
 
-/// The filter with the values of a set; a Taubin filter whose mu is no parameter follows lambda.
+/// The filter with the values of a set; a Taubin filter's mu follows lambda, unless it is a
+/// parameter or stays.
 FilterParameters with_values(const std::vector<SearchParameter>& parameters,
-                             std::span<const double> values, FilterParameters filter) {
+                             std::span<const double> values, FilterParameters filter,
+                             bool mu_stays) {
     if (auto* taubin = std::get_if<TaubinParameters>(&filter))
-        if (!has(parameters, "mu")) taubin->mu.reset();
+        if (!mu_stays && !has(parameters, "mu")) taubin->mu.reset();
     for (std::size_t i = 0; i < values.size(); ++i)
         if (parameters[i].name != kIterations) set_value(filter, parameters[i].name, values[i]);
     return filter;
@@ -113,7 +115,8 @@ SearchSpace smoothing_space(const SmoothingSpaceOptions& options) {
     SearchSpace space{.parameters = parameters_for(options)};
     space.chooser = [parameters = space.parameters,
                      options](std::span<const double> values) -> std::optional<SmoothingChoice> {
-        SmoothingChoice choice{with_values(parameters, values, options.filter), options.weights};
+        SmoothingChoice choice{with_values(parameters, values, options.filter, options.mu_stays),
+                               options.weights};
         if (roughens(choice.filter)) return std::nullopt;
         if (!options.staircase) return choice;
         StaircaseValues staircase;
@@ -143,11 +146,6 @@ ParameterSet current_set(const SearchSpace& space, const FilterParameters& filte
                       : parameter.name == "beta_min"  ? staircase.beta_min
                                                       : value_in(filter, parameter.name));
     return set;
-}
-
-FilterParameters filter_of(const SearchSpace& space, const ParameterSet& set,
-                           const FilterParameters& filter) {
-    return with_values(space.parameters, set, filter);
 }
 
 std::optional<double> value_of(const SearchSpace& space, const ParameterSet& set,

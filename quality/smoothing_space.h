@@ -15,6 +15,7 @@ struct SmoothingSpaceOptions {
     double slice = 1.0;                    ///< distance of the image's slices, scales tau_max [mm]
     int most_iterations = 50;
     bool all_parameters = false;  ///< also those that the search leaves alone: for graphs
+    bool mu_stays = false;        ///< of Taubin: mu does not follow lambda
 };
 
 /// The grid of a filter's parameters: weights in steps of 0.05, iterations in steps of 1, at first
@@ -26,10 +27,6 @@ struct SmoothingSpaceOptions {
 /// The values of a filter as a set of that space; staircases take the given values.
 [[nodiscard]] ParameterSet current_set(const SearchSpace& space, const FilterParameters& filter,
                                        int iterations, const StaircaseValues& staircase = {});
-
-/// The filter that a set of the space means. \param filter values of the parameters that stay
-[[nodiscard]] FilterParameters filter_of(const SearchSpace& space, const ParameterSet& set,
-                                         const FilterParameters& filter);
 
 /// A set's value of a parameter; none if the space has no such parameter.
 [[nodiscard]] std::optional<double> value_of(const SearchSpace& space, const ParameterSet& set,

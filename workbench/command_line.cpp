@@ -51,7 +51,8 @@ constexpr const char* kSuggestFooter =
 constexpr const char* kQualityFooter =
     "Graphs and bars start from the given arguments of the operation (or its defaults) and change\n"
     "one parameter at a time. Errors and volumes are shares of what a strong change does: of\n"
-    "smooth, 50 iterations of Laplace with lambda 1. Curvature is a share of the original's.\n\n"
+    "smooth, 50 iterations of Laplace with lambda 1. Curvature goes from 100 % of the original to\n"
+    "0 % of the strong change.\n\n"
     "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png\n"
     "  vesselbench quality aorta.stl --operation remesh --out graphs.svg";
 
@@ -269,8 +270,8 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
         ->type_name("");
     command
         .add_option("parameter=value", subject.arguments,
-                    "Arguments of the operation that stay; staircase=true of smooth searches its "
-                    "thresholds, too")
+                    "Arguments of the operation, which stay as they are; of smooth, staircase=true "
+                    "searches its thresholds, too")
         ->type_name("");
     command
         .add_option("--operation", subject.operation,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <system_error>
@@ -546,6 +547,14 @@ void ProjectFile::save_as(const std::filesystem::path& path) const {
         const std::string name = unfinished.string();
         copy.bind(0, name).step();
     });
+}
+
+bool is_project_file(const std::filesystem::path& path) {
+    constexpr std::string_view kHeader = "SQLite format 3";
+    std::string head(kHeader.size(), ' ');
+    std::ifstream file(path, std::ios::binary);
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    return file && head == kHeader;
 }
 
 }  // namespace vesselbench

@@ -36,6 +36,9 @@ struct ProjectChange {
     std::vector<SourceFile> sources;       ///< of the new edit revision
 };
 
+/// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
+[[nodiscard]] bool is_project_file(const std::filesystem::path& path);
+
 /// A project file: SQLite in WAL mode, one transaction a change, one writer. What was committed
 /// outlives the death of the process at any moment.
 class ProjectFile {

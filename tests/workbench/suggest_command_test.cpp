@@ -90,6 +90,7 @@ SCENARIO("The command line suggests parameters", "[workbench][suggest]") {
         CHECK(program({"suggest", ball, "lambda=7"}).exit_code == 2);
         CHECK(program({"suggest", folder + "/none.vtp"}).exit_code == 3);
         CHECK(program({"suggest", ball, "--truth", ball}).exit_code == 2);
+        CHECK(program({"suggest", ball, "--grid"}).exit_code == 2);
         CHECK(program({"quality", ball}).exit_code == 2);
         CHECK(program({"quality", ball, "--out", folder + "/x.pdf"}).exit_code == 2);
     }
@@ -132,6 +133,24 @@ SCENARIO("Parameters of operations that change triangles are suggested", "[workb
         REQUIRE(run.exit_code == 0);
         CHECK(run.out.find("vesselbench apply PROJECT subdivide iterations=") != std::string::npos);
     }
+    WHEN("arguments are given") {
+        const ProgramRun run = program({"suggest", ball, "--filter", "taubin", "lambda=0.3",
+                                        "mu=-0.31", "iterations=7", "--json"});
+        REQUIRE(run.exit_code == 0);
+        const Json suggestion = Json::parse(run.out)["suggestion"];
+        THEN("they stay") {
+            CHECK(suggestion["arguments"]["lambda"] == 0.3);
+            CHECK(suggestion["arguments"]["mu"] == -0.31);
+            CHECK(suggestion["arguments"]["iterations"] == 7);
+        }
+    }
+    WHEN("any other triangles would be worse") {
+        const std::string box = folder + "/box.stl";
+        write_surface(cube(10.0), box);
+        const ProgramRun run = program({"suggest", box, "--operation", "remesh", "--json"});
+        REQUIRE(run.exit_code == 0);
+        CHECK(Json::parse(run.out)["suggestion"]["leave_as_is"] == true);
+    }
     WHEN("an error decides, and no share") {
         const ProgramRun run = program({"quality", ball, "--operation", "decimate", "max_error=0.1",
                                         "--out", folder + "/bars.svg", "--json"});
@@ -144,7 +163,7 @@ SCENARIO("Parameters of operations that change triangles are suggested", "[workb
         }
     }
     WHEN("a project has variants") {
-        const std::string project = folder + "/ball.vbench";
+        const std::string project = folder + "/P";
         REQUIRE(program({"new", project, ball}).exit_code == 0);
         REQUIRE(program({"apply", project, "decimate", "share=0.5", "--variant", "rp"}).exit_code ==
                 0);

@@ -46,6 +46,7 @@ Json measures_json(const QualityMeasures& original, const QualityMeasures& measu
 
 Json suggestion_json(SuggestionSearch& search, double tau, const Suggestion& suggestion) {
     Json json = {{"tau", tau},
+                 {"leave_as_is", does_nothing(search.space(), suggestion.values)},
                  {"parameters", found_json(search.space(), suggestion.values)},
                  {"score", suggestion.score},
                  {"terms",
@@ -87,6 +88,18 @@ std::string set_text(const SearchSpace& space, const ParameterSet& set) {
     return text;
 }
 
+/// "lambda 0 ... 1, iterations 0 ... 50"
+std::string ranges_text(const SearchSpace& space) {
+    std::string text;
+    for (const SearchParameter& parameter : space.parameters) {
+        std::vector<double> values = parameter.values;
+        if (parameter.idle == 0.0 && parameter.unit == "mm") values.erase(values.begin());
+        text += (text.empty() ? "" : ", ") + parameter.name + " " + formatted(values.front());
+        if (values.size() > 1) text += " ... " + formatted(values.back());
+    }
+    return text;
+}
+
 void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
                        const std::vector<std::pair<double, Suggestion>>& found) {
     std::vector<std::vector<std::string>> rows = {
@@ -108,13 +121,14 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
     const Suggestion& first = found.front().second;
     if (does_nothing(search.space(), first.values)) return;
     const Arguments arguments = typed_arguments(subject, search.space(), first.values);
-    const std::string project = subject.is_project ? subject.name : "PROJECT";
-    std::cout << "\nvesselbench apply " << project << " " << subject.operation->name << " "
-              << argument_summary(*subject.operation, arguments)
-              << (subject.variant.empty() || subject.variant == "cfd"
-                      ? ""
-                      : " --variant " + subject.variant)
-              << "\n";
+    std::string words = subject.is_project ? subject.name : "PROJECT";
+    words += " " + subject.operation->name;
+    for (const Parameter& parameter : subject.operation->parameters)
+        if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
+            words += " " + parameter.name + "=" + to_text(at->second);
+    if (!subject.variant.empty() && subject.variant != "cfd")
+        words += " --variant " + subject.variant;
+    std::cout << "\nvesselbench apply " << words << "\n";
 }
 
 Json work_json(const MeasureSource::Work& work, double seconds) {
@@ -166,6 +180,7 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
 }  // namespace
 
 void suggest_parameters(const SuggestOptions& options, const Progress& progress) {
+    if (options.grid && !options.json) throw UsageError("--grid goes with --json");
     if (!options.truth.empty() && !(options.json && options.grid))
         throw UsageError("--truth goes with --json --grid: it adds a distance to each set");
     const SearchSubject subject = search_subject(options.subject, progress);
@@ -189,13 +204,14 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
               << ", mean edge " << formatted(search.mean_edge()) << " mm; " << change_text(subject)
               << ", score " << to_string(search.form()) << "\n\n";
     print_suggestions(search, subject, found);
-    std::cout
-        << "\ncurvature: integral of |H|, of the original's; mean distance: from the original "
-           "surface\nsearched: "
-        << work["evaluations"] << " parameter sets, "
-        << (subject.smoothing ? work["sweeps"].dump() + " iterations, " : "")
-        << formatted(work["seconds"].get<double>()) << " s"
-        << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
+    std::cout << "\ncurvature: integral of |H|, of the original's; mean distance: "
+              << (subject.smoothing ? "of each vertex from the original around where it came from\n"
+                                    : "both ways, from the original surface\n")
+              << "searched: " << ranges_text(search.space()) << "; " << work["evaluations"]
+              << " parameter sets, "
+              << (subject.smoothing ? work["sweeps"].dump() + " iterations, " : "")
+              << formatted(work["seconds"].get<double>()) << " s"
+              << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
 }
 
 }  // namespace vesselbench

@@ -37,6 +37,8 @@ std::vector<Look> looks_of(const QualityScale& scale) {
     return looks;
 }
 
+constexpr double kMostShown = 2.0;  // of a graph's measures, by what 100 % is
+
 constexpr const char* kInk = "#222";
 constexpr const char* kFaint = "#d9d9d9";
 
@@ -159,7 +161,10 @@ double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const Q
     drawing.text(64, y, "current value");
     drawing.mark(176, y - 8, false, "fill=\"#8a2be2\"");
     drawing.text(190, y, "suggested, with the others kept (tau " + formatted(title.tau) + ")");
-    drawing.text(20, y + 20, "strong change: " + analysis.scale.strong, "fill=\"#666\"");
+    drawing.text(20, y + 20,
+                 "strong change: " + analysis.scale.strong + "; what exceeds " +
+                     formatted(100.0 * kMostShown) + " % lies on the upper edge",
+                 "fill=\"#666\"");
     return y + 26;
 }
 
@@ -229,7 +234,8 @@ double highest_share(const SensitivityAnalysis& analysis) {
             if (point.measures)
                 for (const QualityMeasure measure : measures)
                     high = std::max(high, point.scaled.of(measure));
-    return std::min(high * 1.04, 2.0);  // beyond twice the strong change nobody needs figures
+    return std::min(high * 1.04,
+                    kMostShown);  // beyond twice the strong change nobody needs figures
 }
 
 std::string colour_text(const Colour& linear) {

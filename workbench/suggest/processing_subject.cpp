@@ -34,7 +34,11 @@ std::vector<SearchParameter> of_remesh(const Surface& surface, bool all_paramete
         const double triangle = std::sqrt(3.0) / 4.0 * length * length;
         if (area(surface) / triangle <= kMostTriangles) edge.values.push_back(length);
     }
-    if (!all_parameters) return {edge};
+    if (!all_parameters) {
+        edge.values.insert(edge.values.begin(), 0.0);
+        edge.idle = 0.0;  // the surface's triangles may be better than any
+        return {edge};
+    }
     return {
         edge,
         {.name = "gradation", .unit = "-", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
@@ -109,7 +113,8 @@ SearchSpace processing_space(const Operation& operation, const Surface& surface,
                              const Arguments& given, bool all_parameters) {
     const SearchedOperation& how = searched(operation);
     SearchSpace space{.parameters = how.parameters(surface, all_parameters)};
-    if (space.parameters.front().values.empty())
+    if (space.parameters.front().values.empty() ||
+        space.parameters.front().values == std::vector{0.0})
         throw InvalidInput(
             operation.name +
             ": the vessel is so thin for its area that every edge length in question "

@@ -6,6 +6,7 @@
 #include "workbench/argument_texts.h"
 #include "workbench/foreign_surface.h"
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/project.h"
 #include "workbench/session.h"
 #include "workbench/suggest/processing_subject.h"
 
@@ -57,7 +58,7 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     if (options.operation != kSmooth) static_cast<void>(usual_score_of(*subject.operation));
     subject.given = given_arguments(options);
     subject.arguments = checked_arguments(*subject.operation, subject.given);
-    if (options.source.ends_with(".vbench"))
+    if (options.source.ends_with(".vbench") || is_project_file(options.source))
         take_project(options, subject, progress);
     else
         subject.scene.surface =
@@ -65,6 +66,7 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     static_cast<void>(surface_of(subject.scene));
     if (options.operation == kSmooth)
         subject.smoothing = smoothing_subject(subject.scene, subject.arguments);
+    if (subject.smoothing) subject.smoothing->mu_stays = subject.given.has("mu");
     return subject;
 }
 
@@ -79,10 +81,15 @@ ScoreForm usual_score(const SearchSubject& subject) {
 
 SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
                       bool all_parameters) {
-    if (subject.smoothing)
-        return smoothing_space_for(*subject.smoothing, *chosen.engine, all_parameters);
-    return processing_space(*subject.operation, surface_of(subject.scene), subject.given,
-                            all_parameters);
+    SearchSpace space =
+        subject.smoothing ? smoothing_space_for(*subject.smoothing, *chosen.engine, all_parameters)
+                          : processing_space(*subject.operation, surface_of(subject.scene),
+                                             subject.given, all_parameters);
+    if (all_parameters) return space;
+    for (SearchParameter& parameter : space.parameters)
+        if (subject.given.has(parameter.name))
+            parameter.values = {subject.given.real(parameter.name)};
+    return space;
 }
 
 ChosenEngine engine_for(const SearchSubject& subject, bool planes) {
@@ -107,7 +114,8 @@ Arguments arguments_of(const SearchSubject& subject, const SearchSpace& space,
                        const ParameterSet& set) {
     Arguments arguments = subject.arguments;
     set_values(arguments, *subject.operation, space, set);
-    if (subject.smoothing && arguments.text("filter") == "taubin" && !value_of(space, set, "mu")) {
+    if (subject.smoothing && arguments.text("filter") == "taubin" && !subject.smoothing->mu_stays &&
+        !value_of(space, set, "mu")) {
         arguments.remove("mu");
         resolve_filter(surface_of(subject.scene), arguments);
     }
@@ -117,11 +125,7 @@ Arguments arguments_of(const SearchSubject& subject, const SearchSpace& space,
 Arguments typed_arguments(const SearchSubject& subject, const SearchSpace& space,
                           const ParameterSet& set) {
     Arguments arguments = subject.given;
-    if (subject.smoothing) {
-        arguments.set("filter", subject.arguments.text("filter"));
-        if (std::holds_alternative<TaubinParameters>(subject.smoothing->filter))
-            arguments.remove("mu");
-    }
+    if (subject.smoothing) arguments.set("filter", subject.arguments.text("filter"));
     set_values(arguments, *subject.operation, space, set);
     return arguments;
 }

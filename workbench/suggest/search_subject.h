@@ -39,7 +39,8 @@ struct SearchSubject {
 [[nodiscard]] ScoreForm usual_score(const SearchSubject& subject);
 
 /// \param chosen as engine_for gave it
-/// \param all_parameters for graphs
+/// What a search goes through; a parameter that was given keeps its value.
+/// \param all_parameters for graphs, which start from the values that were given
 [[nodiscard]] SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
                                     bool all_parameters = false);
 

@@ -137,7 +137,8 @@ SearchSpace smoothing_space_for(const SmoothingSubject& subject, const Smoothing
                             .staircase = subject.staircase,
                             .engine_weighs = engine.weighs_staircases(),
                             .slice = subject.slice,
-                            .all_parameters = all_parameters});
+                            .all_parameters = all_parameters,
+                            .mu_stays = subject.mu_stays});
 }
 
 ParameterSet smoothing_set(const SmoothingSubject& subject, const Arguments& arguments,

@@ -18,6 +18,7 @@ struct SmoothingSubject {
     std::shared_ptr<const std::vector<double>> weights;  ///< at the given arguments; null: all 1
     StaircaseWeights staircase;                          ///< null without staircase=true
     std::optional<StaircaseGround> staircase_ground;     ///< what a GPU makes the same from
+    bool mu_stays = false;                               ///< the user gave it
     double slice = 1.0;                                  ///< distance of the image's slices [mm]
 };
 
