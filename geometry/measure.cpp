@@ -142,6 +142,14 @@ double triangle_area(const Positions& positions, const Triangle& triangle) {
     return 0.5 * area_normal(positions, triangle).norm();
 }
 
+double longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+}
+
+double longest_edge(const Positions& positions, const Triangle& triangle) {
+    return longest_edge(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]);
+}
+
 double area(const Surface& surface) {
     double sum = 0.0;
     for (const Triangle& t : surface.triangles()) sum += triangle_area(surface.points(), t);

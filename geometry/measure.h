@@ -32,6 +32,9 @@ struct Spread {
 [[nodiscard]] double triangle_area(const Positions& positions,
                                    const Triangle& triangle);  ///< [mm^2]
 
+[[nodiscard]] double longest_edge(const Vec3& a, const Vec3& b, const Vec3& c);           ///< [mm]
+[[nodiscard]] double longest_edge(const Positions& positions, const Triangle& triangle);  ///< [mm]
+
 /// [mm^2]
 [[nodiscard]] double area(const Surface& surface);
 

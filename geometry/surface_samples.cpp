@@ -9,15 +9,14 @@ namespace vesselbench {
 
 namespace {
 
-/// Samples per triangle edge are limited: a giant triangle must not cost minutes.
-constexpr int kMostSamples = 24;
-
-double longest_edge(const Positions& points, const Triangle& t) {
-    return std::max({(points[t[0]] - points[t[1]]).norm(), (points[t[1]] - points[t[2]]).norm(),
-                     (points[t[2]] - points[t[0]]).norm()});
-}
+constexpr int kMostSamples = 24;  // along an edge of a triangle
 
 }  // namespace
+
+int sample_parts(double longest, double spacing) {
+    const double parts = std::ceil(longest / spacing);  // not a number where both are 0
+    return parts > 1.0 ? static_cast<int>(std::min(parts, double{kMostSamples})) : 1;
+}
 
 SurfaceSamples surface_samples(const Surface& surface, double spacing) {
     SurfaceSamples samples;
@@ -28,20 +27,14 @@ SurfaceSamples surface_samples(const Surface& surface, double spacing) {
     for (TriangleId id = 0; id < surface.triangle_count(); ++id) {
         const Triangle& t = surface.triangles()[id];
         for (const VertexId corner : t) samples.triangles[corner] = id;
-        const double parts = std::ceil(longest_edge(points, t) / spacing);
-        const int n = static_cast<int>(std::clamp(parts, 1.0, double{kMostSamples}));
-        const Vec3 u = (points[t[1]] - points[t[0]]) / n, v = (points[t[2]] - points[t[0]]) / n;
+        const int n = sample_parts(longest_edge(points, t), spacing);
+        const Vec3 ab = points[t[1]] - points[t[0]], ac = points[t[2]] - points[t[0]];
         const double part = triangle_area(points, t) / (n * n);
-        const auto add = [&](double i, double j) {
-            samples.points.push_back(points[t[0]] + i * u + j * v);
+        for_each_part(n, [&](double u, double v) {
+            samples.points.push_back(points[t[0]] + u * ab + v * ac);
             samples.areas.push_back(part);
             samples.triangles.push_back(id);
-        };
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; i + j < n; ++j) {
-                add(i + 1.0 / 3, j + 1.0 / 3);
-                if (i + j + 1 < n) add(i + 2.0 / 3, j + 2.0 / 3);
-            }
+        });
     }
     return samples;
 }

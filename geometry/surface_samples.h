@@ -14,8 +14,24 @@ struct SurfaceSamples {
     std::vector<TriangleId> triangles;  ///< one that each point lies in
 };
 
-/// All vertices, and the centres of the n^2 equal parts of every triangle, n from its longest edge
-/// so that they are no wider apart than the spacing; n is 24 at most.
+/// Into how many parts the edges of a triangle are cut, so that the centres of its n^2 equal parts
+/// are no wider apart than the spacing: 1 to 24, for a giant triangle must not cost minutes.
+/// \param longest edge [mm]
+/// \param spacing [mm]; 0 where all edges are
+[[nodiscard]] int sample_parts(double longest, double spacing);
+
+/// Calls visit(u, v) for the centres a + u (b - a) + v (c - a) of the n^2 equal parts of a
+/// triangle.
+template <class Visit>
+void for_each_part(int n, const Visit& visit) {
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+            visit((i + 1.0 / 3) / n, (j + 1.0 / 3) / n);
+            if (i + j + 1 < n) visit((i + 2.0 / 3) / n, (j + 2.0 / 3) / n);
+        }
+}
+
+/// All vertices, and the centres of sample_parts()^2 parts of every triangle.
 /// \param spacing [mm], > 0
 [[nodiscard]] SurfaceSamples surface_samples(const Surface& surface, double spacing);
 

@@ -7,6 +7,7 @@
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
+#include "geometry/finite_positions.h"
 #include "geometry/measure.h"
 #include "smoothing/filter_support.h"
 

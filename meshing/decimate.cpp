@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/errors.h"
+#include "geometry/finite_positions.h"
 #include "geometry/measure.h"
 #include "geometry/self_intersections.h"
 #include "meshing/carried_attributes.h"
@@ -22,6 +23,7 @@ constexpr int kMostAttempts = 6;  // at a result without new crossings
 void require_sound(const Surface& surface, const DecimateParameters& parameters,
                    std::span<const double> weights) {
     if (surface.empty()) throw InvalidInput("there is no surface to decimate");
+    detail::require_finite(surface.points());
     if (!parameters.triangles && !parameters.max_error)
         throw InvalidInput("decimation needs a number of triangles or a largest error to stop at");
     if (parameters.triangles && *parameters.triangles == 0)
@@ -58,13 +60,15 @@ std::vector<Place> crossing_places(const Surface& surface, const Progress& progr
 }
 
 /// Where the result crosses itself and the source does not.
+/// \param old where the source does; looked for when it is needed first
 std::vector<Place> new_crossings(const Surface& source, const Surface& result,
-                                 const Progress& progress) {
+                                 std::optional<std::vector<Place>>& old, const Progress& progress) {
     std::vector<Place> places = crossing_places(result, progress);
     if (places.empty()) return places;
-    const std::vector<Place> old = crossing_places(source, progress);
+    if (!old) old = crossing_places(source, progress);
     std::erase_if(places, [&](const Place& place) {
-        return std::ranges::any_of(old, [&](const Place& known) {
+        progress.check_cancelled();
+        return std::ranges::any_of(*old, [&](const Place& known) {
             return (place.centre - known.centre).norm() <= place.radius + known.radius;
         });
     });
@@ -72,11 +76,14 @@ std::vector<Place> new_crossings(const Surface& source, const Surface& result,
 }
 
 void lock_around(const Surface& source, const std::vector<Place>& places, double reach,
-                 std::vector<std::uint8_t>& locked) {
+                 std::vector<std::uint8_t>& locked, const Progress& progress) {
+    progress.report(1.0, "keeping walls apart");
     locked.resize(source.vertex_count(), 0);
-    for (const Place& place : places)
+    for (const Place& place : places) {
+        progress.check_cancelled();
         for (VertexId v = 0; v < locked.size(); ++v)
             if ((source.points()[v] - place.centre).norm() <= reach * place.radius) locked[v] = 1;
+    }
 }
 
 /// One run; the vertices of `locked` stay.
@@ -102,16 +109,20 @@ Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
     DecimateReport report{.triangles_before = surface.triangle_count()};
     // Where walls come to cross, the source's triangles are kept, in wider and wider balls.
     std::vector<std::uint8_t> locked;
+    std::optional<std::vector<Place>> old;
     Surface result;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-        result =
-            decimated_once(surface, parameters, weights, locked, report, progress.part(0.0, 0.9));
-        progress.report(0.9, "looking for crossings");
-        const std::vector<Place> places = new_crossings(surface, result, progress.silent());
+        // How many are needed is not known: each takes half of what is left.
+        const Progress own =
+            progress.part(1.0 - std::exp2(-attempt), 1.0 - std::exp2(-attempt - 1));
+        result = decimated_once(surface, parameters, weights, locked, report, own.part(0.0, 0.9));
+        own.report(0.9, "looking for crossings");
+        const std::vector<Place> places = new_crossings(surface, result, old, own.silent());
+        report.vertices_locked = std::ranges::count(locked, 1);
         report.crossings_left = places.size();
         if (places.empty()) break;
         report.crossing = places.front().centre;
-        lock_around(surface, places, 1.0 + attempt, locked);
+        if (attempt + 1 < kMostAttempts) lock_around(surface, places, 1.0 + attempt, locked, own);
     }
     result = with_attributes_of(surface, std::move(result));
     return {std::move(result), report};

@@ -12,8 +12,9 @@ namespace vesselbench {
 struct DecimateParameters {
     std::optional<std::size_t> triangles = {};  ///< no more than so many are left, > 0
     /// No sample of the source is farther from the result, nor the other way, than this, times its
-    /// weight [mm], > 0. Samples are about half of the source's mean edge apart, so that between
-    /// them the distance may be a few per cent more.
+    /// weight [mm], > 0. Samples are about half of the source's mean edge apart, in triangles
+    /// longer than 12 mean edges a 24th of the longest edge, so that between them the distance may
+    /// be a few per cent more.
     std::optional<double> max_error = {};
 };
 
@@ -21,6 +22,7 @@ struct DecimateParameters {
 struct DecimateReport {
     std::size_t triangles_before = 0, triangles_after = 0;
     std::size_t kept_vertices_lost = 0;  ///< of weight 0, gone or moved
+    std::size_t vertices_locked = 0;     ///< kept as they were, or walls would cross near them
     bool target_reached = true;          ///< no more triangles are left than asked for
     std::size_t crossings_left = 0;      ///< pairs of triangles that cross and did not before
     Vec3 crossing = Vec3::Zero();        ///< where the first of them is [mm]
@@ -45,7 +47,7 @@ struct Decimated {
 /// minimization using probabilistic quadrics", Eurographics 2020; weights: thesis 5.6 and 7.2.
 /// \param weights per vertex, in [0, 1]; empty: 1 everywhere
 /// \throw InvalidInput if there is nothing to stop at, a parameter or a weight is out of its range,
-///        or the surface is not an oriented manifold
+///        a position is not finite, or the surface is not an oriented manifold
 [[nodiscard]] Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
                                  std::span<const double> weights = {},
                                  const Progress& progress = {});

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "geometry/measure.h"
+#include "meshing/triangle_shape.h"
 
 namespace vesselbench {
 
@@ -52,13 +52,6 @@ constexpr double kLeastShare = 1e-6;
 
 constexpr std::size_t kReportEvery = 1024;  // collapses
 
-/// Area by the squares of the edges: 1 for an equilateral triangle, 0 for a degenerate one.
-double shape(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double squares = (a - b).squaredNorm() + (b - c).squaredNorm() + (c - a).squaredNorm();
-    const double twice_area = (b - a).cross(c - a).norm();
-    return squares > 0.0 ? 2.0 * std::numbers::sqrt3 * twice_area / squares : 0.0;
-}
-
 /// Of the angle between two directions; 1 where one of them is none.
 double cosine(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
@@ -103,6 +96,7 @@ Decimater::Decimater(const Surface& source, std::span<const double> weights,
       triangles_(source.triangle_count()),
       start_triangles_(source.triangle_count()) {
     for (std::size_t v = 0; v < weights.size(); ++v) keep_[v] = weights[v] == 0.0;
+    intact_ = keep_;
     locked_.resize(mesh_.vertex_count(), 0);
     add_quadrics(source, weights);
 }
@@ -178,7 +172,7 @@ std::optional<Decimater::Collapse> Decimater::best_collapse(HalfEdge h) {
 Vec3 Decimater::facing(TriangleId t, VertexId v) const {
     const Vec3 &a = mesh_.points[mesh_.origin(3 * t)], &b = mesh_.points[mesh_.origin(3 * t + 1)],
                &c = mesh_.points[mesh_.origin(3 * t + 2)];
-    if (shape(a, b, c) >= kNoNormal) return mesh_.area_normal_of(t);
+    if (edge_area_ratio(a, b, c) >= kNoNormal) return mesh_.area_normal_of(t);
     Vec3 sum = Vec3::Zero();
     mesh_.for_each_leaving(v, [&](HalfEdge k) {
         if (!mesh_.is_hole(mesh_.patch_at(k)))
@@ -198,8 +192,8 @@ bool Decimater::folds(const Collapse& collapse) const {
             const Vec3 after = (pu - collapse.place).cross(pw - collapse.place);
             const bool vanishes = after.isZero(0.0) && !mesh_.area_normal_of(t).isZero(0.0);
             if (cosine(before, after) < kLeastCosine || vanishes) found = true;
-            worst_before = std::min(worst_before, shape(mesh_.points[end], pu, pw));
-            worst_after = std::min(worst_after, shape(collapse.place, pu, pw));
+            worst_before = std::min(worst_before, edge_area_ratio(mesh_.points[end], pu, pw));
+            worst_after = std::min(worst_after, edge_area_ratio(collapse.place, pu, pw));
         });
     return found || (worst_after < kLeastShape && worst_after < worst_before);
 }
@@ -212,7 +206,7 @@ double Decimater::dearness(const Collapse& collapse) const {
     for (const auto& [end, other] : {std::pair(a, b), std::pair(b, a)})
         for_each_survivor(mesh_, end, other, [&](TriangleId t, VertexId u, VertexId w) {
             const Vec3 &pu = mesh_.points[u], &pw = mesh_.points[w];
-            worst = std::min(worst, shape(collapse.place, pu, pw));
+            worst = std::min(worst, edge_area_ratio(collapse.place, pu, pw));
             const Vec3 before = facing(t, end);
             const Vec3 after = (pu - collapse.place).cross(pw - collapse.place);
             area += 0.5 * after.norm();
@@ -253,12 +247,18 @@ void Decimater::push_around(VertexId v) {
     mesh_.for_each_leaving(v, [&](HalfEdge h) { push(std::min(h, mesh_.twin(h))); });
 }
 
+void Decimater::lose(VertexId v) {
+    kept_lost_ += intact_[v];
+    intact_[v] = 0;
+}
+
 void Decimater::commit(const Collapse& collapse) {
     const HalfEdge h = collapse.edge;
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
     for (const HalfEdge k : {h, mesh_.twin(h)})
         if (!mesh_.is_hole(mesh_.patch_at(k))) --triangles_;
-    kept_lost_ += (keep_[a] != 0) + (keep_[b] != 0 && collapse.place != mesh_.points[b]);
+    lose(a);
+    if (collapse.place != mesh_.points[b]) lose(b);
     mesh_.collapse(h);
     mesh_.points[b] = collapse.place;
     quadrics_[b] += quadrics_[a];

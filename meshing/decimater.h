@@ -69,12 +69,14 @@ private:
     [[nodiscard]] bool work_off_queue(std::size_t triangles, const Progress& progress);
     [[nodiscard]] bool stays_near(const Collapse& collapse);
     bool try_collapse(const Entry& entry);
+    void lose(VertexId v);
     void commit(const Collapse& collapse);
 
     EditMesh mesh_;
     std::vector<Quadric> quadrics_;      ///< by vertex
     std::vector<double> areas_;          ///< that has become one vertex [mm^2], by vertex
-    std::vector<std::uint8_t> keep_;     ///< 1 where the weight is 0, by vertex
+    std::vector<std::uint8_t> keep_;     ///< 1 where a weight is 0 of what has become one vertex
+    std::vector<std::uint8_t> intact_;   ///< 1 where the weight is 0 and the vertex as it was
     std::vector<std::uint8_t> locked_;   ///< by vertex
     std::vector<std::uint8_t> border_;   ///< 1 at vertices on borders of patches, by vertex
     std::vector<std::uint32_t> stamps_;  ///< how often a vertex' quadric has changed

@@ -1,17 +1,15 @@
 #include "meshing/error_bound.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "geometry/measure.h"
+#include "geometry/surface_samples.h"
 #include "meshing/vertex_fields.h"
 
 namespace vesselbench {
 
 namespace {
-
-constexpr int kMostSamples = 16;  // along an edge of a triangle
 
 /// A triangle is large whose longest edge is this many spacings of samples.
 constexpr double kLarge = 3.0;
@@ -43,20 +41,14 @@ ErrorBound::ErrorBound(const Surface& source, std::span<const double> weights, d
 
 /// The centroid, or the centres of equal parts of a triangle that is larger than most.
 void ErrorBound::add_inner_samples(TriangleId t) {
-    const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]],
-               &c = points_[triangles_[t][2]];
-    const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
-    const int parts = longest > kLarge * spacing_
-                          ? std::min(static_cast<int>(std::ceil(longest / spacing_)), kMostSamples)
-                          : 1;
-    for (int i = 0; i < parts; ++i)
-        for (int j = 0; i + j < parts; ++j) {
-            const double u = (i + 1.0 / 3.0) / parts, v = (j + 1.0 / 3.0) / parts;
-            add_sample((1.0 - u - v) * a + u * b + v * c,
-                       (1.0 - u - v) * weights_[triangles_[t][0]] + u * weights_[triangles_[t][1]] +
-                           v * weights_[triangles_[t][2]],
-                       t);
-        }
+    const auto [a, b, c] = triangles_[t];
+    const double longest = longest_edge(points_, triangles_[t]);
+    const int parts = longest > kLarge * spacing_ ? sample_parts(longest, spacing_) : 1;
+    for_each_part(parts, [&](double u, double v) {
+        const double rest = 1.0 - u - v;
+        add_sample(rest * points_[a] + u * points_[b] + v * points_[c],
+                   rest * weights_[a] + u * weights_[b] + v * weights_[c], t);
+    });
 }
 
 void ErrorBound::add_sample(const Vec3& place, double weight, TriangleId triangle) {
@@ -74,8 +66,7 @@ double ErrorBound::allowed_at(const SurfacePoint& at) const {
 
 bool ErrorBound::is_near_source(const Fresh& triangle) const {
     const auto& [t, a, b, c] = triangle;
-    const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
-    const int n = std::clamp(static_cast<int>(std::ceil(longest / spacing_)), 2, kMostSamples);
+    const int n = std::max(sample_parts(longest_edge(a, b, c), spacing_), 2);
     for (int i = 0; i <= n; ++i)
         for (int j = 0; i + j <= n; ++j) {
             const Vec3 place =

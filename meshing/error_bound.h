@@ -47,7 +47,9 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<double> weights_;
     double max_error_ = 0.0;
-    double spacing_ = 0.0;  ///< of samples in triangles: half of the source's mean edge [mm]
+    /// Of samples in triangles, but for giant ones (sample_parts): half of the source's mean edge
+    /// [mm]
+    double spacing_ = 0.0;
     SurfaceDistance search_;
     std::vector<Sample> samples_;
     std::vector<std::vector<std::uint32_t>> samples_of_;          ///< by triangle

@@ -30,4 +30,11 @@ namespace vesselbench {
     return product > 0.0 ? 4.0 * twice_area * twice_area / product : 0.0;
 }
 
+/// Area by the squares of the edges: 1 for an equilateral triangle, 0 for a degenerate one.
+[[nodiscard]] inline double edge_area_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double squares = (a - b).squaredNorm() + (b - c).squaredNorm() + (c - a).squaredNorm();
+    const double twice_area = (b - a).cross(c - a).norm();
+    return squares > 0.0 ? 2.0 * std::numbers::sqrt3 * twice_area / squares : 0.0;
+}
+
 }  // namespace vesselbench

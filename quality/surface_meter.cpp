@@ -9,6 +9,7 @@
 
 #include "geometry/edges.h"
 #include "geometry/errors.h"
+#include "geometry/finite_positions.h"
 #include "geometry/local_error.h"
 #include "geometry/measure.h"
 #include "quality/ring_kernels.h"

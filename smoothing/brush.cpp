@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "geometry/errors.h"
+#include "geometry/finite_positions.h"
 #include "geometry/wording.h"
 #include "smoothing/filter_support.h"
 

@@ -1,11 +1,11 @@
 #include "smoothing/filter_support.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <sstream>
 
 #include "geometry/errors.h"
+#include "geometry/finite_positions.h"
 
 namespace vesselbench::detail {
 
@@ -15,17 +15,6 @@ void require_length(const char* what, std::size_t length, std::size_t vertices) 
     if (length == vertices) return;
     throw InvalidInput("got " + std::to_string(length) + " " + what + " for " +
                        std::to_string(vertices) + " vertices");
-}
-
-bool all_finite(const Positions& positions) {
-    std::atomic<bool> finite = true;
-    const tbb::blocked_range<std::size_t> all(0, positions.size(), 16384);
-    tbb::parallel_for(all, [&](const auto& range) {
-        Vec3 sum = Vec3::Zero();  // of zeros, or not numbers
-        for (std::size_t v = range.begin(); v != range.end(); ++v) sum += 0.0 * positions[v];
-        if (!sum.allFinite()) finite = false;
-    });
-    return finite;
 }
 
 void require_fitting(const Topology& topology, const Positions& positions,
@@ -49,13 +38,6 @@ void require_fitting(const Topology& topology, const Positions& positions,
 }
 
 }  // namespace
-
-void require_finite(const Positions& positions) {
-    if (all_finite(positions)) return;
-    for (std::size_t v = 0; v < positions.size(); ++v)
-        if (!positions[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
-}
 
 void require_range(const char* name, double value, double minimum, double maximum) {
     if (value >= minimum && value <= maximum) return;

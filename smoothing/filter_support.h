@@ -21,9 +21,6 @@ void require_positive(const char* name, double value);
 /// \throw InvalidInput if the settings ask for more than one ring
 void require_one_ring(const char* filter, const FilterSettings& settings);
 
-/// \throw InvalidInput that names the first vertex whose position is not finite
-void require_finite(const Positions& positions);
-
 /// 1 where a filter leaves a vertex alone: the fixed ones and, with keep_boundary, those on the
 /// boundary of an open surface; #V.
 /// \throw InvalidInput if the settings do not fit the topology, or a position is not finite

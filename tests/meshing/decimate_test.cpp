@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stop_token>
+#include <string_view>
 
 #include <catch2/catch.hpp>
 
@@ -164,12 +165,24 @@ SCENARIO("Weights say where triangles go", "[meshing][decimate]") {
             const Decimated least = decimate(sphere, {.triangles = 500}, weights);
             CHECK(least.report.target_reached);
             CHECK(least.report.kept_vertices_lost > 0);
+            CHECK(least.report.kept_vertices_lost <=
+                  static_cast<std::size_t>(std::ranges::count(weights, 0.0)));
             CHECK(is_closed_manifold(least.surface));
         }
         THEN("a largest error does not touch it") {
             const Decimated error = decimate(sphere, {.max_error = 0.5}, weights);
             CHECK(triangles_where(error.surface, above) == triangles_where(sphere, above));
             CHECK(error.report.kept_vertices_lost == 0);
+        }
+    }
+    GIVEN("weight 0 everywhere") {
+        const std::vector<double> weights(sphere.vertex_count(), 0.0);
+        const Decimated few = decimate(sphere, {.triangles = 100}, weights);
+        std::size_t as_before = 0;
+        for (const Vec3& p : few.surface.points())
+            as_before += std::ranges::count(sphere.points(), p) > 0 ? 1 : 0;
+        THEN("what is lost is told once for each vertex") {
+            CHECK(few.report.kept_vertices_lost == sphere.vertex_count() - as_before);
         }
     }
     GIVEN("weight 0.1 above and 1 below") {
@@ -207,15 +220,33 @@ SCENARIO("The same input gives the same bits; turned and scaled the same shape",
 }
 
 SCENARIO("Walls that all but touch do not cross when decimated", "[meshing][decimate]") {
-    // a shell of 0.1 mm: spheres of 10.0 mm outside and 9.9 mm inside, facing inward
-    const Surface outer = icosphere(10.0, 5);
-    Surface inner = icosphere(9.9, 5);
-    std::vector<Triangle> faces;
-    for (auto [a, b, c] : inner.triangles()) faces.push_back({a, c, b});
-    const Surface shell = merged(outer, make_surface(inner.points(), faces));
+    const Surface shell = sphere_shell(10.0, 0.1, 5);
     const Decimated coarse = decimate(shell, {.triangles = shell.triangle_count() / 10});
     CHECK(coarse.report.crossings_left == 0);
     CHECK(self_intersections(coarse.surface).empty());
+}
+
+SCENARIO("Where walls would cross, vertices are kept in further attempts", "[meshing][decimate]") {
+    const Surface shell = sphere_shell(10.0, 0.03, 4);
+    const DecimateParameters target{.triangles = shell.triangle_count() / 20};
+    std::vector<double> fractions;
+    std::size_t locked = 0;
+    std::stop_source stop;
+    THEN("the progress grows from one attempt to the next") {
+        const Decimated coarse = decimate(
+            shell, target, {},
+            Progress([&](double done, std::string_view) { fractions.push_back(done); }, {}));
+        CHECK(coarse.report.vertices_locked > 0);
+        CHECK_FALSE(coarse.report.target_reached);
+        CHECK(std::ranges::is_sorted(fractions));
+    }
+    THEN("a user can cancel in between") {
+        const auto cancel = [&](double, std::string_view what) {
+            if (what == "keeping walls apart" && ++locked == 1) stop.request_stop();
+        };
+        CHECK_THROWS_AS(decimate(shell, target, {}, Progress(cancel, stop.get_token())), Cancelled);
+        CHECK(locked == 1);
+    }
 }
 
 SCENARIO("Real vessels stay sound when decimated", "[meshing][decimate]") {
@@ -263,10 +294,18 @@ SCENARIO("Decimation refuses what makes no sense", "[meshing][decimate]") {
     const Surface fan = make_surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
                                      {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
     CHECK_THROWS_WITH(decimate(fan, {.triangles = 2}), Catch::Contains("repair"));
+    Positions places = sphere.points();
+    places[7].y() = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(decimate(sphere.with_positions(places), {.triangles = 10}),
+                      Catch::Contains("vertex 7"));
     std::stop_source stop;
     stop.request_stop();
     CHECK_THROWS_AS(decimate(sphere, {.triangles = 10}, {}, Progress(nullptr, stop.get_token())),
                     Cancelled);
     CHECK(decimated(sphere, 1).triangle_count() == 4);
+    const Surface point = sphere.with_positions(Positions(sphere.vertex_count(), Vec3(1, 2, 3)));
+    const Surface still = decimated(point, 100);
+    for (const Vec3& p : still.points()) CHECK(p == Vec3(1, 2, 3));
+    CHECK_NOTHROW(decimate(point, {.max_error = 0.1}));
     CHECK(decimated(sphere, 1000).points() == sphere.points());
 }

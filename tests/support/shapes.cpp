@@ -9,6 +9,8 @@
 #include <catch2/catch.hpp>
 #include <stdlib.h>
 
+#include "tests/support/surface_facts.h"
+
 namespace vesselbench::test {
 
 namespace {
@@ -202,6 +204,15 @@ Surface mapped(const Surface& surface, const std::function<Vec3(const Vec3&)>& m
     Positions moved = surface.points();
     for (Vec3& p : moved) p = map(p);
     return surface.with_positions(std::move(moved));
+}
+
+Surface sphere_shell(double radius, double thickness, int levels) {
+    const Surface inner = icosphere(radius - thickness, levels);
+    const Eigen::Matrix3d rotation = skew_rotation();
+    const Surface turned = mapped(inner, [&](const Vec3& p) -> Vec3 { return rotation * p; });
+    std::vector<Triangle> faces;
+    for (const auto& [a, b, c] : inner.triangles()) faces.push_back({a, c, b});
+    return merged(icosphere(radius, levels), make_surface(turned.points(), std::move(faces)));
 }
 
 Eigen::Matrix3d skew_rotation() {

@@ -9,6 +9,10 @@ namespace vesselbench::test {
 /// Geodesic sphere: an icosahedron divided `levels` times, 20 * 4^levels triangles, outward.
 [[nodiscard]] Surface icosphere(double radius, int levels, const Vec3& centre = Vec3::Zero());
 
+/// A sphere and a smaller one in it that faces inward and is turned, `thickness` apart; of
+/// icospheres as above.
+[[nodiscard]] Surface sphere_shell(double radius, double thickness, int levels);
+
 /// Cylinder wall along +z from z = 0 to `length`, both ends open, outward.
 [[nodiscard]] Surface open_tube(double radius, double length, int around, int along);
 
