@@ -84,6 +84,8 @@ struct Operation {
     std::string summary;        ///< one line
     std::vector<Parameter> parameters;
     OperationFunction run = nullptr;
+    /// The same scene without the figures, where these cost as much again; null: run.
+    OperationFunction run_bare = nullptr;
     bool isolated =
         false;           ///< run in a worker process: it reads foreign files, or may crash or hang
     std::string thesis;  ///< section numbers, "4.2.7"; may be empty

@@ -158,6 +158,19 @@ std::vector<double> painted_part(const Surface& surface, const std::string& name
 
 }  // namespace
 
+std::string why_all_is_kept(const Json& report, const Arguments& resolved) {
+    std::ostringstream text;
+    const double margin = resolved.real("margin");
+    const double farthest = report.value("largest_neighbour_distance_mm", 0.0);
+    if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
+        text << "no vertex bends by more than tau_theta = " << to_text(resolved.real("tau_theta"))
+             << "; a smaller one finds smoother staircases";
+    else if (resolved.text("distance") == "margin" && margin >= farthest)
+        text << "all of the surface lies within the margin of " << margin
+             << " mm, its farthest vertex " << farthest << " mm from a neighbour";
+    return text.str();
+}
+
 double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
                                    const std::string& operation, const Positions& positions) {
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
@@ -212,7 +225,7 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
         {.name = "margin",
          .unit = "mm",
          .default_value = 2.0,
-         .help = "vertices that are this near to a neighbour do not move",
+         .help = "vertices that are this near to a neighbour " + action.kept,
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = Condition{"distance", {"margin"}}},
@@ -227,9 +240,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .only_with = Condition{"distance", {"exponential"}}},
         {.name = "painted",
          .type = Text,
-         .help = "name of a vertex attribute in [0, 1], as brush-weight paints: 0 keeps a "
-                 "vertex, 1 " +
-                 action.painted_one}};
+         .help = "name of a vertex attribute in [0, 1], as brush-weight paints: vertices of 0 " +
+                 action.kept + ", 1 " + action.painted_one}};
 }
 
 void check_stack_axis(const Arguments& arguments, const std::string& operation) {

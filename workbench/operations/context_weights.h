@@ -18,6 +18,7 @@ namespace vesselbench {
 struct WeighedAction {
     std::string doing;           ///< "smoothing"
     std::string staircase_help;  ///< of the flag `staircase`
+    std::string kept;            ///< what vertices of weight 0 do: "do not move"
     std::string painted_one;     ///< what weight 1 does to a vertex: "smooths it"
 };
 
@@ -51,6 +52,12 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation);
                                                   const WeightSettings& settings,
                                                   ContextFinder& finder, Arguments& arguments,
                                                   nlohmann::ordered_json& report);
+
+/// What takes the weight from all of the surface: thresholds that find no staircase, or a margin
+/// that nothing is beyond; empty if neither does.
+/// \param report, resolved after context_weights
+[[nodiscard]] std::string why_all_is_kept(const nlohmann::ordered_json& report,
+                                          const Arguments& resolved);
 
 /// Distance of the position that is nearest to a neighbour [mm]; 0 inside.
 /// \throw InvalidInput if there is no neighbour, or one without triangles

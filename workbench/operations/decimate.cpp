@@ -65,7 +65,15 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["equiangle_skewness_after_mean"] = mean_skewness(after);
 }
 
-/// Distances where the weight is above one half (inside) and elsewhere.
+/// The same places for any beta_min: 1 where the weight is largest, 0 where it is least.
+std::vector<double> stretched(std::vector<double> weights) {
+    const auto [least, largest] = std::ranges::minmax(weights);
+    if (!(largest > least)) return weights;
+    for (double& weight : weights) weight = (weight - least) / (largest - least);
+    return weights;
+}
+
+/// Distances where the stretched weight is above one half (inside) and elsewhere.
 void add_split(Json& report, const std::string& prefix, const Surface& before, const Surface& after,
                std::span<const double> weights) {
     const WeighedComparison found = compare_by_weight(after, before, weights);
@@ -77,51 +85,97 @@ void add_split(Json& report, const std::string& prefix, const Surface& before, c
 
 /// What the weights gain: the same figures for as many triangles without them.
 void add_gain(Json& report, const Surface& before, const Surface& after,
-              std::span<const double> weights, const Progress& progress) {
+              const std::vector<double>& weights, const Progress& progress) {
     double sum = 0.0;
     for (const double weight : weights) sum += weight;
     report["mean_weight"] = sum / static_cast<double>(weights.size());
-    add_split(report, "", before, after, weights);
+    const std::vector<double> parts = stretched(weights);
+    add_split(report, "", before, after, parts);
+    progress.report(0.0, "decimating without weights, to compare");
     const Decimated plain = decimate(before, {.triangles = after.triangle_count()}, {}, progress);
     report["unweighted_triangles_after"] = plain.surface.triangle_count();
-    add_split(report, "unweighted_", before, plain.surface, weights);
+    add_split(report, "unweighted_", before, plain.surface, parts);
 }
 
-void warn(const DecimateReport& figures, const DecimateParameters& target, Outcome& outcome) {
+/// Why fewer triangles could not be had.
+std::string what_stops(const DecimateReport& figures) {
+    const std::string others = "fold the surface over, or lose a part of it";
+    if (figures.vertices_locked == 0) return others;
+    return "let walls cross that all but touch, near which " +
+           counted(figures.vertices_locked, "vertex", "vertices") + " stayed, " + others;
+}
+
+/// What the weights have to do with a result that has as many triangles as before.
+std::string why_nothing_went(const Json& report, const Arguments& resolved) {
+    if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty())
+        return reason;
+    return report.contains("mean_weight")
+               ? "no place that weighs anything could go at this max_error"
+               : "no edge could go at this max_error; a larger one lets more go";
+}
+
+void warn(const DecimateReport& figures, const DecimateParameters& target, const Json& report,
+          Outcome& outcome) {
     const auto add = [&](const std::string& text) { outcome.warnings.push_back(text); };
-    if (target.triangles && *target.triangles >= figures.triangles_before)
+    const bool idle = target.triangles && *target.triangles >= figures.triangles_before;
+    const bool nothing_went = figures.triangles_after == figures.triangles_before;
+    if (idle)
         add("nothing to do: the surface has no more than " +
             counted(*target.triangles, "triangle"));
+    else if (nothing_went && target.max_error)
+        add("all triangles stay: " + why_nothing_went(report, outcome.resolved));
+    else if (const auto found = report.find("staircase_vertices");
+             found != report.end() && *found == 0)
+        add("there are no staircases: " + why_all_is_kept(report, outcome.resolved));
     if (!figures.target_reached && !target.max_error)
         add(counted(figures.triangles_after, "triangle") + " are left instead of " +
-            std::to_string(*target.triangles) +
-            ": fewer would fold the surface over, or lose a part of it");
+            std::to_string(*target.triangles) + ": fewer would " + what_stops(figures));
     if (figures.kept_vertices_lost > 0)
         add(counted(figures.kept_vertices_lost, "vertex", "vertices") +
-            " of weight 0 had to go or to move, or so few triangles would ruin the rest; ask for "
-            "more to keep them");
+            " of weight 0 went or moved, so that the rest was not ruined; keep more triangles");
     if (figures.crossings_left > 0)
         add("walls that all but touch near " + place_text(figures.crossing) + " cross in " +
             counted(figures.crossings_left, "place") +
             " now; ask for more triangles, or separate the walls first");
 }
 
-Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const Surface& before = surface_of(scene);
+/// What the arguments make of the scene, before figures are added.
+struct Run {
     Outcome outcome;
-    outcome.resolved = arguments;
-    const DecimateParameters target = target_from(before, outcome.resolved);
     Json report;
+    DecimateParameters target;
+    std::vector<double> weights;
+    Decimated decimated;
+};
+
+Run decimated_by(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+    const Surface& before = surface_of(scene);
+    Run run;
+    run.outcome.resolved = arguments;
+    run.target = target_from(before, run.outcome.resolved);
     progress.report(0.0, "looking at the context");
-    const std::vector<double> weights = weights_from(scene, outcome.resolved, report);
-    Decimated decimated = decimate(before, target, weights, progress.part(0.1, 0.5));
+    run.weights = weights_from(scene, run.outcome.resolved, run.report);
+    run.decimated = decimate(before, run.target, run.weights, progress.part(0.2, 1.0));
+    run.outcome.scene = with_surface(scene, run.decimated.surface);
+    return run;
+}
+
+Outcome run_bare(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    Run run = decimated_by(scene, arguments, progress);
+    run.outcome.report = std::make_shared<Json>(std::move(run.report));
+    return std::move(run.outcome);
+}
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    auto [outcome, report, target, weights, decimated] =
+        decimated_by(scene, arguments, progress.part(0.0, 0.5));
+    const Surface& before = surface_of(scene);
     add_changes(report, before, decimated.surface);
     if (!weights.empty())
         add_gain(report, before, decimated.surface, weights, progress.part(0.6, 0.9));
-    warn(decimated.report, target, outcome);
+    warn(decimated.report, target, report, outcome);
     outcome.report = std::make_shared<Json>(std::move(report));
-    outcome.scene = with_surface(scene, std::move(decimated.surface));
-    return outcome;
+    return std::move(outcome);
 }
 
 std::vector<Parameter> parameter_table() {
@@ -149,6 +203,7 @@ std::vector<Parameter> parameter_table() {
         .staircase_help =
             "decimate staircases of the image's slices first, which are inaccurate "
             "anyway, and less and less around them",
+        .kept = "go last, and not at all under max_error",
         .painted_one = "lets it go like any other"};
     const auto add = [&](const std::vector<Parameter>& more) {
         table.insert(table.end(), more.begin(), more.end());
@@ -179,6 +234,7 @@ Operation decimate_operation() {
                 "flat caps and patches stay",
             .parameters = parameter_table(),
             .run = &run,
+            .run_bare = &run_bare,
             .thesis = "5.6, 7.2"};
 }
 

@@ -66,17 +66,10 @@ std::string why_little_moved(const Json& report, const Arguments& resolved) {
     const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
     if (idle) return "";
     if (report["vertices_moved"] != 0) return what_holds_back(report);
-    if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
-        return "nothing moved: no vertex bends by more than tau_theta = " +
-               to_text(resolved.real("tau_theta")) +
-               "; a smaller one finds smoother staircases, and beta_min lets the rest move";
-    const double margin = resolved.real("margin");
-    const double farthest = report.value("largest_neighbour_distance_mm", 0.0);
-    if (resolved.text("distance") == "margin" && margin >= farthest) {
-        std::ostringstream text;
-        text << "nothing moved: all of the surface lies within the margin of " << margin
-             << " mm, its farthest vertex " << farthest << " mm from a neighbour";
-        return text.str();
+    if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty()) {
+        const bool no_staircase = resolved.flag("staircase") && report["staircase_vertices"] == 0;
+        return "nothing moved: " + reason +
+               (no_staircase ? ", and beta_min lets the rest move" : "");
     }
     return "nothing moved: every vertex is kept or has the weight 0";
 }

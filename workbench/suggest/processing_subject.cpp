@@ -143,8 +143,10 @@ Surface processed_with(const Operation& operation, const Scene& scene, const Arg
     if (does_nothing(space, set)) return surface_of(scene);
     Arguments changed = arguments;
     set_values(changed, operation, space, set);
+    Operation bare = operation;
+    if (bare.run_bare != nullptr) bare.run = bare.run_bare;
     Progress own = progress;
-    return surface_of(run_operation(operation, scene, changed, own).scene);
+    return surface_of(run_operation(bare, scene, changed, own).scene);
 }
 
 std::shared_ptr<MeasureSource> processing_table(const Operation& operation, const Scene& scene,

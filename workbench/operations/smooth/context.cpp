@@ -65,6 +65,7 @@ std::vector<Parameter> context_parameter_table() {
     const WeighedAction action{
         .doing = "smoothing",
         .staircase_help = "smooth staircases of the image's slices only, and fade out around them",
+        .kept = "do not move",
         .painted_one = "smooths it"};
     const auto add = [&](const std::vector<Parameter>& more) {
         table.insert(table.end(), more.begin(), more.end());
