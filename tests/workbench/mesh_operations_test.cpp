@@ -124,7 +124,8 @@ SCENARIO("decimate goes where a neighbour is far, and shows what that gains",
 
 SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
     const Surface stairs = half_sliced_ball();
-    const double share = GENERATE(0.25, 0.1, 0.05);
+    const auto [share, most] =
+        GENERATE(table<double, double>({{0.25, 0.0072}, {0.1, 0.023}, {0.05, 0.053}}));
     const Arguments arguments{
         {"share", share}, {"staircase", true}, {"tau_theta", 0.5}, {"stack_axis", Vec3(0, 0, 1)}};
     const auto report = *run("decimate", stairs, arguments).report;
@@ -133,7 +134,7 @@ SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
     CHECK(figure("unweighted_triangles_after") == figure("triangles_after"));
     CHECK(figure("outside_mean_distance_mm") <
           0.85 * figure("unweighted_outside_mean_distance_mm"));
-    CHECK(figure("inside_mean_distance_mm") < 0.0001);
+    CHECK(figure("inside_mean_distance_mm") < most);
 }
 
 SCENARIO("decimate says why nothing went", "[workbench][decimate]") {
