@@ -9,6 +9,7 @@
 #include "geometry/errors.h"
 #include "geometry/finite_positions.h"
 #include "geometry/measure.h"
+#include "geometry/reference_comparison.h"
 #include "geometry/self_intersections.h"
 #include "meshing/carried_attributes.h"
 #include "meshing/decimater.h"
@@ -101,13 +102,10 @@ Surface decimated_once(const Surface& source, const DecimateParameters& paramete
     return decimater.result(source.patches);
 }
 
-}  // namespace
-
-Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
-                   std::span<const double> weights, const Progress& progress) {
-    require_sound(surface, parameters, weights);
+/// Where walls come to cross, the source's triangles are kept, in wider and wider balls.
+Decimated decimated_apart(const Surface& surface, const DecimateParameters& parameters,
+                          std::span<const double> weights, const Progress& progress) {
     DecimateReport report{.triangles_before = surface.triangle_count()};
-    // Where walls come to cross, the source's triangles are kept, in wider and wider balls.
     std::vector<std::uint8_t> locked;
     std::optional<std::vector<Place>> old;
     Surface result;
@@ -124,8 +122,29 @@ Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
         report.crossing = places.front().centre;
         if (attempt + 1 < kMostAttempts) lock_around(surface, places, 1.0 + attempt, locked, own);
     }
-    result = with_attributes_of(surface, std::move(result));
     return {std::move(result), report};
+}
+
+}  // namespace
+
+Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
+                   std::span<const double> weights, const Progress& progress) {
+    require_sound(surface, parameters, weights);
+    constexpr double kBelow = 0.97;  // of what the last overrun asks for
+    DecimateParameters used = parameters;
+    Decimated decimated = decimated_apart(surface, used, weights, progress.part(0.0, 0.5));
+    for (int attempt = 0; parameters.max_error && attempt < kMostAttempts; ++attempt) {
+        // The bound is kept at samples of triangles on their way: what lies between them is seen
+        // in the end.
+        progress.report(1.0 - std::exp2(-attempt - 1), "measuring the error");
+        if (!(area(surface) > 0.0 && area(decimated.surface) > 0.0)) break;
+        const double largest = compare_with_reference(decimated.surface, surface).hausdorff;
+        if (largest <= *parameters.max_error) break;
+        *used.max_error *= kBelow * *parameters.max_error / largest;
+        decimated = decimated_apart(surface, used, weights, progress.silent());
+    }
+    decimated.surface = with_attributes_of(surface, std::move(decimated.surface));
+    return decimated;
 }
 
 }  // namespace vesselbench

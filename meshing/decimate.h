@@ -13,8 +13,8 @@ struct DecimateParameters {
     std::optional<std::size_t> triangles = {};  ///< no more than so many are left, > 0
     /// No sample of the source is farther from the result, nor the other way, than this, times its
     /// weight [mm], > 0. Samples are about half of the source's mean edge apart, in triangles
-    /// longer than 12 mean edges a 24th of the longest edge, so that between them the distance may
-    /// be a few per cent more.
+    /// longer than 12 mean edges a 24th of the longest edge. If compare_with_reference finds more
+    /// between them, decimation begins anew with a smaller limit.
     std::optional<double> max_error = {};
 };
 
