@@ -137,6 +137,26 @@ SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
     CHECK(figure("inside_mean_distance_mm") < most);
 }
 
+SCENARIO("decimate says where weights gain nothing", "[workbench][decimate]") {
+    Surface sphere = icosphere(10.0, 3);
+    std::vector<double> paint;
+    for (const Vec3& p : sphere.points()) paint.push_back(p.z() > 9.0 ? 1.0 : 0.0);
+    sphere.attributes["paint"] = std::make_shared<const std::vector<double>>(std::move(paint));
+    const auto warned = [&](double share) {
+        const Outcome outcome = run("decimate", sphere, {{"share", share}, {"painted", "paint"}});
+        const bool worse =
+            outcome.report->at("outside_mean_distance_mm").get<double>() >
+            1.05 * outcome.report->at("unweighted_outside_mean_distance_mm").get<double>();
+        const bool told = std::ranges::any_of(outcome.warnings, [](const std::string& warning) {
+            return warning.find("the weights gain nothing") != std::string::npos;
+        });
+        CHECK(told == worse);
+        return told;
+    };
+    CHECK_FALSE(warned(0.97));
+    CHECK(warned(0.25));
+}
+
 SCENARIO("decimate says why nothing went", "[workbench][decimate]") {
     Scene scene;
     scene.surface = icosphere(10.0, 3);

@@ -139,6 +139,19 @@ void warn(const DecimateReport& figures, const DecimateParameters& target, const
             " now; ask for more triangles, or separate the walls first");
 }
 
+/// Said where decimation without weights leaves what they keep nearer to where it was.
+void warn_of_loss(const Json& report, Outcome& outcome) {
+    if (!report.contains("unweighted_outside_mean_distance_mm")) return;
+    const double with = report.at("outside_mean_distance_mm"),
+                 without = report.at("unweighted_outside_mean_distance_mm");
+    constexpr double kNoticeable = 1.05;
+    if (with <= kNoticeable * without) return;
+    outcome.warnings.push_back(
+        "the weights gain nothing: what they keep is " + formatted(with) +
+        " mm off on average, and without them it would be " + formatted(without) +
+        " mm, for too little is free to pay for it; keep more triangles, or decimate without them");
+}
+
 /// What the arguments make of the scene, before figures are added.
 struct Run {
     Outcome outcome;
@@ -174,6 +187,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     if (!weights.empty())
         add_gain(report, before, decimated.surface, weights, progress.part(0.6, 0.9));
     warn(decimated.report, target, report, outcome);
+    warn_of_loss(report, outcome);
     outcome.report = std::make_shared<Json>(std::move(report));
     return std::move(outcome);
 }
