@@ -34,6 +34,10 @@ std::vector<SearchParameter> of_remesh(const Surface& surface, bool all_paramete
         const double triangle = std::sqrt(3.0) / 4.0 * length * length;
         if (area(surface) / triangle <= kMostTriangles) edge.values.push_back(length);
     }
+    if (edge.values.empty())
+        throw InvalidInput(
+            "remesh: the vessel is so thin for its area that every edge length in question makes "
+            "more than 4 million triangles");
     if (!all_parameters) {
         edge.values.insert(edge.values.begin(), 0.0);
         edge.idle = 0.0;  // the surface's triangles may be better than any
@@ -92,6 +96,15 @@ StrongChange strong_change(const Operation& operation, const Arguments& argument
     return strong;
 }
 
+/// The same scene and resolved arguments as a whole run.
+Outcome run_without_figures(const Operation& operation, const Scene& scene,
+                            const Arguments& arguments, const Progress& progress) {
+    Operation bare = operation;
+    if (bare.run_bare != nullptr) bare.run = bare.run_bare;
+    Progress own = progress;
+    return run_operation(bare, scene, arguments, own);
+}
+
 double share_of_triangles(const Scene& after, const Scene& before) {
     return static_cast<double>(surface_of(after).triangle_count()) /
            static_cast<double>(surface_of(before).triangle_count());
@@ -113,12 +126,6 @@ SearchSpace processing_space(const Operation& operation, const Surface& surface,
                              const Arguments& given, bool all_parameters) {
     const SearchedOperation& how = searched(operation);
     SearchSpace space{.parameters = how.parameters(surface, all_parameters)};
-    if (space.parameters.front().values.empty() ||
-        space.parameters.front().values == std::vector{0.0})
-        throw InvalidInput(
-            operation.name +
-            ": the vessel is so thin for its area that every edge length in question "
-            "makes more than 4 million triangles");
     for (const std::string& rival : how.rivals)
         if (given.has(rival))
             throw UsageError(operation.name + ": " + rival + " cannot be given here, where " +
@@ -143,10 +150,7 @@ Surface processed_with(const Operation& operation, const Scene& scene, const Arg
     if (does_nothing(space, set)) return surface_of(scene);
     Arguments changed = arguments;
     set_values(changed, operation, space, set);
-    Operation bare = operation;
-    if (bare.run_bare != nullptr) bare.run = bare.run_bare;
-    Progress own = progress;
-    return surface_of(run_operation(bare, scene, changed, own).scene);
+    return surface_of(run_without_figures(operation, scene, changed, progress).scene);
 }
 
 std::shared_ptr<MeasureSource> processing_table(const Operation& operation, const Scene& scene,
@@ -177,8 +181,7 @@ ParameterSet processing_set(const Operation& operation, const Scene& scene,
     for (const SearchParameter& parameter : space.parameters) {
         std::optional<double> value = arguments.optional_real(parameter.name);
         if (!value) {
-            Progress own = progress;
-            if (!outcome) outcome = run_operation(operation, scene, arguments, own);
+            if (!outcome) outcome = run_without_figures(operation, scene, arguments, progress);
             value = outcome->resolved.optional_real(parameter.name);
         }
         // Only decimate leaves its share open, where max_error alone decides.
