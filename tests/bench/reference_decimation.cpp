@@ -6,39 +6,20 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
-#include <vtkCellArray.h>
 #include <vtkDecimatePro.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkQuadricDecimation.h>
-#include <vtkSmartPointer.h>
 
+#include "tests/bench/peer_meshes.h"
 #include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 
 namespace {
-
-vtkSmartPointer<vtkPolyData> polydata(const Surface& surface) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const Vec3& p : surface.points()) points->InsertNextPoint(p.data());
-    vtkNew<vtkCellArray> cells;
-    for (const Triangle& t : surface.triangles()) {
-        const vtkIdType ids[3] = {t[0], t[1], t[2]};
-        cells->InsertNextCell(3, ids);
-    }
-    auto result = vtkSmartPointer<vtkPolyData>::New();
-    result->SetPoints(points);
-    result->SetPolys(cells);
-    return result;
-}
 
 Surface from_polydata(vtkPolyData* data) {
     Positions points;
@@ -58,18 +39,11 @@ double reduction(const Surface& surface, std::size_t triangles) {
     return 1.0 - static_cast<double>(triangles) / static_cast<double>(surface.triangle_count());
 }
 
-struct DoubleTraits : OpenMesh::DefaultTraits {
-    using Point = OpenMesh::Vec3d;
-    using Normal = OpenMesh::Vec3d;
-};
-
-using OpenMeshSurface = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
-
 }  // namespace
 
 DecimationRun vtk_quadric(const Surface& surface, std::size_t triangles) {
     vtkNew<vtkQuadricDecimation> filter;
-    filter->SetInputData(polydata(surface));
+    filter->SetInputData(polydata(surface, VTK_DOUBLE));
     filter->SetTargetReduction(reduction(surface, triangles));
     filter->VolumePreservationOn();
     const Stopwatch watch;
@@ -80,7 +54,7 @@ DecimationRun vtk_quadric(const Surface& surface, std::size_t triangles) {
 
 DecimationRun vtk_pro(const Surface& surface, std::size_t triangles) {
     vtkNew<vtkDecimatePro> filter;
-    filter->SetInputData(polydata(surface));
+    filter->SetInputData(polydata(surface, VTK_DOUBLE));
     filter->SetTargetReduction(reduction(surface, triangles));
     filter->PreserveTopologyOn();
     filter->SplittingOff();
@@ -122,9 +96,7 @@ DecimationRun cgal_quadric(const Surface& surface, std::size_t triangles) {
 
 DecimationRun openmesh_quadric(const Surface& surface, std::size_t triangles) {
     OpenMeshSurface mesh;
-    for (const Vec3& p : surface.points()) mesh.add_vertex({p.x(), p.y(), p.z()});
-    for (const auto& [a, b, c] : surface.triangles())
-        mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
+    add_surface(mesh, surface);
     const Stopwatch watch;
     mesh.request_face_normals();
     mesh.update_face_normals();
