@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -1,7 +1,7 @@
+#include "gpu/colours.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "gpu/picture.h"
 
 namespace vesselbench {
 

@@ -4,7 +4,7 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/shader_source.h"
 
 namespace vesselbench {

@@ -7,7 +7,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/shader_texts.h"
 
 namespace vesselbench {

@@ -8,7 +8,7 @@
 
 #include <epoxy/gl.h>
 
-#include "smoothing/flat_areas.h"
+#include "smoothing/context/flat_areas.h"
 
 namespace vesselbench {
 

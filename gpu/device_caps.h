@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "gpu/device_surface.h"
-#include "smoothing/caps.h"
+#include "smoothing/context/caps.h"
 
 namespace vesselbench {
 

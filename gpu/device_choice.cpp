@@ -1,6 +1,6 @@
 #include "gpu/device_choice.h"
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/context.h"
 
 namespace vesselbench {

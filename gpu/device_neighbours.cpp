@@ -8,8 +8,8 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/distance_tree.h"
-#include "smoothing/distance_weights.h"
+#include "geometry/kernel/distance_tree.h"
+#include "smoothing/context/distance_weights.h"
 
 namespace vesselbench {
 

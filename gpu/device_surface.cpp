@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/finite_positions.h"
-#include "geometry/measure.h"
-#include "smoothing/filter_support.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/finite_positions.h"
+#include "geometry/kernel/measure.h"
+#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 #include "gpu/compute.h"
 
 namespace vesselbench {

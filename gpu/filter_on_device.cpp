@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/gpu_context_finder.h"
 #include "gpu/gpu_smoother.h"
 

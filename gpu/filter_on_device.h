@@ -3,10 +3,10 @@
 #include <functional>
 #include <memory>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 #include "gpu/device_choice.h"
-#include "smoothing/context_finder.h"
-#include "smoothing/filter.h"
+#include "smoothing/context/context_finder.h"
+#include "smoothing/filters/filter.h"
 
 namespace vesselbench {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "gpu/device_surface.h"
-#include "smoothing/context_finder.h"
+#include "smoothing/context/context_finder.h"
 
 namespace vesselbench {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/gpu_weights.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gpu/device_choice.h"
-#include "quality/smoothing_engine.h"
-#include "smoothing/staircase_weights.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/quality/smoothing_engine.h"
 
 namespace vesselbench {
 

@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/local_error.h"
+#include "geometry/kernel/local_error.h"
 
 namespace vesselbench {
 

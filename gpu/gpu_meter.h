@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gpu/device_surface.h"
-#include "quality/surface_meter.h"
+#include "smoothing/quality/surface_meter.h"
 
 namespace vesselbench {
 
@@ -16,7 +16,7 @@ struct DeviceMeasures {
 
 /// Measures states of a surface on the device, where their positions are: nothing but the few
 /// numbers comes back, and these when they are asked for. Measures are those of
-/// quality/surface_meter.h, in single precision; sums have a fixed order.
+/// smoothing/quality/surface_meter.h, in single precision; sums have a fixed order.
 /// The surface's context must be current whenever it is used and when it goes.
 class GpuMeter {
 public:

@@ -4,9 +4,9 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
-#include "smoothing/filter_support.h"
-#include "smoothing/linear_steps.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/filters/filter_support.h"
+#include "smoothing/filters/linear_steps.h"
 
 namespace vesselbench {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "geometry/progress.h"
+#include "geometry/kernel/progress.h"
 #include "gpu/device_surface.h"
-#include "smoothing/filter.h"
-#include "smoothing/linear_step.h"
+#include "smoothing/filters/filter.h"
+#include "smoothing/filters/linear_step.h"
 
 namespace vesselbench {
 

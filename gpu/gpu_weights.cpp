@@ -7,9 +7,9 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
-#include "smoothing/filter_support.h"
-#include "smoothing/staircases.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/staircases.h"
+#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 

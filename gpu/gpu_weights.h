@@ -9,8 +9,8 @@
 #include "gpu/device_neighbours.h"
 #include "gpu/device_surface.h"
 #include "gpu/staircase_search.h"
-#include "smoothing/distance_weights.h"
-#include "smoothing/staircase_weights.h"
+#include "smoothing/context/distance_weights.h"
+#include "smoothing/context/staircase_weights.h"
 
 namespace vesselbench {
 

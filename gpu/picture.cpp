@@ -5,7 +5,7 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/canvas.h"
 #include "gpu/context.h"
 #include "gpu/objects.h"

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
+#include "gpu/colours.h"
 
 namespace vesselbench {
 
@@ -16,9 +16,6 @@ struct Picture {
     int height = 0;
     std::vector<std::uint8_t> rgb;
 };
-
-using Colour = Eigen::Vector3f;                   ///< linear RGB in [0, 1]
-using PixelColour = std::array<std::uint8_t, 3>;  ///< as pictures hold it
 
 /// How a surface is drawn.
 struct PictureOptions {
@@ -45,20 +42,7 @@ struct PictureOptions {
 /// that is not usable
 [[nodiscard]] Picture draw(const Surface& surface, const PictureOptions& options = {});
 
-/// Blue - white - red for -1...0...1, for signed deviations.
-[[nodiscard]] Colour diverging_colour(double value);
-
-/// The linearised heated-object scale (black - red - yellow - white) for 0...1: equal steps are
-/// equal steps of lightness. Source: Levkowitz, Herman, "Color scales for image data", 1992.
-[[nodiscard]] Colour heated_colour(double value);
-
-/// The picture as a PNG file's bytes.
-[[nodiscard]] std::string png(const Picture& picture);
-
 /// What is up in a picture along a unit direction: the head, or, from above or below, the front.
 [[nodiscard]] Vec3 upward_for(const Vec3& view);
-
-/// A colour as pictures hold it (gamma 2.2).
-[[nodiscard]] PixelColour pixel_colour(const Colour& linear);
 
 }  // namespace vesselbench

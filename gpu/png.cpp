@@ -1,7 +1,10 @@
+#include "gpu/png.h"
+
+#include <cstdint>
+
 #include <zlib.h>
 
-#include "geometry/errors.h"
-#include "gpu/picture.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -8,11 +8,11 @@
 
 #include <epoxy/gl.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/scan.h"
-#include "smoothing/connected_distances.h"
-#include "smoothing/point_grid.h"
+#include "smoothing/context/connected_distances.h"
+#include "smoothing/context/point_grid.h"
 
 namespace vesselbench {
 

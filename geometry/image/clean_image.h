@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "geometry/image/image.h"
-#include "geometry/progress.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

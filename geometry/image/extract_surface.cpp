@@ -4,11 +4,11 @@
 #include <sstream>
 #include <utility>
 
-#include "geometry/errors.h"
 #include "geometry/image/clean_image.h"
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/resample.h"
 #include "geometry/image/shells.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -7,8 +7,8 @@
 #include "geometry/image/image.h"
 #include "geometry/image/threshold.h"
 #include "geometry/image/voxel_topology.h"
-#include "geometry/progress.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/topology.h"
-#include "geometry/vec3.h"
+#include "geometry/kernel/topology.h"
+#include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/vec3.h"
+#include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
 

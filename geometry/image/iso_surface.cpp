@@ -11,8 +11,8 @@
 #include <Eigen/LU>
 #include <tbb/parallel_for.h>
 
-#include "geometry/errors.h"
 #include "geometry/image/flying_edges.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

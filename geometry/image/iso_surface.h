@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/image/image.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 

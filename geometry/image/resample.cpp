@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "geometry/errors.h"
 #include "geometry/image/lines.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

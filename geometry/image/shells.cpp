@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "geometry/errors.h"
 #include "geometry/image/clean_image.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/vec3.h"
+#include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
 

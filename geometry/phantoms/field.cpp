@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

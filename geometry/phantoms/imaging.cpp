@@ -3,7 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/phantoms/phantom.h"
 #include "geometry/phantoms/random.h"
 

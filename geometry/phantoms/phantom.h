@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/surface.h"
 #include "geometry/phantoms/description.h"
 #include "geometry/phantoms/field.h"
-#include "geometry/surface.h"
 
 namespace vesselbench {
 

@@ -1,5 +1,5 @@
 #version 430 core
-// An iteration of anisotropic smoothing (smoothing/anisotropic.h), factors.x lambda. In double precision: what is a feature is decided anew in every
+// An iteration of anisotropic smoothing (smoothing/filters/anisotropic.h), factors.x lambda. In double precision: what is a feature is decided anew in every
 // iteration, and a vertex that single precision decides otherwise is seen around it.
 // 0 source, 1 target, 2 start, 3 offsets and 4 corners of every vertex, 6 anchors
 #include "filter_pass.glsl"

@@ -1,4 +1,4 @@
-// The cotangent-weighted mean of the neighbours less the own value (smoothing/cotangents.h), summed up
+// The cotangent-weighted mean of the neighbours less the own value (smoothing/filters/cotangents.h), summed up
 // triangle by triangle; the includer defines REAL and VEC3.
 const REAL largest_cotangent = REAL(20.0);
 

@@ -1,5 +1,5 @@
 // The reference of each moved vertex: the original vertex that it drifts to along the original's edges
-// (geometry/local_error.h).
+// (geometry/kernel/local_error.h).
 layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
 layout(std430, binding = 7) buffer References { uint references[]; };
 

@@ -1,5 +1,5 @@
 #version 430 core
-// Flat vertices, none of whose triangles turns away from their normal (smoothing/flat_areas.h): each is
+// Flat vertices, none of whose triangles turns away from their normal (smoothing/context/flat_areas.h): each is
 // its own label; the others get none.
 // 0 normals of the triangles, 1 out: unit normals, 2 out: labels, 3 offsets and 4 triangles at every
 // vertex

@@ -1,5 +1,5 @@
 #version 430 core
-// One linear step of a filter (smoothing/linear_step.h):
+// One linear step of a filter (smoothing/filters/linear_step.h):
 //   target = onto + share * (umbrella * U + source * s + target * t + start * o)
 // with the factors x umbrella, y source, z target, w start; y + z + w is 0 (a step does not depend
 // on where the origin is), which the differences here rely on. After a step onto nothing, the source

@@ -1,6 +1,6 @@
 #version 430 core
 // Distance of each vertex from the original's triangles around its reference vertex, which first
-// drifts on with it (thesis 6.4.1, geometry/local_error.h), and each group's part of the sums.
+// drifts on with it (thesis 6.4.1, geometry/kernel/local_error.h), and each group's part of the sums.
 // 0 shifts, 1 out: distances [mm], 2 out: parts (x closest point, y planes, w largest), 3 offsets and
 // 4 corners, 5 shifts of the original, 6 anchors, 7 references
 #include "elements.glsl"

@@ -1,5 +1,5 @@
 #version 430 core
-// An iteration of mean curvature flow (smoothing/mean_curvature_flow.h), factors.x lambda.
+// An iteration of mean curvature flow (smoothing/filters/mean_curvature_flow.h), factors.x lambda.
 // 0 source, 1 target, 2 start, 3 offsets and 4 corners of every vertex, 6 anchors
 #include "filter_pass.glsl"
 #include "corners.glsl"

@@ -1,7 +1,7 @@
 #version 430 core
 // Distance of every vertex to a neighbouring structure [mm], 0 inside of a closed one, where it is
-// smaller than what is known (smoothing/distance_weights.h): the nearest triangle in a tree of boxes,
-// and the winding number, of parts far away by their dipoles (geometry/distance_tree.h).
+// smaller than what is known (smoothing/context/distance_weights.h): the nearest triangle in a tree of boxes,
+// and the winding number, of parts far away by their dipoles (geometry/kernel/distance_tree.h).
 // 0 shifts, 1 distances, 3 nodes, 4 corners of the triangles by leaf, 5 dipoles of the nodes, 6 anchors
 #include "elements.glsl"
 #include "positions.glsl"

@@ -1,5 +1,5 @@
 #version 430 core
-// An iteration of curvature-triggered smoothing (smoothing/curvature_triggered.h), factors.x lambda.
+// An iteration of curvature-triggered smoothing (smoothing/filters/curvature_triggered.h), factors.x lambda.
 // Vertices join in one iteration after their neighbours: whatever a neighbour writes in this one is
 // not yet below `iteration`, so that their order does not count.
 // 0 source, 1 target, 2 start, 3 offsets and 4 neighbours, 5 umbrellas of the anchors, 7 first

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 
 namespace vesselbench {
 

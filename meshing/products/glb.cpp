@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "meshing/products/text_buffer.h"
 
 namespace vesselbench {

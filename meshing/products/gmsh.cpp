@@ -1,6 +1,6 @@
 #include "meshing/products/gmsh.h"
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/products/text_buffer.h"
 
 namespace vesselbench {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

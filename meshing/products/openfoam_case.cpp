@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/products/inflow.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "meshing/products/text_buffer.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "meshing/products/cfd_parameters.h"
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "meshing/tetrahedra/quality.h"
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

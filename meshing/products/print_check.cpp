@@ -6,9 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
 

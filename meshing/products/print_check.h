@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/progress.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
 #include "meshing/tetrahedra/surface_check.h"
 
 namespace vesselbench {

@@ -1,6 +1,6 @@
 #include "meshing/products/text_buffer.h"
 
-#include "geometry/io/atomic_file.h"
+#include "geometry/formats/atomic_file.h"
 
 namespace vesselbench {
 

@@ -47,7 +47,7 @@ private:
     std::string text_;
 };
 
-/// Writes a whole file or none (geometry/io/atomic_file.h). \throw IoError
+/// Writes a whole file or none (geometry/formats/atomic_file.h). \throw IoError
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace vesselbench

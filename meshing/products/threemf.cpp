@@ -1,8 +1,8 @@
 #include "meshing/products/threemf.h"
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 #include "meshing/products/text_buffer.h"
 #include "meshing/products/zip.h"
 

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "geometry/errors.h"
-#include "geometry/io/atomic_file.h"
-#include "geometry/io/vtk_xml.h"
+#include "geometry/formats/atomic_file.h"
+#include "geometry/formats/vtk_xml.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

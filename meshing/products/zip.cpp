@@ -5,7 +5,7 @@
 
 #include <zlib.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "geometry/progress.h"
-#include "meshing/volume_mesh.h"
+#include "geometry/kernel/progress.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

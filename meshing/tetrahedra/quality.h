@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

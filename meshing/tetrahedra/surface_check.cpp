@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/edges.h"
-#include "geometry/measure.h"
-#include "geometry/self_intersections.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/progress.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 

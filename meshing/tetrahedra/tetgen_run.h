@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "geometry/surface.h"
-#include "meshing/volume_mesh.h"
+#include "geometry/kernel/surface.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <numeric>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 #include "meshing/tetrahedra/cell_order.h"
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/size_field.h"

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/progress.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
 #include "meshing/tetrahedra/quality.h"
-#include "meshing/volume_mesh.h"
+#include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
 

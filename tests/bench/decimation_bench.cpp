@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
-#include "geometry/reference_comparison.h"
-#include "geometry/self_intersections.h"
-#include "meshing/decimate.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/self_intersections.h"
+#include "meshing/remeshing/decimate.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/reference_decimation.h"
 #include "tests/bench/stopwatch.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
 #include "gpu/device_neighbours.h"
@@ -19,10 +19,10 @@
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/gpu_weights.h"
-#include "quality/quality_table.h"
-#include "smoothing/caps.h"
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
+#include "smoothing/context/caps.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
+#include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/stopwatch.h"
 

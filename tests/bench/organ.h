@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench::bench {
 

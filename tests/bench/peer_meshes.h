@@ -7,7 +7,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench::bench {
 

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench::bench {
 

@@ -14,12 +14,12 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "smoothing/caps.h"
-#include "smoothing/laplace.h"
-#include "smoothing/laplace_hc.h"
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
-#include "smoothing/taubin.h"
+#include "smoothing/context/caps.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
+#include "smoothing/filters/laplace.h"
+#include "smoothing/filters/laplace_hc.h"
+#include "smoothing/filters/taubin.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/reference_filters.h"
 #include "tests/bench/stopwatch.h"

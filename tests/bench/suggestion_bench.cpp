@@ -7,8 +7,8 @@
 
 #include <tbb/global_control.h>
 
-#include "quality/quality_table.h"
-#include "smoothing/laplace.h"
+#include "smoothing/filters/laplace.h"
+#include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/stopwatch.h"
 

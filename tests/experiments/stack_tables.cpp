@@ -11,8 +11,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "geometry/surface.h"
-#include "smoothing/stack_orientation.h"
+#include "geometry/kernel/surface.h"
+#include "smoothing/context/stack_orientation.h"
 #include "tests/support/stack_phantoms.h"
 
 using namespace vesselbench;

@@ -1,10 +1,10 @@
-#include "geometry/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 using namespace vesselbench;
 

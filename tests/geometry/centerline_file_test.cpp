@@ -1,11 +1,11 @@
-#include "geometry/io/centerline_file.h"
+#include "geometry/formats/centerline_file.h"
 
 #include <fstream>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/centerlines/branch_queries.h"
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

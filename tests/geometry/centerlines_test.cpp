@@ -1,4 +1,4 @@
-#include "geometry/centerlines.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/centerlines/branch_queries.h"
-#include "geometry/centerlines/thinning.h"
-#include "geometry/errors.h"
-#include "geometry/io/centerline_file.h"
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/centerline_file.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/thinning.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 

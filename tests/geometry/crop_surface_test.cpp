@@ -1,11 +1,11 @@
-#include "geometry/crop_surface.h"
+#include "geometry/vessel/openings/crop_surface.h"
 
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -1,4 +1,4 @@
-#include "geometry/io/dicom_file.h"
+#include "geometry/formats/dicom_file.h"
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <gdcmMediaStorage.h>
 #include <gdcmUIDGenerator.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

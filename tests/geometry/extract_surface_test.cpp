@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/image/iso_surface.h"
-#include "geometry/io/image_file.h"
-#include "geometry/measure.h"
-#include "geometry/self_intersections.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"

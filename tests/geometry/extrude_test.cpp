@@ -1,12 +1,12 @@
-#include "geometry/openings/extrude.h"
+#include "geometry/vessel/openings/extrude.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/openings/opening_axis.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -1,11 +1,11 @@
-#include "geometry/openings/hole_filling.h"
+#include "geometry/vessel/openings/hole_filling.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/openings/surface_parts.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/surface_parts.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -3,13 +3,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
 #include "geometry/image/clean_image.h"
 #include "geometry/image/crop_image.h"
 #include "geometry/image/extract_surface.h"
 #include "geometry/image/resample.h"
 #include "geometry/image/voxel_topology.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 

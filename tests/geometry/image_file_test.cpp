@@ -1,4 +1,4 @@
-#include "geometry/io/image_file.h"
+#include "geometry/formats/image_file.h"
 
 #include <cstring>
 #include <filesystem>
@@ -11,9 +11,9 @@
 #include <vtkNew.h>
 #include <vtkXMLImageDataWriter.h>
 
-#include "geometry/errors.h"
-#include "geometry/io/image_bytes.h"
-#include "geometry/io/nifti_file.h"
+#include "geometry/formats/image_bytes.h"
+#include "geometry/formats/nifti_file.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 

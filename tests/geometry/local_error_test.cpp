@@ -1,4 +1,4 @@
-#include "geometry/local_error.h"
+#include "geometry/kernel/local_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 

@@ -1,14 +1,15 @@
-#include "geometry/measure.h"
+#include "geometry/kernel/measure.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/reference_comparison.h"
-#include "geometry/self_intersections.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -1,16 +1,16 @@
-#include "geometry/openings/openings.h"
+#include "geometry/vessel/openings/openings.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/centerlines.h"
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/openings/clip.h"
-#include "geometry/openings/opening_axis.h"
-#include "geometry/repair.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/clip.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -1,17 +1,17 @@
-#include "geometry/openings/remove_branch.h"
+#include "geometry/vessel/openings/remove_branch.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/centerlines.h"
-#include "geometry/centerlines/branch_queries.h"
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/openings/openings.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_distance.h"
 #include "geometry/phantoms/phantom.h"
-#include "geometry/repair.h"
-#include "geometry/surface_distance.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

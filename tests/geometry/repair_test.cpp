@@ -1,4 +1,4 @@
-#include "geometry/repair.h"
+#include "geometry/vessel/repair/repair.h"
 
 #include <cmath>
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
-#include "geometry/reference_comparison.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/reference_comparison.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

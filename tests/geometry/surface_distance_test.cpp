@@ -1,10 +1,10 @@
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/surface_distance.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

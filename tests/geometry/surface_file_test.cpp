@@ -1,4 +1,4 @@
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/surface_file.h"
 
 #include <csignal>
 #include <filesystem>
@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

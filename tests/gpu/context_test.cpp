@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/gpu_smoother.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"

@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "smoothing/laplace.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"

@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/gpu_weights.h"
-#include "smoothing/distance_weights.h"
+#include "smoothing/context/distance_weights.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"

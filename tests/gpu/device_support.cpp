@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
-#include "geometry/repair.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {

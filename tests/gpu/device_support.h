@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 #include "gpu/context.h"
 #include "gpu/device_surface.h"
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/compute.h"
 #include "gpu/shader_source.h"
 #include "tests/gpu/device_support.h"

@@ -6,10 +6,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "smoothing/caps.h"
-#include "smoothing/staircases.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "smoothing/context/caps.h"
+#include "smoothing/context/staircases.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"

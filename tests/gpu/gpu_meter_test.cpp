@@ -6,8 +6,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/local_error.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/local_error.h"
+#include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/gpu_smoother.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"

@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/gpu_smoother.h"
-#include "smoothing/caps.h"
-#include "smoothing/staircases.h"
+#include "smoothing/context/caps.h"
+#include "smoothing/context/staircases.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 

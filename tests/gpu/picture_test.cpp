@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
+#include "gpu/png.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -6,11 +6,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "gpu/scan.h"
-#include "smoothing/connected_distances.h"
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
+#include "smoothing/context/connected_distances.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"

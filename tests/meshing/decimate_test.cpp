@@ -1,4 +1,4 @@
-#include "meshing/decimate.h"
+#include "meshing/remeshing/decimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
-#include "geometry/reference_comparison.h"
-#include "geometry/self_intersections.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/products/cfd_parameters.h"
 #include "tests/support/shapes.h"
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/products/glb.h"
 #include "meshing/products/gmsh.h"
 #include "meshing/products/threemf.h"

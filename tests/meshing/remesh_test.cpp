@@ -1,4 +1,4 @@
-#include "meshing/remesh.h"
+#include "meshing/remeshing/remesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/self_intersections.h"
-#include "geometry/surface_distance.h"
-#include "meshing/remesher.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/surface_distance.h"
+#include "meshing/remeshing/remesher.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

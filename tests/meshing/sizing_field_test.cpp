@@ -1,10 +1,10 @@
-#include "meshing/sizing_field.h"
+#include "meshing/remeshing/sizing_field.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -1,9 +1,9 @@
-#include "meshing/subdivide.h"
+#include "meshing/remeshing/subdivide.h"
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -7,9 +7,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "meshing/tetrahedra/tetgen_run.h"
 #include "tests/support/shapes.h"
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/tetrahedra/cell_order.h"
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/quality.h"

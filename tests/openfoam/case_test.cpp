@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "meshing/products/openfoam_case.h"
 #include "meshing/tetrahedra/tetrahedralize.h"
 #include "tests/support/commands.h"

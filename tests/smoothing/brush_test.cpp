@@ -1,4 +1,4 @@
-#include "smoothing/brush.h"
+#include "smoothing/brush/brush.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/self_intersections.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -1,4 +1,4 @@
-#include "smoothing/cap_rounding.h"
+#include "smoothing/context/cap_rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
-#include "geometry/self_intersections.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -1,4 +1,4 @@
-#include "smoothing/caps.h"
+#include "smoothing/context/caps.h"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
 #include "geometry/image/iso_surface.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/phantoms/phantom.h"
-#include "smoothing/laplace.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 

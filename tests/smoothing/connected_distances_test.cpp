@@ -1,4 +1,4 @@
-#include "smoothing/connected_distances.h"
+#include "smoothing/context/connected_distances.h"
 
 #include <cmath>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

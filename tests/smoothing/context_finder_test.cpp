@@ -1,11 +1,11 @@
-#include "smoothing/context_finder.h"
+#include "smoothing/context/context_finder.h"
 
 #include <algorithm>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "smoothing/staircases.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/staircases.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -5,13 +5,14 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "smoothing/anisotropic.h"
-#include "smoothing/cotangents.h"
-#include "smoothing/curvature_triggered.h"
-#include "smoothing/laplace.h"
-#include "smoothing/mean_curvature_flow.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/measure.h"
+#include "smoothing/filters/anisotropic.h"
+#include "smoothing/filters/cotangents.h"
+#include "smoothing/filters/curvature_triggered.h"
+#include "smoothing/filters/laplace.h"
+#include "smoothing/filters/mean_curvature_flow.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 

@@ -1,11 +1,11 @@
-#include "smoothing/distance_weights.h"
+#include "smoothing/context/distance_weights.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "smoothing/laplace.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -1,4 +1,4 @@
-#include "smoothing/filter_run.h"
+#include "smoothing/filters/filter_run.h"
 
 #include <catch2/catch.hpp>
 

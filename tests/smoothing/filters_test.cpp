@@ -8,10 +8,10 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "geometry/errors.h"
-#include "smoothing/laplace.h"
-#include "smoothing/laplace_hc.h"
-#include "smoothing/taubin.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/filters/laplace.h"
+#include "smoothing/filters/laplace_hc.h"
+#include "smoothing/filters/taubin.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

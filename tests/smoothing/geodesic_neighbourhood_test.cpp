@@ -1,4 +1,4 @@
-#include "smoothing/geodesic_neighbourhood.h"
+#include "smoothing/brush/geodesic_neighbourhood.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_distance.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 

@@ -1,9 +1,9 @@
-#include "smoothing/new_crossings.h"
+#include "smoothing/filters/new_crossings.h"
 
 #include <catch2/catch.hpp>
 
-#include "geometry/self_intersections.h"
-#include "smoothing/laplace.h"
+#include "geometry/kernel/self_intersections.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

@@ -1,4 +1,4 @@
-#include "smoothing/stack_orientation.h"
+#include "smoothing/context/stack_orientation.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include "geometry/errors.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/image/extract_surface.h"
-#include "geometry/io/image_file.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"

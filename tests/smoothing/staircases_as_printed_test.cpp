@@ -8,12 +8,12 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
+#include "geometry/formats/image_file.h"
+#include "geometry/formats/surface_file.h"
 #include "geometry/image/extract_surface.h"
-#include "geometry/io/image_file.h"
-#include "geometry/io/surface_file.h"
-#include "smoothing/caps.h"
-#include "smoothing/staircase_weights.h"
-#include "smoothing/staircases.h"
+#include "smoothing/context/caps.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "smoothing/staircases.h"
+#include "smoothing/context/staircases.h"
 
 #include <cmath>
 #include <deque>
@@ -6,9 +6,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
-#include "smoothing/laplace.h"
-#include "smoothing/staircase_weights.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/staircase_weights.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"

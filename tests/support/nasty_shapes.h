@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench::test {
 

@@ -5,16 +5,16 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
-#include "geometry/self_intersections.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
 #include "tests/support/nasty_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/operation.h"
-#include "workbench/session.h"
+#include "workbench/case/operation.h"
+#include "workbench/session/session.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

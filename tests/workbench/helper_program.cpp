@@ -10,7 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/workbench/test_operations.h"
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 using namespace vesselbench;
 

@@ -1,8 +1,8 @@
-#include "workbench/history.h"
+#include "workbench/case/history.h"
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 using namespace vesselbench;
 

@@ -3,13 +3,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/image/threshold.h"
-#include "geometry/io/image_file.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

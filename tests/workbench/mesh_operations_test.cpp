@@ -5,15 +5,16 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/operation.h"
-#include "workbench/run_operation.h"
+#include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 #include "workbench/suggest/processing_subject.h"
+#include "workbench/worker/run_operation.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,13 +1,14 @@
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
 
 #include <set>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "workbench/arguments_json.h"
-#include "workbench/near_names.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/near_names.h"
+#include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;

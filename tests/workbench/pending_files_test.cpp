@@ -1,8 +1,8 @@
-#include "workbench/pending_files.h"
+#include "geometry/formats/pending_files.h"
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 

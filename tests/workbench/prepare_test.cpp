@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/surface_file.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 

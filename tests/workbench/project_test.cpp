@@ -1,4 +1,4 @@
-#include "workbench/project.h"
+#include "workbench/project/project.h"
 
 #include <csignal>
 #include <filesystem>
@@ -12,10 +12,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 using namespace vesselbench;
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;

@@ -1,4 +1,4 @@
-#include "workbench/scene_cache.h"
+#include "workbench/session/scene_cache.h"
 
 #include <catch2/catch.hpp>
 

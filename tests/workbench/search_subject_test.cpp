@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/stack_phantoms.h"
-#include "workbench/argument_texts.h"
-#include "workbench/operation.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 #include "workbench/suggest/smoothing_subject.h"
 
 using namespace vesselbench;

@@ -1,14 +1,14 @@
-#include "workbench/serialization.h"
+#include "workbench/project/serialization.h"
 
 #include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/stored_text.h"
+#include "workbench/project/stored_text.h"
 
 using namespace vesselbench;
 

@@ -1,11 +1,11 @@
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 #include <filesystem>
 #include <fstream>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
 

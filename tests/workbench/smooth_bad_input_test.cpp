@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/nasty_shapes.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

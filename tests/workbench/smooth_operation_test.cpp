@@ -3,20 +3,21 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/formats/surface_file.h"
 #include "geometry/image/extract_surface.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/phantoms/phantom.h"
-#include "smoothing/distance_weights.h"
+#include "smoothing/context/distance_weights.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
-#include "workbench/replay_tolerance.h"
-#include "workbench/session.h"
+#include "workbench/session/replay_tolerance.h"
+#include "workbench/session/session.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

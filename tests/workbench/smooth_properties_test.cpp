@@ -9,7 +9,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,13 +1,14 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/io/surface_file.h"
-#include "geometry/measure.h"
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

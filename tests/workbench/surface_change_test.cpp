@@ -1,4 +1,4 @@
-#include "workbench/surface_change.h"
+#include "workbench/session/surface_change.h"
 
 #include <numbers>
 

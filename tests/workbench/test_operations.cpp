@@ -7,8 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
+#include "workbench/operations/table.h"
 
 namespace vesselbench::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "workbench/operation.h"
-#include "workbench/worker.h"
+#include "workbench/case/operation.h"
+#include "workbench/worker/worker.h"
 
 namespace vesselbench::test {
 

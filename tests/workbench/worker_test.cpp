@@ -1,14 +1,14 @@
-#include "workbench/worker.h"
+#include "workbench/worker/worker.h"
 
 #include <thread>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
-#include "workbench/run_operation.h"
+#include "workbench/worker/run_operation.h"
 
 using namespace vesselbench;
 using namespace std::chrono_literals;

@@ -1,4 +1,4 @@
-#include "geometry/centerlines.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 
 #include <algorithm>
 #include <iostream>
@@ -6,11 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/io/centerline_file.h"
+#include "geometry/formats/centerline_file.h"
+#include "geometry/kernel/errors.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/foreign_surface.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/foreign_surface.h"
 
 namespace vesselbench {
 

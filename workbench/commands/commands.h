@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/progress.h"
+#include "geometry/kernel/progress.h"
 #include "workbench/suggest/subject_options.h"
 
 namespace vesselbench {

@@ -1,13 +1,13 @@
-#include "geometry/measure.h"
+#include "geometry/kernel/measure.h"
 
 #include <iostream>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/reference_comparison.h"
+#include "geometry/kernel/reference_comparison.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/foreign_surface.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/foreign_surface.h"
 #include "workbench/report/measure_json.h"
 
 namespace vesselbench {

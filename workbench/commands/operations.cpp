@@ -4,11 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "workbench/arguments_json.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/near_names.h"
+#include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/near_names.h"
-#include "workbench/operation.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/table.h"
 
 namespace vesselbench {
 

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/io/image_file.h"
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/image_file.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/formats/surface_file.h"
 #include "workbench/commands/commands.h"
-#include "workbench/pending_files.h"
 #include "workbench/phantoms/phantom_json.h"
 
 namespace vesselbench {

@@ -3,10 +3,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "geometry/errors.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/errors.h"
+#include "gpu/png.h"
 #include "workbench/commands/commands.h"
-#include "workbench/foreign_surface.h"
-#include "workbench/pending_files.h"
+#include "workbench/operations/foreign_surface.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {

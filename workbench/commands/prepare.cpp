@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <iostream>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/near_names.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/near_names.h"
-#include "workbench/prepare/products.h"
+#include "workbench/commands/console.h"
+#include "workbench/export/products.h"
+#include "workbench/operations/table.h"
 
 namespace vesselbench {
 
@@ -57,7 +58,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         throw UsageError("--set '" + settings.front() +
                          "': export knows openfoam.parameter=value only");
     check_export_name(arguments.file);
-    Session session = Session::open(arguments.project);
+    Session session = Session::open(arguments.project, {.find = find_operation});
     const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
     PendingFiles files;
     export_scene(files, arguments.file, scene, flow);

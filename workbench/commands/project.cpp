@@ -5,14 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/wording.h"
-#include "workbench/argument_texts.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/table.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 namespace vesselbench {
 
@@ -21,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Session open_for_reading(const std::string& project) {
-    Session session = Session::open(project);
+    Session session = Session::open(project, {.find = find_operation});
     if (!session.read_only_reason().empty()) remark("only reading: " + session.read_only_reason());
     return session;
 }
@@ -138,7 +139,7 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     const Arguments given = arguments_from_texts(operation, options.arguments);
     EditOptions edit{.variant = options.variant, .author = options.author, .note = options.note};
     if (!options.step.empty()) edit.step = step_from(options.step);
-    Session session = Session::open(options.project);
+    Session session = Session::open(options.project, {.find = find_operation});
     const LogEntry entry = session.apply(operation.name, given, edit, progress);
     if (entry.result)
         for (const std::string& warning : all_warnings(operation, given, *entry.result))
@@ -170,7 +171,7 @@ void show_log(const LogOptions& options) {
 }
 
 void undo_edit(const StepBackOptions& options) {
-    Session session = Session::open(options.project);
+    Session session = Session::open(options.project, {.find = find_operation});
     if (options.edit)
         session.undo(*options.edit);
     else
@@ -179,7 +180,7 @@ void undo_edit(const StepBackOptions& options) {
 }
 
 void redo_edit(const StepBackOptions& options) {
-    Session session = Session::open(options.project);
+    Session session = Session::open(options.project, {.find = find_operation});
     if (options.edit)
         session.redo(*options.edit);
     else

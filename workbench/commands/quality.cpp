@@ -4,13 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/errors.h"
-#include "geometry/wording.h"
-#include "quality/sensitivity.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "gpu/png.h"
+#include "smoothing/quality/sensitivity.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/pending_files.h"
+#include "workbench/commands/console.h"
 #include "workbench/report/quality_gallery.h"
 #include "workbench/report/quality_svg.h"
 #include "workbench/suggest/search_subject.h"

@@ -4,15 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/surface_distance.h"
-#include "geometry/wording.h"
-#include "workbench/argument_texts.h"
-#include "workbench/arguments_json.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
-#include "workbench/console.h"
-#include "workbench/foreign_surface.h"
-#include "workbench/operation.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/foreign_surface.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 

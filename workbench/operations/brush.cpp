@@ -1,4 +1,4 @@
-#include "smoothing/brush.h"
+#include "smoothing/brush/brush.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/table.h"

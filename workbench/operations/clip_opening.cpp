@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/centerlines.h"
-#include "geometry/centerlines/branch_queries.h"
-#include "geometry/errors.h"
-#include "geometry/openings/opening_axis.h"
-#include "geometry/openings/openings.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/openings.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "smoothing/stack_orientation.h"
-#include "workbench/near_names.h"
-#include "workbench/point_json.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/stack_orientation.h"
+#include "workbench/case/near_names.h"
+#include "workbench/case/point_json.h"
 
 namespace vesselbench {
 

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "smoothing/context_finder.h"
-#include "workbench/operation.h"
+#include "smoothing/context/context_finder.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "geometry/crop_surface.h"
-#include "geometry/errors.h"
 #include "geometry/image/crop_image.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/crop_surface.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

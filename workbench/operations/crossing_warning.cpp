@@ -1,6 +1,6 @@
 #include "workbench/operations/crossing_warning.h"
 
-#include "geometry/wording.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "smoothing/new_crossings.h"
-#include "workbench/operation.h"
+#include "smoothing/filters/new_crossings.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

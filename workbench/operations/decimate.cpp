@@ -1,15 +1,15 @@
-#include "meshing/decimate.h"
+#include "meshing/remeshing/decimate.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/reference_comparison.h"
-#include "geometry/wording.h"
-#include "smoothing/caps.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/wording.h"
+#include "smoothing/context/caps.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/table.h"
 

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/openings/extrude.h"
-#include "geometry/openings/opening_axis.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/extrude.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

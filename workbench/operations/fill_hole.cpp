@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/openings/hole_filling.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/hole_filling.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

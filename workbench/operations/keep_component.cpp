@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/surface_distance.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

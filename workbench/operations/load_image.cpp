@@ -4,11 +4,11 @@
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/image/threshold.h"
-#include "geometry/io/image_file.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

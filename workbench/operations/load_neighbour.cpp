@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
 #include "geometry/image/extract_surface.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "workbench/operations/surface_argument.h"
 #include "workbench/operations/table.h"
 

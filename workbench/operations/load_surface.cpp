@@ -1,10 +1,10 @@
 #include <nlohmann/json.hpp>
 
-#include "geometry/edges.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/measure.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/surface_argument.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/wording.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

@@ -1,12 +1,12 @@
-#include "meshing/remesh.h"
+#include "meshing/remeshing/remesh.h"
 
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/centerlines.h"
-#include "geometry/errors.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

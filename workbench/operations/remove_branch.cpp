@@ -1,15 +1,15 @@
-#include "geometry/openings/remove_branch.h"
+#include "geometry/vessel/openings/remove_branch.h"
 
 #include <limits>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/centerlines.h"
-#include "geometry/centerlines/branch_queries.h"
-#include "geometry/errors.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

@@ -1,12 +1,12 @@
-#include "geometry/repair.h"
+#include "geometry/vessel/repair/repair.h"
 
 #include <map>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/wording.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
-#include "workbench/point_json.h"
 
 namespace vesselbench {
 

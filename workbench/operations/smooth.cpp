@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kept_memory.h"
-#include "geometry/local_error.h"
-#include "geometry/measure.h"
+#include "geometry/kernel/kept_memory.h"
+#include "geometry/kernel/local_error.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/filter_on_device.h"
-#include "smoothing/new_crossings.h"
+#include "smoothing/filters/new_crossings.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/smooth/context.h"

@@ -1,8 +1,8 @@
-#include "meshing/subdivide.h"
+#include "meshing/remeshing/subdivide.h"
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/measure.h"
+#include "geometry/kernel/measure.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

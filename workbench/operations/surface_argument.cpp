@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "geometry/io/surface_file.h"
+#include "geometry/formats/surface_file.h"
 
 namespace vesselbench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

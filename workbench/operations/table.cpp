@@ -1,6 +1,10 @@
 #include "workbench/operations/table.h"
 
+#include <string>
 #include <vector>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/near_names.h"
 
 namespace vesselbench {
 
@@ -31,6 +35,16 @@ std::span<const Operation> operation_table() {
     };
     // clang-format on
     return table;
+}
+
+const Operation& find_operation(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Operation& operation : operation_table()) {
+        if (operation.name == name) return operation;
+        names.push_back(operation.name);
+    }
+    throw UsageError("there is no operation '" + name + "'" + did_you_mean(name, names) +
+                     " ('vesselbench operations' lists them all)");
 }
 
 }  // namespace vesselbench

@@ -1,8 +1,17 @@
 #pragma once
 
-#include "workbench/operation.h"
+#include <span>
+#include <string>
+
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
+
+/// All operations of this build, in the order of their usual steps.
+[[nodiscard]] std::span<const Operation> operation_table();
+
+/// \throw UsageError that lists the near names if there is none of this name
+[[nodiscard]] const Operation& find_operation(const std::string& name);
 
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
 // ...; the brushes share brush.cpp). An operation is registered by its line here and its line in

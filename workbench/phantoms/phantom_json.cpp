@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "workbench/near_names.h"
-#include "workbench/pending_files.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/near_names.h"
 #include "workbench/phantoms/builtin.h"
 
 namespace vesselbench {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <stdlib.h>
 
-#include "geometry/errors.h"
-#include "geometry/io/image_file.h"
+#include "geometry/formats/image_file.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/phantoms/phantom.h"
-#include "workbench/foreign_surface.h"
-#include "workbench/pending_files.h"
+#include "workbench/operations/foreign_surface.h"
 #include "workbench/phantoms/phantom_json.h"
 
 namespace vesselbench {

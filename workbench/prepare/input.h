@@ -7,8 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "geometry/progress.h"
-#include "geometry/surface.h"
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
 #include "workbench/prepare/recipe.h"
 
 namespace vesselbench {

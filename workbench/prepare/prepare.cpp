@@ -5,12 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "workbench/argument_texts.h"
-#include "workbench/pending_files.h"
-#include "workbench/prepare/products.h"
+#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/export/products.h"
+#include "workbench/operations/table.h"
+#include "workbench/prepare/prepare_report.h"
 #include "workbench/report/log_json.h"
-#include "workbench/report/prepare_report.h"
 
 namespace vesselbench {
 
@@ -199,7 +200,7 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
     keep_earlier_project(project, tell);
     bool any_edit = false;
     try {
-        Session session = Session::create(project);
+        Session session = Session::create(project, {.find = find_operation});
         const Teller noting = [&](const std::string& text) {
             any_edit = true;
             tell(text);
@@ -230,7 +231,7 @@ void new_project(const fs::path& project, const InputOptions& options, const Tel
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
     const RecipeEntry loading = loading_entry(input);
     static_cast<void>(checked_arguments(find_operation(loading.operation), loading.given));
-    Session session = Session::create(project);
+    Session session = Session::create(project, {.find = find_operation});
     try {
         apply_entry(session, loading, "", tell, progress.part(0.3, 1.0));
     } catch (const std::exception&) {

@@ -7,7 +7,7 @@
 
 #include "workbench/prepare/input.h"
 #include "workbench/report/report_html.h"
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 namespace vesselbench {
 

@@ -5,10 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "workbench/argument_texts.h"
-#include "workbench/arguments_json.h"
-#include "workbench/near_names.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/near_names.h"
+#include "workbench/operations/table.h"
 #include "workbench/prepare/builtin_recipes.h"
 
 namespace vesselbench {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "workbench/operation.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "workbench/arguments_json.h"
+#include "workbench/case/arguments_json.h"
 
 namespace vesselbench {
 

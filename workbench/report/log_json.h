@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "workbench/session.h"
+#include "workbench/session/session.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "workbench/point_json.h"
+#include "workbench/case/point_json.h"
 
 namespace vesselbench {
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "geometry/measure.h"
-#include "geometry/reference_comparison.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/reference_comparison.h"
 
 namespace vesselbench {
 

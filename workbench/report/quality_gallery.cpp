@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/measure.h"
-#include "geometry/surface_distance.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/report/report_pictures.h"
 #include "workbench/report/stroke_text.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "geometry/wording.h"
+#include "geometry/kernel/wording.h"
 #include "gpu/picture.h"
 
 namespace vesselbench {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "quality/sensitivity.h"
+#include "smoothing/quality/sensitivity.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/wording.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -6,9 +6,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/surface_distance.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
+#include "gpu/png.h"
 
 namespace vesselbench {
 

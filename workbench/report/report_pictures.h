@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/kernel/surface.h"
 #include "gpu/picture.h"
 #include "workbench/report/report_html.h"
 

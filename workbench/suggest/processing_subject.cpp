@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/errors.h"
-#include "geometry/measure.h"
-#include "geometry/wording.h"
-#include "meshing/sizing_field.h"
-#include "workbench/near_names.h"
-#include "workbench/run_operation.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
+#include "meshing/remeshing/sizing_field.h"
+#include "workbench/case/near_names.h"
+#include "workbench/worker/run_operation.h"
 
 namespace vesselbench {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "quality/processing_table.h"
-#include "quality/search.h"
-#include "workbench/arguments.h"
-#include "workbench/operation.h"
+#include "smoothing/quality/processing_table.h"
+#include "smoothing/quality/search.h"
+#include "workbench/case/arguments.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

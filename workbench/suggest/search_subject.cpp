@@ -2,12 +2,13 @@
 
 #include <filesystem>
 
-#include "geometry/errors.h"
-#include "workbench/argument_texts.h"
-#include "workbench/foreign_surface.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/operations/foreign_surface.h"
 #include "workbench/operations/smooth/filter_choice.h"
-#include "workbench/project.h"
-#include "workbench/session.h"
+#include "workbench/operations/table.h"
+#include "workbench/project/project.h"
+#include "workbench/session/session.h"
 #include "workbench/suggest/processing_subject.h"
 
 namespace vesselbench {
@@ -17,7 +18,7 @@ namespace {
 constexpr const char* kSmooth = "smooth";
 
 void take_project(const SubjectOptions& options, SearchSubject& subject, const Progress& progress) {
-    Session session = Session::open(options.source);
+    Session session = Session::open(options.source, {.find = find_operation});
     const Operation& operation = *subject.operation;
     const std::vector<LogEntry> log = session.log();
     const LogEntry* last = nullptr;

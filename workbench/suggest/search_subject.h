@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "quality/search.h"
-#include "workbench/operation.h"
+#include "smoothing/quality/search.h"
+#include "workbench/case/operation.h"
 #include "workbench/suggest/smoothing_subject.h"
 #include "workbench/suggest/subject_options.h"
 

@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "smoothing/staircases.h"
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/staircases.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "gpu/gpu_engine.h"
-#include "quality/smoothing_space.h"
-#include "workbench/arguments.h"
-#include "workbench/scene.h"
+#include "smoothing/quality/smoothing_space.h"
+#include "workbench/case/arguments.h"
+#include "workbench/case/scene.h"
 
 namespace vesselbench {
 

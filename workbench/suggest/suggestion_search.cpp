@@ -1,6 +1,6 @@
 #include "workbench/suggest/suggestion_search.h"
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "quality/search.h"
+#include "smoothing/quality/search.h"
 #include "workbench/suggest/search_subject.h"
 
 namespace vesselbench {

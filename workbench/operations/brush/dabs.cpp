@@ -2,8 +2,8 @@
 
 #include <sstream>
 
-#include "geometry/errors.h"
-#include "geometry/wording.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/brush.h"
-#include "workbench/operation.h"
+#include "smoothing/brush/brush.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

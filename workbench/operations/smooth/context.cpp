@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/errors.h"
-#include "geometry/kept_memory.h"
-#include "smoothing/cap_rounding.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/kept_memory.h"
+#include "smoothing/context/cap_rounding.h"
 #include "workbench/operations/context_weights.h"
 
 namespace vesselbench {

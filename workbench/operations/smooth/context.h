@@ -7,9 +7,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "smoothing/context_finder.h"
-#include "smoothing/position_constraint.h"
-#include "workbench/operation.h"
+#include "smoothing/context/context_finder.h"
+#include "smoothing/filters/position_constraint.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <sstream>
 
-#include "geometry/errors.h"
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "smoothing/filter.h"
-#include "workbench/operation.h"
+#include "smoothing/filters/filter.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 

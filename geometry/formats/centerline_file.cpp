@@ -1,0 +1,215 @@
+#include "geometry/formats/centerline_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "geometry/formats/atomic_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+
+namespace vesselbench {
+namespace {
+
+/// Line ends that are closer than this fraction of the extent are one node.
+constexpr double kSamePlace = 1e-6;
+
+/// VTK's XML parser prints about a file that is cut off; so that is found first.
+void check_whole(const std::string& path, const std::string& name) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) throw IoError("cannot read " + name);
+    const auto size = static_cast<std::streamoff>(file.tellg());
+    const std::streamoff tail = std::min<std::streamoff>(size, 64);
+    std::string end(static_cast<std::size_t>(tail), ' ');
+    file.seekg(size - tail);
+    file.read(end.data(), tail);
+    if (end.find("</VTKFile>") == std::string::npos) {
+        throw InvalidInput(name + " is no VTP file, or cut off");
+    }
+}
+
+/// Notes that VTK complained, instead of letting it print.
+class Complaint : public vtkCommand {
+public:
+    static Complaint* New() { return new Complaint; }
+
+    void Execute(vtkObject*, unsigned long, void*) override { raised = true; }
+
+    bool raised = false;
+};
+
+template <class Array>
+vtkSmartPointer<Array> named(const char* name) {
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    return array;
+}
+
+void add_points(const CenterlineGraph& graph, vtkPolyData* lines) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    const auto radii = named<vtkDoubleArray>("MaximumInscribedSphereRadius");
+    const auto along = named<vtkDoubleArray>("Abscissas");
+    const auto ids = named<vtkIntArray>("BranchId");
+    for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+        const CenterlineBranch& branch = graph.branches[b];
+        const auto s = abscissas(branch);
+        cells->InsertNextCell(static_cast<vtkIdType>(branch.points.size()));
+        for (std::size_t i = 0; i < branch.points.size(); ++i) {
+            cells->InsertCellPoint(points->InsertNextPoint(branch.points[i].data()));
+            radii->InsertNextValue(branch.radii[i]);
+            along->InsertNextValue(s[i]);
+            ids->InsertNextValue(static_cast<int>(b));
+        }
+    }
+    lines->SetPoints(points);
+    lines->SetLines(cells);
+    lines->GetPointData()->AddArray(radii);
+    lines->GetPointData()->AddArray(along);
+    lines->GetPointData()->AddArray(ids);
+}
+
+void add_cells(const CenterlineGraph& graph, vtkPolyData* lines) {
+    const auto add = [&](const char* name, auto&& value) {
+        const auto array = named<vtkIntArray>(name);
+        for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+            array->InsertNextValue(static_cast<int>(value(b)));
+        }
+        lines->GetCellData()->AddArray(array);
+    };
+    add("CenterlineIds", [](std::size_t b) { return b; });
+    add("TractIds", [](std::size_t) { return 0; });
+    add("GroupIds", [](std::size_t b) { return b; });
+    add("Blanking", [](std::size_t) { return 0; });
+    add("StartNodeIds", [&](std::size_t b) { return graph.branches[b].start_node; });
+    add("EndNodeIds", [&](std::size_t b) { return graph.branches[b].end_node; });
+    const auto length = named<vtkDoubleArray>("Length");
+    for (const auto& branch : graph.branches) length->InsertNextValue(branch_length(branch));
+    lines->GetCellData()->AddArray(length);
+}
+
+std::vector<CenterlineBranch> lines_of(vtkPolyData* data) {
+    auto* radii = data->GetPointData()->GetArray("MaximumInscribedSphereRadius");
+    if (radii == nullptr) radii = data->GetPointData()->GetArray("Radius");
+    std::vector<CenterlineBranch> branches;
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    for (data->GetLines()->InitTraversal(); data->GetLines()->GetNextCell(count, ids) != 0;) {
+        CenterlineBranch branch;
+        for (vtkIdType i = 0; i < count; ++i) {
+            Vec3 p;
+            data->GetPoint(ids[i], p.data());
+            branch.points.push_back(p);
+            branch.radii.push_back(radii != nullptr ? radii->GetTuple1(ids[i]) : 0.0);
+        }
+        branches.push_back(std::move(branch));
+    }
+    return branches;
+}
+
+std::size_t node_at(const Vec3& place, double radius, double tolerance, CenterlineGraph& graph) {
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+        if ((graph.nodes[n].position - place).norm() <= tolerance) return n;
+    }
+    graph.nodes.push_back({place, radius, {}});
+    return graph.nodes.size() - 1;
+}
+
+/// Node numbers of the lines' ends from the file; false if it has none, or senseless ones.
+bool numbered_nodes(vtkPolyData* data, CenterlineGraph& graph) {
+    auto* starts = data->GetCellData()->GetArray("StartNodeIds");
+    auto* ends = data->GetCellData()->GetArray("EndNodeIds");
+    if (starts == nullptr || ends == nullptr) return false;
+    const vtkIdType first = data->GetNumberOfVerts();
+    const double most = 2.0 * static_cast<double>(graph.branches.size());
+    for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+        CenterlineBranch& branch = graph.branches[b];
+        const double from = starts->GetTuple1(first + static_cast<vtkIdType>(b));
+        const double to = ends->GetTuple1(first + static_cast<vtkIdType>(b));
+        if (!(from >= 0.0 && from < most && to >= 0.0 && to < most)) return false;
+        branch.start_node = static_cast<std::size_t>(from);
+        branch.end_node = static_cast<std::size_t>(to);
+    }
+    for (const CenterlineBranch& branch : graph.branches) {
+        graph.nodes.resize(
+            std::max({graph.nodes.size(), branch.start_node + 1, branch.end_node + 1}));
+        graph.nodes[branch.start_node].position = branch.points.front();
+        graph.nodes[branch.start_node].radius = branch.radii.front();
+        graph.nodes[branch.end_node].position = branch.points.back();
+        graph.nodes[branch.end_node].radius = branch.radii.back();
+    }
+    return true;
+}
+
+void find_nodes(vtkPolyData* data, CenterlineGraph& graph) {
+    if (!numbered_nodes(data, graph)) {
+        const double tolerance = kSamePlace * data->GetLength();
+        graph.nodes.clear();
+        for (CenterlineBranch& b : graph.branches) {
+            b.start_node = node_at(b.points.front(), b.radii.front(), tolerance, graph);
+            b.end_node = node_at(b.points.back(), b.radii.back(), tolerance, graph);
+        }
+    }
+    for (std::size_t b = 0; b < graph.branches.size(); ++b) {
+        graph.nodes[graph.branches[b].start_node].branches.push_back(b);
+        graph.nodes[graph.branches[b].end_node].branches.push_back(b);
+    }
+}
+
+}  // namespace
+
+void write_centerlines(const CenterlineGraph& graph, const std::string& path) {
+    const std::filesystem::path file(path);
+    if (file.extension() != ".vtp") {
+        throw UsageError("centerlines are written as .vtp, not as " + file.filename().string());
+    }
+    if (graph.branches.empty()) throw InvalidInput("there is no centerline to write");
+    vtkNew<vtkPolyData> lines;
+    add_points(graph, lines);
+    add_cells(graph, lines);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(lines);
+    writer->SetWriteToOutputString(true);
+    writer->SetHeaderTypeToUInt64();
+    if (writer->Write() == 0) throw IoError("the centerlines could not be encoded as VTP");
+    const std::string text = writer->GetOutputString();
+    write_file(path, [&](std::ostream& out) { out << text; });
+}
+
+CenterlineGraph read_centerlines(const std::string& path) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    check_whole(path, name);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    vtkNew<Complaint> complaint;
+    reader->AddObserver(vtkCommand::ErrorEvent, complaint.Get());
+    reader->AddObserver(vtkCommand::WarningEvent, complaint.Get());
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkPolyData* data = reader->GetOutput();
+    if (complaint->raised || reader->GetErrorCode() != 0 || data == nullptr) {
+        throw InvalidInput(name + " is no VTP file, or damaged");
+    }
+    CenterlineGraph graph;
+    graph.branches = lines_of(data);
+    for (const CenterlineBranch& b : graph.branches) {
+        if (b.points.size() < 2) throw InvalidInput(name + " has a line of less than two points");
+    }
+    if (graph.branches.empty()) throw InvalidInput(name + " holds no lines");
+    find_nodes(data, graph);
+    return graph;
+}
+
+}  // namespace vesselbench

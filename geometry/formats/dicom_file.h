@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+/// Reads the one DICOM series in a folder. Slices are put in order by their positions along the
+/// slice normal, and the distance between slices comes from these positions (SliceThickness says
+/// something else). A gantry tilt becomes an oblique third axis.
+/// Only geometry, pixels, rescale slope and intercept are taken; no text of the files is.
+/// \throw IoError if the folder cannot be read
+/// \throw InvalidInput if it holds no DICOM slices, several series, slices of different size or
+/// orientation, two slices in one place, a missing slice or uneven distances, or pixels that cannot
+/// be decoded
+[[nodiscard]] ImageFile read_dicom_folder(const std::string& folder);
+
+/// Reads a DICOM file that holds several frames.
+/// \throw as read_image_file; also if the file holds one slice only
+[[nodiscard]] ImageFile read_dicom_file(const std::string& path);
+
+/// True if the file has DICOM's preamble.
+[[nodiscard]] bool is_dicom(const std::string& path);
+
+}  // namespace vesselbench

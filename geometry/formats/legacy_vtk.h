@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads legacy VTK poly data (.vtk, text or binary, versions 1 to 5.1): polygons and strips, cell
+/// array CellEntityIds (or ModelFaceID) as parts, point arrays of one component as attributes. A
+/// parser of its own, since VTK's crashes on files that were cut off.
+/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+[[nodiscard]] RawSurface read_legacy_vtk(const std::string& path);
+
+}  // namespace vesselbench

@@ -1,0 +1,136 @@
+#include "geometry/formats/length_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre};
+
+/// What models of vessels have [mm]: typical radius from an intracranial artery to an atrium, the
+/// thinnest lumen that images resolve, the extent of the smallest excerpt to a whole body.
+constexpr double kSmallestRadius = 1.3;
+constexpr double kLargestRadius = 20.0;
+constexpr double kThinnestOpening = 0.5;
+constexpr double kSmallestExtent = 6.0;
+constexpr double kLargestExtent = 1000.0;
+
+/// Most files are in mm: another unit must make up for an implausibility (in natural logarithms)
+/// above this one; below kCertain the guess is called uncertain.
+constexpr double kInFavourOfMillimetres = 0.4;
+constexpr double kCertain = 1.2;
+
+/// Beyond this ratio of extent to radius the volume means nothing (scattered or turned triangles).
+constexpr double kSlimmestTree = 400.0;
+
+struct Figures {
+    double extent = 0.0;
+    double radius = 0.0;
+    double opening = 0.0;  ///< radius of the smallest round opening; 0: none
+};
+
+double too_small(double value, double limit) {
+    return value > 0.0 && value < limit ? std::log(limit / value) : 0.0;
+}
+
+double too_large(double value, double limit) {
+    return value > limit ? std::log(value / limit) : 0.0;
+}
+
+/// Area and length of a loop: its equivalent radius if it is a round one, else 0.
+double round_radius(const Positions& points, const std::vector<VertexId>& loop) {
+    constexpr std::size_t kFewestEdges = 8;
+    constexpr double kRound = 0.7;  // isoperimetric ratio [-]
+    if (loop.size() < kFewestEdges) return 0.0;
+    Vec3 normal = Vec3::Zero();
+    double length = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec3 &a = points[loop[i]], &b = points[loop[(i + 1) % loop.size()]];
+        normal += 0.5 * (a - points[loop[0]]).cross(b - points[loop[0]]);
+        length += (b - a).norm();
+    }
+    const double enclosed = normal.norm();
+    if (4.0 * std::numbers::pi * enclosed < kRound * length * length) return 0.0;
+    return std::sqrt(enclosed / std::numbers::pi);
+}
+
+Figures figures_of(const Surface& surface) {
+    Figures figures;
+    figures.extent = bounds(surface).diagonal();
+    const double surface_area = area(surface);
+    if (surface_area > 0.0) figures.radius = 2.0 * std::abs(volume(surface)) / surface_area;
+    if (figures.extent > kSlimmestTree * figures.radius) figures.radius = 0.0;
+    for (const auto& loop : surface.topology->boundary_loops()) {
+        const double radius = round_radius(surface.points(), loop);
+        if (radius > 0.0 && (figures.opening == 0.0 || radius < figures.opening))
+            figures.opening = radius;
+    }
+    return figures;
+}
+
+/// 0: like a vessel; more: by how many natural logarithms it is off.
+double implausibility(const Figures& figures, double factor) {
+    return too_small(factor * figures.radius, kSmallestRadius) +
+           too_large(factor * figures.radius, kLargestRadius) +
+           too_small(factor * figures.opening, kThinnestOpening) +
+           too_small(factor * figures.extent, kSmallestExtent) +
+           too_large(factor * figures.extent, kLargestExtent);
+}
+
+std::string reason_text(const Figures& figures, LengthUnit unit) {
+    const double factor = millimetres_per(unit);
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "guessed from the size: in %s it is %.3g mm long with a typical radius of %.3g mm",
+        to_string(unit).c_str(), factor * figures.extent, factor * figures.radius);
+    return text;
+}
+
+}  // namespace
+
+std::string to_string(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::Centimetre:
+            return "cm";
+        case LengthUnit::Metre:
+            return "m";
+        default:
+            return "mm";
+    }
+}
+
+LengthUnit length_unit_from(const std::string& text) {
+    for (const LengthUnit unit : kUnits)
+        if (text == to_string(unit)) return unit;
+    throw UsageError("'" + text + "' is no unit of length: use mm, cm or m");
+}
+
+double millimetres_per(LengthUnit unit) {
+    return unit == LengthUnit::Metre ? 1000.0 : unit == LengthUnit::Centimetre ? 10.0 : 1.0;
+}
+
+UnitGuess guess_length_unit(const Surface& surface) {
+    const Figures figures = figures_of(surface);
+    std::array<double, 3> off{};
+    for (std::size_t i = 0; i < kUnits.size(); ++i)
+        off[i] = implausibility(figures, millimetres_per(kUnits[i])) +
+                 (i == 0 ? 0.0 : kInFavourOfMillimetres);
+    const auto best =
+        static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin());
+    double next = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < off.size(); ++i)
+        if (i != best) next = std::min(next, off[i]);
+    return {kUnits[best], reason_text(figures, kUnits[best]), next - off[best] >= kCertain};
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+enum class LengthUnit { Millimetre, Centimetre, Metre };
+
+[[nodiscard]] std::string to_string(LengthUnit unit);  ///< "mm", "cm", "m"
+
+/// \throw UsageError unless the text is mm, cm or m
+[[nodiscard]] LengthUnit length_unit_from(const std::string& text);
+
+[[nodiscard]] double millimetres_per(LengthUnit unit);
+
+/// A decision about a file's unit and why it was made.
+struct UnitGuess {
+    LengthUnit unit = LengthUnit::Millimetre;
+    std::string reason;   ///< one sentence with figures
+    bool certain = true;  ///< false: another unit would be nearly as plausible
+};
+
+/// Which unit makes the coordinates a vessel: compares the typical radius (twice the volume by the
+/// area; r for a tube) and the extent with what vessels have.
+/// \param surface in the file's unit, not empty
+[[nodiscard]] UnitGuess guess_length_unit(const Surface& surface);
+
+}  // namespace vesselbench

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+/// Reads MetaImage (.mha, or .mhd with its data beside it; compressed or not, binary or text).
+/// Its matrix's rows are the directions of the axes; its space is LPS, as ITK has it.
+/// Source: "MetaIO", itk.org/Wiki/MetaIO/Documentation.
+/// \throw as read_image_file
+[[nodiscard]] ImageFile read_meta_image(const std::string& path);
+
+/// Bytes of a .mha file (compressed) that holds the image.
+[[nodiscard]] std::string meta_image_bytes(const Image& image);
+
+}  // namespace vesselbench

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+/// Reads NIfTI-1 (.nii, .nii.gz; either byte order). The sform is taken if it is set, else the
+/// qform, else the voxel sizes alone. Its RAS becomes LPS; metres and micrometres become [mm].
+/// Source: Cox et al., "A (sort of) new image data format standard: NIfTI-1", 2004; nifti1.h.
+/// \throw as read_image_file
+[[nodiscard]] ImageFile read_nifti(const std::string& path);
+
+/// Bytes of a NIfTI-1 file (not compressed) that holds the image, its matrix as sform.
+[[nodiscard]] std::string nifti_bytes(const Image& image);
+
+}  // namespace vesselbench

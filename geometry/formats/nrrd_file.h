@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+/// Reads NRRD (.nrrd, or .nhdr with its data beside it; raw, gzip or text encoding). Its space
+/// (RAS, LAS, LPS) becomes LPS; where it names none, LPS is taken and said. Source: "Definition of
+/// NRRD file format", teem.sourceforge.net/nrrd/format.html.
+/// \throw as read_image_file
+[[nodiscard]] ImageFile read_nrrd(const std::string& path);
+
+/// Bytes of an NRRD file (LPS, gzip) that holds the image.
+[[nodiscard]] std::string nrrd_bytes(const Image& image);
+
+}  // namespace vesselbench

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads a Wavefront OBJ file: points, polygons (also by negative indices) and groups; normals,
+/// textures, materials and colours are ignored.
+/// \throw InvalidInput for a damaged file or an index out of range, IoError if it cannot be read
+[[nodiscard]] RawSurface read_obj(const std::string& path);
+
+/// One group per patch; a comment states the unit.
+void write_obj(const Surface& surface, const std::string& path);
+
+}  // namespace vesselbench

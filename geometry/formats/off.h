@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads a text OFF file (also COFF, NOFF, CNOFF; colours and normals are ignored).
+/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+[[nodiscard]] RawSurface read_off(const std::string& path);
+
+/// A comment states the unit; patches and attributes have no place in this format.
+void write_off(const Surface& surface, const std::string& path);
+
+}  // namespace vesselbench

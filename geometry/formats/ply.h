@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads a PLY file, text or binary of either byte order: element `vertex` with x, y, z, element
+/// `face` with a list of corners (vertex_indices or vertex_index); other scalar vertex properties
+/// but normals, colours and texture become attributes, other elements are skipped.
+/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+[[nodiscard]] RawSurface read_ply(const std::string& path);
+
+/// Binary, double precision, with attributes; the patches stand in the face property
+/// CellEntityIds and in comments, another comment states the unit.
+void write_ply(const Surface& surface, const std::string& path);
+
+}  // namespace vesselbench

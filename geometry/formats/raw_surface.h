@@ -1,0 +1,74 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/formats/length_unit.h"
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+/// A surface as a file holds it: in the file's unit, nothing checked but indices and finiteness.
+/// Shared by the readers of this folder.
+struct RawSurface {
+    Positions positions;
+    std::vector<Triangle> triangles;
+    std::vector<int> part_ids;              ///< per triangle, or empty: all one part
+    std::map<int, std::string> part_names;  ///< by part id; parts may lack one
+    std::map<std::string, std::vector<double>> attributes;  ///< each #V
+    std::optional<LengthUnit> unit;                         ///< if the file states it
+    std::vector<std::string> notes;                         ///< what was left out, for the report
+};
+
+/// Name of a file without its folders, for error texts.
+[[nodiscard]] std::string bare_name(const std::string& path);
+
+/// \throw IoError if the file cannot be opened or read
+[[nodiscard]] std::string file_content(const std::string& path);
+
+/// The unit after "UNITS=" in a header or comment, if there is one that we know.
+[[nodiscard]] std::optional<LengthUnit> stated_unit(std::string_view text);
+
+/// Appends the triangles of a polygon (3 or more corners, any shape without self-crossings, nearly
+/// flat); `count` of them are made: corners - 2.
+void append_polygon(const Positions& positions, const std::vector<VertexId>& polygon,
+                    std::vector<Triangle>& triangles);
+
+/// Walks through a text, counting lines; every error names the file and the line.
+class TextScanner {
+public:
+    TextScanner(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {}
+
+    /// Moves to the next line that holds a word outside of comments (`comment`: their first
+    /// character); false at the end of the text.
+    bool next_line(char comment);
+
+    /// The next word of this line; empty at its end.
+    std::string_view word();
+
+    /// The next word of this line as a finite number, or an error that names `what`.
+    double number(const char* what);
+
+    /// The same for a whole number.
+    long long integer(const char* what);
+
+    [[nodiscard]] std::size_t line() const { return line_; }
+
+    /// Whole current line without its end.
+    [[nodiscard]] std::string_view whole_line() const { return current_; }
+
+    [[noreturn]] void fail(const std::string& what) const;
+
+    double parse_number(std::string_view text, const char* what) const;
+    long long parse_integer(std::string_view text, const char* what) const;
+
+private:
+    std::string_view rest_, current_, words_;
+    std::string file_;
+    std::size_t line_ = 0;
+};
+
+}  // namespace vesselbench

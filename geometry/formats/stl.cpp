@@ -1,0 +1,174 @@
+#include "geometry/formats/stl.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "geometry/formats/atomic_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/point_welder.h"
+
+namespace vesselbench {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t kHeader = 84;  // 80 bytes of text, then the number of triangles
+constexpr std::size_t kRecord = 50;  // normal, three corners (floats), two bytes
+
+Vec3 corner_of(const char* record, std::size_t k) {
+    float xyz[3];
+    std::memcpy(xyz, record + 12 + 12 * k, sizeof xyz);
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
+std::uint32_t stated_count(const std::string& bytes) {
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + 80, sizeof count);
+    return count;
+}
+
+RawSurface read_binary(const std::string& bytes, const std::string& file) {
+    const std::size_t count = stated_count(bytes);
+    RawSurface raw;
+    raw.unit = stated_unit(std::string_view(bytes).substr(0, 80));
+    raw.triangles.reserve(count);
+    PointWelder welder(count / 2 + 16);
+    for (std::size_t t = 0; t < count; ++t) {
+        Triangle triangle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = corner_of(bytes.data() + kHeader + t * kRecord, k);
+            if (!p.allFinite())
+                throw InvalidInput(file + ", triangle " + std::to_string(t) + " (byte " +
+                                   std::to_string(kHeader + t * kRecord) +
+                                   "): a coordinate is not finite; the program that wrote the file "
+                                   "failed; export it again");
+            triangle[k] = welder.add(p);
+        }
+        raw.triangles.push_back(triangle);
+    }
+    raw.positions = welder.take();
+    return raw;
+}
+
+class TextReader {
+public:
+    TextReader(const std::string& text, const std::string& file) : scan_(text, file) {}
+
+    RawSurface read() {
+        while (scan_.next_line('\0')) {
+            const std::string_view word = scan_.word();
+            if (word == "solid")
+                begin_solid();
+            else if (word == "facet")
+                read_facet();
+            else if (word == "endsolid")
+                in_solid_ = false;
+            else
+                scan_.fail("'" + std::string(word.substr(0, 40)) +
+                           "' stands where solid, facet or endsolid should");
+        }
+        if (in_solid_)
+            scan_.fail("the file ends without 'endsolid': it was cut off; fetch it again");
+        raw_.positions = welder_.take();
+        if (solid_ == 0) raw_.part_ids.clear();
+        return std::move(raw_);
+    }
+
+private:
+    void begin_solid() {
+        if (in_solid_) scan_.fail("'solid' inside of a solid");
+        in_solid_ = true;
+        ++solid_;
+        std::string name;
+        for (std::string_view word = scan_.word(); !word.empty(); word = scan_.word())
+            name += (name.empty() ? "" : " ") + std::string(word);
+        raw_.part_names[solid_] = name;
+        if (const auto unit = stated_unit(name)) raw_.unit = unit;
+    }
+
+    void read_facet() {
+        Triangle triangle{};
+        expect("outer");
+        for (VertexId& corner : triangle) {
+            expect("vertex");
+            const double x = scan_.number("vertex x"), y = scan_.number("vertex y"),
+                         z = scan_.number("vertex z");
+            corner = welder_.add({x, y, z});
+        }
+        expect("endloop");
+        expect("endfacet");
+        raw_.triangles.push_back(triangle);
+        raw_.part_ids.push_back(solid_);
+    }
+
+    void expect(const char* keyword) {
+        if (!scan_.next_line('\0'))
+            scan_.fail(std::string("the file ends where '") + keyword +
+                       "' should stand: it was cut off; fetch it again");
+        const std::string_view word = scan_.word();
+        if (word != keyword)
+            scan_.fail("'" + std::string(word.substr(0, 40)) + "' stands where '" + keyword +
+                       "' should");
+    }
+
+    TextScanner scan_;
+    RawSurface raw_;
+    PointWelder welder_;
+    int solid_ = 0;
+    bool in_solid_ = false;
+};
+
+bool looks_like_text(const std::string& bytes) {
+    const auto at = bytes.find_first_not_of(" \t\r\n");
+    return at != std::string::npos && bytes.compare(at, 5, "solid") == 0 &&
+           std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) == nullptr;
+}
+
+}  // namespace
+
+RawSurface read_stl(const std::string& path) {
+    const std::string bytes = file_content(path), file = bare_name(path);
+    const bool fits =
+        bytes.size() >= kHeader && bytes.size() >= kHeader + kRecord * stated_count(bytes);
+    const bool exact = fits && bytes.size() == kHeader + kRecord * stated_count(bytes);
+    if (!exact && looks_like_text(bytes)) return TextReader(bytes, file).read();
+    if (bytes.size() < kHeader)
+        throw InvalidInput(file + " is too short for an STL file (" + std::to_string(bytes.size()) +
+                           " bytes)");
+    if (!fits)
+        throw InvalidInput(file + " announces " + std::to_string(stated_count(bytes)) +
+                           " triangles, but holds only " +
+                           std::to_string((bytes.size() - kHeader) / kRecord) +
+                           ": it was cut off or is no STL file; fetch it again");
+    RawSurface raw = read_binary(bytes, file);
+    if (!exact)
+        raw.notes.push_back(
+            std::to_string(bytes.size() - kHeader - kRecord * raw.triangles.size()) +
+            " bytes behind the last triangle were ignored");
+    return raw;
+}
+
+void write_stl(const Surface& surface, const std::string& path) {
+    std::string bytes(kHeader + kRecord * surface.triangle_count(), '\0');
+    const char header[] = "binary STL of vesselbench UNITS=mm";
+    std::memcpy(bytes.data(), header, sizeof header);
+    const auto count = static_cast<std::uint32_t>(surface.triangle_count());
+    std::memcpy(bytes.data() + 80, &count, sizeof count);
+    char* record = bytes.data() + kHeader;
+    for (const Triangle& t : surface.triangles()) {
+        const Eigen::Vector3f normal = area_normal(surface.points(), t).normalized().cast<float>();
+        std::memcpy(record, normal.data(), 12);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Eigen::Vector3f p = surface.points()[t[k]].cast<float>();
+            std::memcpy(record + 12 + 12 * k, p.data(), 12);
+        }
+        record += kRecord;
+    }
+    write_file(path, [&](std::ostream& out) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    });
+}
+
+}  // namespace vesselbench

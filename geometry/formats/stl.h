@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads an STL file, binary or text, with one or several solids; equal points become one vertex.
+/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+[[nodiscard]] RawSurface read_stl(const std::string& path);
+
+/// Writes binary STL (single precision); the header states the unit.
+void write_stl(const Surface& surface, const std::string& path);
+
+}  // namespace vesselbench

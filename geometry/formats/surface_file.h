@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/formats/length_unit.h"
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+/// A surface from a file, in millimetres, with how it came to be.
+struct SurfaceFile {
+    Surface surface;                           ///< [mm]; not repaired: use repair
+    LengthUnit unit = LengthUnit::Millimetre;  ///< of the file
+    std::string unit_reason;  ///< "stated in the file", "given", or the guess's reason
+    bool unit_certain = true;
+    std::vector<std::string> notes;  ///< what was left out or decided
+};
+
+/// Reads STL, PLY, OBJ, OFF, VTP or legacy VTK, by the suffix. Parts that the file names or numbers
+/// become patches: those named wall, inlet..., outlet..., cut... by their names; unnamed flat ones
+/// become openings to be chosen ("cut_1" ...), all others belong to the wall.
+/// \param unit of the file; none: as the file states it, or guessed from the extent
+/// \throw InvalidInput for another suffix, a damaged file, NaN or infinite coordinates, no
+/// triangles; the text names the file without its folder, the place and the remedy
+/// \throw IoError if the file cannot be read
+[[nodiscard]] SurfaceFile read_surface(const std::string& path,
+                                       std::optional<LengthUnit> unit = std::nullopt);
+
+/// Writes .stl (binary), .ply, .obj, .off or .vtp, in mm, whole or not at all.
+/// \throw UsageError for another suffix, InvalidInput if there is no triangle, IoError if the file
+/// cannot be written
+void write_surface(const Surface& surface, const std::string& path);
+
+/// True if read_surface knows the suffix of this file name.
+[[nodiscard]] bool is_surface_file(const std::string& path);
+
+}  // namespace vesselbench

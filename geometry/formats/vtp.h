@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/formats/raw_surface.h"
+
+namespace vesselbench {
+
+/// Reads VTK XML PolyData (.vtp): polygons and strips; lines and lone points are left out. The cell
+/// array CellEntityIds (or SimVascular's ModelFaceID) gives the parts, the field array PatchNames
+/// their names, point arrays of one component become attributes.
+/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+[[nodiscard]] RawSurface read_vtp(const std::string& path);
+
+/// Writes .vtp in double precision (appended raw data) with CellEntityIds, PatchNames, Units and
+/// the attributes.
+void write_vtp(const Surface& surface, const std::string& path);
+
+}  // namespace vesselbench

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "geometry/kernel/triangles.h"
+
+namespace vesselbench::detail {
+
+/// Vertices [first, last).
+struct VertexRange {
+    VertexId first, last;
+
+    [[nodiscard]] bool has(VertexId v) const { return v - first < last - first; }
+};
+
+/// As many ranges of vertices as there are threads.
+[[nodiscard]] std::vector<VertexRange> shares(std::size_t vertex_count);
+
+/// The corners of triangles, to be visited by vertex: each thread looks at its share of the
+/// vertices. Which vertices some thousand triangles come from is kept: those of a surface that was
+/// made front by front come from few, so that a thread passes over most that are not its own.
+class Corners {
+public:
+    explicit Corners(std::span<const Triangle> triangles);
+
+    /// Calls visit(v, next, previous, triangle) for the corners at the wanted vertices, in the
+    /// order of the triangles; before each some thousand of these, prepare(the vertex behind the
+    /// last wanted one among their corners).
+    template <class Prepare, class Visit>
+    void visit_at(const VertexRange& wanted, const Prepare& prepare, const Visit& visit) const {
+        for (std::size_t i = 0; i < ranges_.size(); ++i) {
+            const VertexRange& range = ranges_[i];
+            if (range.last <= wanted.first || range.first >= wanted.last) continue;
+            prepare(std::min(range.last, wanted.last));
+            if (range.first >= wanted.first && range.last <= wanted.last)
+                visit_part(i, visit);
+            else
+                visit_part(i, [&](VertexId v, VertexId next, VertexId previous, TriangleId t) {
+                    if (wanted.has(v)) visit(v, next, previous, t);
+                });
+        }
+    }
+
+    template <class Visit>
+    void visit_at(const VertexRange& wanted, const Visit& visit) const {
+        visit_at(
+            wanted, [](VertexId) {}, visit);
+    }
+
+private:
+    static constexpr std::size_t kPart = 4096;  ///< triangles
+
+    template <class Visit>
+    void visit_part(std::size_t i, const Visit& visit) const {
+        const std::size_t end = std::min(triangles_.size(), (i + 1) * kPart);
+        for (std::size_t t = i * kPart; t < end; ++t) {
+            const auto& [a, b, c] = triangles_[t];
+            const auto id = static_cast<TriangleId>(t);
+            visit(a, b, c, id);
+            visit(b, c, a, id);
+            visit(c, a, b, id);
+        }
+    }
+
+    std::span<const Triangle> triangles_;
+    std::vector<VertexRange> ranges_;
+};
+
+}  // namespace vesselbench::detail

@@ -1,0 +1,35 @@
+#include "geometry/kernel/finite_positions.h"
+
+#include <atomic>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench::detail {
+
+namespace {
+
+bool all_finite(const Positions& positions) {
+    std::atomic<bool> finite = true;
+    const tbb::blocked_range<std::size_t> all(0, positions.size(), 16384);
+    tbb::parallel_for(all, [&](const auto& range) {
+        Vec3 sum = Vec3::Zero();  // of zeros, or not numbers
+        for (std::size_t v = range.begin(); v != range.end(); ++v) sum += 0.0 * positions[v];
+        if (!sum.allFinite()) finite = false;
+    });
+    return finite;
+}
+
+}  // namespace
+
+void require_finite(const Positions& positions) {
+    if (all_finite(positions)) return;
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        if (!positions[v].allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+}
+
+}  // namespace vesselbench::detail

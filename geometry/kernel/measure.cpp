@@ -1,0 +1,301 @@
+#include "geometry/kernel/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/self_intersections.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Calls visit(v, triangle) for the triangles at each vertex, ascending; different vertices at the
+/// same time. A degenerate triangle may come twice.
+template <class Visit>
+void visit_triangles_by_vertex(const Surface& surface, const Visit& visit) {
+    const CompressedRows& rows = surface.topology->triangles_at();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.vertex_count(), 1024),
+                      [&](const auto& range) {
+                          for (std::size_t v = range.begin(); v != range.end(); ++v)
+                              for (const TriangleId t : rows.row(v))
+                                  visit(static_cast<VertexId>(v), t);
+                      });
+}
+
+/// Collects one value after the other.
+class SpreadBuilder {
+public:
+    void add(double value) {
+        spread_.min = count_ == 0 ? value : std::min(spread_.min, value);
+        spread_.max = count_ == 0 ? value : std::max(spread_.max, value);
+        sum_ += value;
+        ++count_;
+    }
+
+    [[nodiscard]] Spread result() const {
+        Spread spread = spread_;
+        if (count_ > 0) spread.mean = sum_ / static_cast<double>(count_);
+        return spread;
+    }
+
+private:
+    Spread spread_;
+    double sum_ = 0.0;
+    std::size_t count_ = 0;
+};
+
+Spread edge_lengths(const Surface& surface, const EdgeTable& table) {
+    SpreadBuilder lengths;
+    for (const auto& [a, b] : table.edges)
+        lengths.add((surface.points()[a] - surface.points()[b]).norm());
+    return lengths.result();
+}
+
+template <class Measure>
+Spread over_triangles(const Surface& surface, Measure&& measure_one) {
+    SpreadBuilder spread;
+    for (const Triangle& t : surface.triangles()) spread.add(measure_one(surface.points(), t));
+    return spread.result();
+}
+
+Connectivity connectivity(const Topology& topology, const EdgeTable& table) {
+    Connectivity result;
+    const ManifoldDefects defects = manifold_defects(topology, table);
+    result.components = connected_components(topology).count();
+    result.boundary_loops = topology.boundary_loops().size();
+    result.non_manifold_edges = defects.edges.size();
+    result.non_manifold_vertices = defects.vertices.size();
+    result.inconsistent_edges = defects.inconsistent_edges.size();
+    result.closed = true;
+    for (std::size_t e = 0; e < table.edges.size() && result.closed; ++e)
+        result.closed = table.half_edges.row(e).size() > 1;
+    result.manifold =
+        defects.edges.empty() && defects.vertices.empty() && defects.degenerate.empty();
+    result.oriented = result.manifold && defects.inconsistent_edges.empty();
+    if (result.oriented) {
+        const auto& rings = topology.rings();
+        int used = 0;
+        for (std::size_t v = 0; v < topology.vertex_count(); ++v)
+            used += rings.row(v).empty() ? 0 : 1;
+        const int euler = used - static_cast<int>(table.edges.size()) +
+                          static_cast<int>(topology.triangle_count());
+        result.genus = (2 * static_cast<int>(result.components) -
+                        static_cast<int>(result.boundary_loops) - euler) /
+                       2;
+    }
+    return result;
+}
+
+struct BestPlane {
+    Vec3 centre = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();
+};
+
+BestPlane best_plane(const Positions& points) {
+    BestPlane plane;
+    for (const Vec3& p : points) plane.centre += p;
+    plane.centre /= static_cast<double>(points.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : points) spread += (p - plane.centre) * (p - plane.centre).transpose();
+    plane.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    return plane;
+}
+
+double flatness(const Positions& points) {
+    const BestPlane plane = best_plane(points);
+    double largest = 0.0;
+    for (const Vec3& p : points)
+        largest = std::max(largest, std::abs((p - plane.centre).dot(plane.normal)));
+    return largest;
+}
+
+}  // namespace
+
+Bounds bounds(const Positions& positions) {
+    if (positions.empty()) return {};
+    Bounds box{positions.front(), positions.front()};
+    for (const Vec3& p : positions) {
+        box.min = box.min.cwiseMin(p);
+        box.max = box.max.cwiseMax(p);
+    }
+    return box;
+}
+
+Bounds bounds(const Surface& surface) {
+    return surface.positions ? bounds(surface.points()) : Bounds{};
+}
+
+double triangle_area(const Positions& positions, const Triangle& triangle) {
+    return 0.5 * area_normal(positions, triangle).norm();
+}
+
+double longest_edge(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+}
+
+double longest_edge(const Positions& positions, const Triangle& triangle) {
+    return longest_edge(positions[triangle[0]], positions[triangle[1]], positions[triangle[2]]);
+}
+
+double area(const Surface& surface) {
+    double sum = 0.0;
+    for (const Triangle& t : surface.triangles()) sum += triangle_area(surface.points(), t);
+    return sum;
+}
+
+double volume(const Surface& surface) {
+    // Tetrahedra to a point near the surface, so that far coordinates cost no digits.
+    const Positions& points = surface.points();
+    const Vec3 origin = bounds(points).centre();
+    double sum = 0.0;
+    for (const Triangle& t : surface.triangles())
+        sum += (points[t[0]] - origin).dot((points[t[1]] - origin).cross(points[t[2]] - origin));
+    for (const auto& loop : surface.topology->boundary_loops()) {
+        Vec3 centre = Vec3::Zero();
+        for (const VertexId v : loop) centre += points[v] - origin;
+        centre /= static_cast<double>(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vec3 a = points[loop[i]] - origin,
+                       b = points[loop[(i + 1) % loop.size()]] - origin;
+            sum += centre.dot(b.cross(a));
+        }
+    }
+    return sum / 6.0;
+}
+
+Spread edge_lengths(const Surface& surface) {
+    return edge_lengths(surface, edge_table(*surface.topology));
+}
+
+double mean_edge_length(const Surface& surface) {
+    return edge_lengths(surface).mean;
+}
+
+double equiangle_skewness(const Positions& positions, const Triangle& triangle) {
+    double worst = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3& at = positions[triangle[k]];
+        const Vec3 u = positions[triangle[(k + 1) % 3]] - at,
+                   v = positions[triangle[(k + 2) % 3]] - at;
+        const double angle = kDegrees * angle_between(u, v);
+        worst = std::max({worst, (angle - 60.0) / 120.0, (60.0 - angle) / 60.0});
+    }
+    return worst;
+}
+
+double radius_ratio(const Positions& positions, const Triangle& triangle) {
+    const double a = (positions[triangle[1]] - positions[triangle[2]]).norm();
+    const double b = (positions[triangle[2]] - positions[triangle[0]]).norm();
+    const double c = (positions[triangle[0]] - positions[triangle[1]]).norm();
+    // r_in = 2 A / (a + b + c), r_out = a b c / (4 A)
+    const double doubled = area_normal(positions, triangle).norm();
+    const double product = a * b * c * (a + b + c);
+    return product > 0.0 ? std::min(1.0, 4.0 * doubled * doubled / product) : 0.0;
+}
+
+Positions vertex_normals(const Surface& surface) {
+    const Positions& points = surface.points();
+    Positions normals(points.size(), Vec3::Zero());
+    visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId triangle) {
+        const Triangle& t = surface.triangles()[triangle];
+        const std::size_t k = corner_of(t, v);
+        const Vec3 normal = area_normal(points, t);
+        const double length = normal.norm();
+        if (!(length > 0.0)) return;
+        const Vec3 to_next = points[t[(k + 1) % 3]] - points[v],
+                   to_previous = points[t[(k + 2) % 3]] - points[v];
+        normals[v] += angle_between(to_next, to_previous) / length * normal;
+    });
+    // Less is what rounding leaves of triangles that lie on each other: no normal.
+    constexpr double kLeastAngle = 1e-9;
+    for (Vec3& n : normals) n = n.norm() > kLeastAngle ? n.normalized() : Vec3::Zero();
+    return normals;
+}
+
+std::vector<double> normal_curvature(const Surface& surface) {
+    const Positions normals = vertex_normals(surface);
+    std::vector<double> largest(normals.size(), 0.0);
+    visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId t) {
+        const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
+        if (!(normal.squaredNorm() > 0.0)) return;
+        largest[v] = std::max(largest[v], kDegrees * angle_between(normals[v], normal));
+    });
+    return largest;
+}
+
+std::vector<PatchMeasures> measure_patches(const Surface& surface) {
+    std::vector<PatchMeasures> all(surface.patches.size());
+    std::vector<Positions> corners(surface.patches.size());
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const Triangle& triangle = surface.triangles()[t];
+        const auto label = (*surface.patch_labels)[t];
+        PatchMeasures& patch = all[label];
+        const Vec3 normal = area_normal(surface.points(), triangle);
+        const double its_area = 0.5 * normal.norm();
+        ++patch.triangles;
+        patch.area += its_area;
+        patch.normal += normal;
+        Vec3 middle = Vec3::Zero();
+        for (const VertexId v : triangle) {
+            middle += surface.points()[v] / 3.0;
+            corners[label].push_back(surface.points()[v]);
+        }
+        patch.centroid += its_area * middle;
+    }
+    std::vector<PatchMeasures> present;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].triangles == 0) continue;
+        all[i].name = surface.patches[i].name;
+        all[i].kind = surface.patches[i].kind;
+        if (all[i].area > 0.0) all[i].centroid /= all[i].area;
+        all[i].normal.normalize();
+        all[i].flatness = flatness(corners[i]);
+        present.push_back(std::move(all[i]));
+    }
+    return present;
+}
+
+Connectivity connectivity(const Topology& topology) {
+    return connectivity(topology, edge_table(topology));
+}
+
+SurfaceMeasures measure(const Surface& surface) {
+    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to measure");
+    SurfaceMeasures result;
+    result.vertices = surface.vertex_count();
+    result.triangles = surface.triangle_count();
+    const EdgeTable table = edge_table(*surface.topology);
+    result.connectivity = connectivity(*surface.topology, table);
+    result.self_intersections = self_intersections(surface).size();
+    result.area = area(surface);
+    result.volume = volume(surface);
+    result.bounds = bounds(surface);
+    result.edge_length = edge_lengths(surface, table);
+    result.equiangle_skewness = over_triangles(surface, equiangle_skewness);
+    result.radius_ratio = over_triangles(surface, radius_ratio);
+    for (const double angle : normal_curvature(surface)) result.normal_curvature_deg += angle;
+    result.normal_curvature_deg /= static_cast<double>(result.vertices);
+    const MeanCurvature curvature = mean_curvature(surface);
+    for (std::size_t v = 0; v < curvature.values.size(); ++v) {
+        result.mean_curvature_integral += curvature.values[v] * curvature.areas[v];
+        result.mean_curvature_integral_abs += std::abs(curvature.values[v]) * curvature.areas[v];
+    }
+    result.patches = measure_patches(surface);
+    return result;
+}
+
+}  // namespace vesselbench

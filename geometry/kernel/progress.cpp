@@ -1,0 +1,23 @@
+#include "geometry/kernel/progress.h"
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+void Progress::report(double fraction, std::string_view what) const {
+    check_cancelled();
+    if (receiver_) receiver_(from_ + (to_ - from_) * fraction, what);
+}
+
+void Progress::check_cancelled() const {
+    if (stop_.stop_requested()) throw Cancelled();
+}
+
+Progress Progress::part(double from, double to) const {
+    Progress inner = *this;
+    inner.from_ = from_ + (to_ - from_) * from;
+    inner.to_ = from_ + (to_ - from_) * to;
+    return inner;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+using TrianglePair = std::pair<TriangleId, TriangleId>;
+
+/// Pairs (low, high) of triangles that meet elsewhere than in the vertices and edges they share,
+/// ascending; decided exactly. Triangles without area are left out. Any triangles will do, also
+/// non-manifold ones; parallel, the same result on any number of threads.
+[[nodiscard]] std::vector<TrianglePair> self_intersections(const Positions& positions,
+                                                           std::span<const Triangle> triangles,
+                                                           const Progress& progress = {});
+
+/// The same pairs, but only those with a chosen triangle in them: for the few that moved.
+/// \param chosen 1 at the triangles, #T
+/// \throw InvalidInput unless chosen is #T long
+[[nodiscard]] std::vector<TrianglePair> self_intersections_with(
+    const Positions& positions, std::span<const Triangle> triangles,
+    std::span<const std::uint8_t> chosen, const Progress& progress = {});
+
+[[nodiscard]] std::vector<TrianglePair> self_intersections(const Surface& surface,
+                                                           const Progress& progress = {});
+
+}  // namespace vesselbench

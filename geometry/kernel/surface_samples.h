@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/kernel/surface.h"
+#include "geometry/kernel/surface_distance.h"
+
+namespace vesselbench {
+
+/// Points that stand for a surface, in place of its triangles.
+struct SurfaceSamples {
+    Positions points;                   ///< all vertices first, which stand for no area
+    std::vector<double> areas;          ///< what each point stands for [mm^2]
+    std::vector<TriangleId> triangles;  ///< one that each point lies in
+};
+
+/// Into how many parts the edges of a triangle are cut, so that the centres of its n^2 equal parts
+/// are no wider apart than the spacing: 1 to 24, for a giant triangle must not cost minutes.
+/// \param longest edge [mm]
+/// \param spacing [mm]; 0 where all edges are
+[[nodiscard]] int sample_parts(double longest, double spacing);
+
+/// Calls visit(u, v) for the centres a + u (b - a) + v (c - a) of the n^2 equal parts of a
+/// triangle.
+template <class Visit>
+void for_each_part(int n, const Visit& visit) {
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j) {
+            visit((i + 1.0 / 3) / n, (j + 1.0 / 3) / n);
+            if (i + j + 1 < n) visit((i + 2.0 / 3) / n, (j + 2.0 / 3) / n);
+        }
+}
+
+/// All vertices, and the centres of sample_parts()^2 parts of every triangle.
+/// \param spacing [mm], > 0
+[[nodiscard]] SurfaceSamples surface_samples(const Surface& surface, double spacing);
+
+/// How far samples lie from a surface.
+struct SampledDistance {
+    double largest = 0.0;  ///< [mm]
+    double sum = 0.0;      ///< of distance x area [mm^3]
+    double area = 0.0;     ///< [mm^2]
+
+    void add(double distance, double sample_area);
+
+    [[nodiscard]] double mean() const { return area > 0.0 ? sum / area : 0.0; }
+};
+
+[[nodiscard]] SampledDistance sampled_distance(const SurfaceSamples& samples,
+                                               const SurfaceDistance& to);
+
+}  // namespace vesselbench

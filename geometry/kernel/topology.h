@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "geometry/kernel/triangles.h"
+
+namespace vesselbench {
+
+struct OneRings;
+
+/// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
+/// Neighbour arrays are made on first use, once, from any thread. Degenerate and non-manifold
+/// triangles are allowed here; what needs a manifold says so.
+class Topology {
+public:
+    /// \throw InvalidInput if a triangle names a vertex >= vertex_count
+    Topology(std::vector<Triangle> triangles, std::size_t vertex_count);
+    ~Topology();
+
+    [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+
+    [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+
+    [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+
+    /// One-ring neighbours of every vertex, each row ascending and without repetition.
+    [[nodiscard]] const CompressedRows& rings() const;
+
+    /// Triangles at every vertex, each row ascending.
+    [[nodiscard]] const CompressedRows& triangles_at() const;
+
+    /// 1 where a vertex lies on an edge that has exactly one triangle, #V.
+    [[nodiscard]] const std::vector<std::uint8_t>& boundary_vertices() const;
+
+    /// Closed loops of boundary vertices, each in the direction of its triangles' half-edges; where
+    /// several loops meet in one vertex they are separated there.
+    [[nodiscard]] std::vector<std::vector<VertexId>> boundary_loops() const;
+
+private:
+    const OneRings& one_rings() const;
+
+    std::vector<Triangle> triangles_;
+    std::size_t vertex_count_ = 0;
+    mutable std::once_flag rings_once_, triangles_once_;
+    mutable std::unique_ptr<const OneRings> one_rings_;
+    mutable std::unique_ptr<const CompressedRows> triangles_at_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,43 @@
+#include "geometry/kernel/wording.h"
+
+#include <cstdio>
+
+namespace vesselbench {
+
+std::string coordinates_text(const Vec3& point) {
+    char text[80];
+    std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g)", point.x(), point.y(), point.z());
+    return text;
+}
+
+std::string place_text(const Vec3& point) {
+    return coordinates_text(point) + " mm";
+}
+
+std::string counted(std::size_t count, const std::string& noun, const std::string& plural) {
+    const std::string& many = plural.empty() ? noun + "s" : plural;
+    return std::to_string(count) + " " + (count == 1 ? noun : many);
+}
+
+std::string xml_escaped(const std::string& text) {
+    std::string result;
+    for (const char letter : text)
+        result += letter == '&'   ? "&amp;"
+                  : letter == '<' ? "&lt;"
+                  : letter == '>' ? "&gt;"
+                  : letter == '"' ? "&quot;"
+                                  : std::string(1, letter);
+    return result;
+}
+
+std::string formatted(double value, const char* format) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+double three_digits(double value) {
+    return std::stod(formatted(value));
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,248 @@
+#include "geometry/vessel/centerlines/centerlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/lumen_grid.h"
+#include "geometry/vessel/centerlines/refinement.h"
+#include "geometry/vessel/centerlines/skeleton.h"
+#include "geometry/vessel/centerlines/thinning.h"
+#include "geometry/vessel/centerlines/vessel_wall.h"
+#include "geometry/vessel/centerlines/wall_section.h"
+
+namespace vesselbench {
+namespace {
+
+constexpr double kThinFraction = 0.02;    ///< of the wall's area may be thinner than the grid's aim
+constexpr double kVoxelsPerRadius = 3.5;  ///< of the thin vessels
+constexpr double kMostLumen = 1.5e6;      ///< voxels
+constexpr double kMostGrid = 4.0e7;       ///< voxels with the empty ones around
+constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels need, for good lines
+constexpr double kSmallestComponent = 0.01;
+constexpr int kAttempts = 3;
+
+void check(const CenterlineParameters& p) {
+    if (!(p.spacing >= 0.02 && p.spacing <= 0.5)) {
+        throw InvalidInput("centerline spacing " + std::to_string(p.spacing) +
+                           " is outside [0.02, 0.5] radii");
+    }
+    if (!(p.blind_beyond_parent >= 0.0 && p.blind_slenderness >= 0.0)) {
+        throw InvalidInput("the rules for blind branches must not be negative");
+    }
+}
+
+double first_spacing(const VesselWall& wall, double thin) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : wall.closed) {
+        for (const VertexId v : t) box.extend(wall.points[v]);
+    }
+    double spacing = thin / kVoxelsPerRadius;
+    for (const VesselEnd& end : wall.ends) {
+        if (end.radius > 0.3 * thin) {
+            spacing = std::min(spacing, end.radius / kVoxelsPerRadius);
+        }
+    }
+    spacing = std::min(spacing, std::cbrt(wall.volume / kLeastLumen));
+    spacing = std::max(spacing, std::cbrt(wall.volume / kMostLumen));
+    return std::max(spacing, std::cbrt(box.volume() / kMostGrid));
+}
+
+/// Anchors of the thinning.
+struct Anchors {
+    std::vector<VoxelId> fixed;       ///< openings, then given points
+    std::vector<VesselEnd> openings;  ///< of the first anchors
+    std::vector<VoxelId> blind;
+};
+
+/// A hole in the wall of a much larger lumen is a defect, not the end of a vessel.
+bool is_stray_hole(const LumenGrid& grid, const VesselEnd& end) {
+    VoxelId v = 0;
+    const double r = end.radius;
+    if (r < 1.5 * grid.spacing) return true;
+    if (!grid.nearest(end.centre - 4.0 * r * end.outward, r, v)) return false;
+    return grid.depth[v] > 3.0 * r;
+}
+
+void anchor_openings(const VesselWall& wall, const LumenGrid& grid, Anchors& anchors) {
+    for (const VesselEnd& end : wall.ends) {
+        VoxelId v = 0;
+        if (is_stray_hole(grid, end)) continue;
+        if (!grid.nearest(end.centre, 1.5 * end.radius + 4.0 * grid.spacing, v)) continue;
+        if (std::count(anchors.fixed.begin(), anchors.fixed.end(), v) > 0) continue;
+        anchors.fixed.push_back(v);
+        anchors.openings.push_back(end);
+    }
+}
+
+void anchor_points(const Positions& points, const LumenGrid& grid, Anchors& anchors) {
+    for (const Vec3& p : points) {
+        VoxelId v = 0;
+        const double deepest = *std::max_element(grid.depth.begin(), grid.depth.end());
+        if (!grid.nearest(p, deepest + 4.0 * grid.spacing, v) ||
+            (grid.centre(v) - p).norm() > grid.depth[v] + 4.0 * grid.spacing) {
+            throw InvalidInput("the given end " + place_text(p) +
+                               " is not in or near the vessel; give a point on its wall");
+        }
+        if (std::count(anchors.fixed.begin(), anchors.fixed.end(), v) == 0) {
+            anchors.fixed.push_back(v);
+        }
+    }
+}
+
+VoxelId farthest(const std::vector<float>& distance, const LumenGrid& grid) {
+    VoxelId best = grid.voxels.front();
+    float most = -1.0F;
+    for (const VoxelId v : grid.voxels) {
+        if (std::isfinite(distance[v]) && distance[v] > most) {
+            most = distance[v];
+            best = v;
+        }
+    }
+    return best;
+}
+
+bool near_opening(const Anchors& anchors, const Vec3& p) {
+    return std::any_of(anchors.openings.begin(), anchors.openings.end(),
+                       [&](const VesselEnd& e) { return (e.centre - p).norm() < 1.6 * e.radius; });
+}
+
+/// Candidates for blind ends, one component after the other. A component without any known end
+/// starts from one of its two farthest places.
+void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors) {
+    std::vector<float> all(grid.lumen.size(), std::numeric_limits<float>::infinity());
+    for (const VoxelId seed : grid.voxels) {
+        if (std::isfinite(all[seed])) continue;
+        const auto from_seed = geodesic_distance(grid, seed);
+        VoxelId root = farthest(from_seed, grid);
+        bool known = false;
+        for (const VoxelId v : anchors.fixed) {
+            if (!known && std::isfinite(from_seed[v])) {
+                root = v;
+                known = true;
+            }
+        }
+        if (!known) anchors.blind.push_back(root);
+        const auto from_root = geodesic_distance(grid, root);
+        for (const VoxelId v : grid.voxels) all[v] = std::min(all[v], from_root[v]);
+    }
+    for (const VoxelId v : summits(grid, all, 4.0 * grid.spacing)) {
+        const bool taken = std::count(anchors.fixed.begin(), anchors.fixed.end(), v) +
+                               std::count(anchors.blind.begin(), anchors.blind.end(), v) >
+                           0;
+        if (!taken && !near_opening(anchors, grid.centre(v))) anchors.blind.push_back(v);
+    }
+}
+
+/// Loops of a skeleton: edges - nodes + components.
+int loop_count(const Skeleton& skeleton) {
+    std::vector<std::size_t> parent(skeleton.nodes.size());
+    for (std::size_t n = 0; n < parent.size(); ++n) parent[n] = n;
+    const auto find = [&](std::size_t n) {
+        while (parent[n] != n) n = parent[n];
+        return n;
+    };
+    int loops = 0;
+    for (const SkeletonBranch& b : skeleton.branches) {
+        const std::size_t a = find(b.from);
+        const std::size_t c = find(b.to);
+        loops += a == c ? 1 : 0;
+        parent[a] = c;
+    }
+    return loops;
+}
+
+RoughGraph rough_graph(const LumenGrid& grid, const Skeleton& skeleton, const Anchors& anchors) {
+    RoughGraph rough;
+    rough.voxel = grid.spacing;
+    const auto degree = skeleton.degrees();
+    for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) {
+        CenterlineNode node{grid.centre(skeleton.nodes[n]), grid.depth[skeleton.nodes[n]], {}};
+        NodeKind kind = degree[n] == 1 ? NodeKind::Blind : NodeKind::Furcation;
+        for (std::size_t a = 0; a < anchors.openings.size() && degree[n] == 1; ++a) {
+            if (anchors.fixed[a] != skeleton.nodes[n]) continue;
+            kind = NodeKind::Opening;
+            node.position = anchors.openings[a].centre;
+        }
+        rough.graph.nodes.push_back(node);
+        rough.kinds.push_back(kind);
+    }
+    for (const SkeletonBranch& b : skeleton.branches) {
+        CenterlineBranch branch{b.from, b.to, {}, {}};
+        for (const VoxelId v : b.path) {
+            branch.points.push_back(grid.centre(v));
+            branch.radii.push_back(grid.depth[v]);
+        }
+        branch.points.front() = rough.graph.nodes[b.from].position;
+        branch.points.back() = rough.graph.nodes[b.to].position;
+        rough.graph.nodes[b.from].branches.push_back(rough.graph.branches.size());
+        rough.graph.nodes[b.to].branches.push_back(rough.graph.branches.size());
+        rough.graph.branches.push_back(std::move(branch));
+    }
+    return rough;
+}
+
+/// What one grid gives.
+struct Attempt {
+    RoughGraph rough;
+    std::size_t components = 0;
+    int loops = 0;
+};
+
+Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& parameters, double spacing,
+                    const Progress& progress) {
+    LumenGrid grid = voxelise(wall.points, wall.closed, spacing, wall.rule, progress.part(0, 0.3));
+    Attempt attempt;
+    attempt.components = keep_large_components(grid, kSmallestComponent);
+    if (grid.voxels.empty()) return attempt;
+    measure_depth(grid);
+    progress.report(0.4, "looking for ends");
+    Anchors anchors;
+    anchor_openings(wall, grid, anchors);
+    anchor_points(parameters.ends, grid, anchors);
+    const bool needs_ends = anchors.fixed.size() < 2;
+    if (parameters.find_blind_ends || needs_ends) anchor_blind_ends(grid, anchors);
+    std::vector<VoxelId> all = anchors.fixed;
+    all.insert(all.end(), anchors.blind.begin(), anchors.blind.end());
+    progress.report(0.5, "thinning the lumen");
+    auto curve = thin(grid, grid.voxels, all, progress);
+    curve = prune(grid, std::move(curve), anchors.fixed, anchors.blind,
+                  {parameters.blind_beyond_parent, parameters.blind_slenderness});
+    const Skeleton skeleton = skeleton_of(grid, curve);
+    attempt.loops = loop_count(skeleton);
+    attempt.rough = rough_graph(grid, skeleton, anchors);
+    return attempt;
+}
+
+}  // namespace
+
+CenterlineGraph compute_centerlines(const Surface& surface, const CenterlineParameters& parameters,
+                                    const Progress& progress) {
+    check(parameters);
+    const VesselWall wall = vessel_wall_of(surface);
+    if (!(wall.volume > 0.0)) {
+        throw InvalidInput("the surface encloses no lumen; check units and orientation");
+    }
+    const double thin = thin_radius(wall, kThinFraction);
+    double spacing = first_spacing(wall, thin);
+    Attempt attempt;
+    for (int k = 0; k < kAttempts; ++k, spacing /= 1.5) {
+        const Progress part = progress.part(0.2 * k, 0.2 * (k + 1));
+        attempt = skeletonise(wall, parameters, spacing, part);
+        const bool lost = attempt.rough.graph.branches.empty();
+        const bool false_loops = wall.handles >= 0 && attempt.loops > wall.handles;
+        if (!lost && !false_loops) break;
+    }
+    if (attempt.rough.graph.branches.empty()) {
+        throw AlgorithmFailure(
+            "no centerline found: the lumen is thinner than the search grid or not closed; repair "
+            "the surface, or crop it to the vessels of interest");
+    }
+    const WallSections sections(wall, 0.5 * thin);
+    return refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0));
+}
+
+}  // namespace vesselbench

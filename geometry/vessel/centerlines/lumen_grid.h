@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/topology.h"
+#include "geometry/kernel/vec3.h"
+
+namespace vesselbench {
+
+/// Index of a voxel in a LumenGrid, i fastest.
+using VoxelId = std::uint32_t;
+
+/// The lumen of a surface on a cubic grid. A border of outer voxels makes every 26-neighbour of a
+/// lumen voxel valid.
+struct LumenGrid {
+    std::array<int, 3> size = {0, 0, 0};
+    Vec3 origin = Vec3::Zero();       ///< centre of voxel 0 [mm]
+    double spacing = 1.0;             ///< [mm]
+    std::vector<std::uint8_t> lumen;  ///< 1 inside and clear of the wall, #voxels
+    std::vector<VoxelId> voxels;      ///< the lumen's voxels, ascending
+    std::vector<float> depth;         ///< distance to the wall [mm], #voxels; 0 outside the lumen
+
+    [[nodiscard]] std::array<int, 3> index(VoxelId v) const {
+        const int i = static_cast<int>(v) % size[0];
+        const int rest = static_cast<int>(v) / size[0];
+        return {i, rest % size[1], rest / size[1]};
+    }
+
+    [[nodiscard]] VoxelId id(int i, int j, int k) const {
+        return static_cast<VoxelId>((k * size[1] + j) * size[0] + i);
+    }
+
+    [[nodiscard]] Vec3 centre(VoxelId v) const {
+        const auto at = index(v);
+        return origin + spacing * Vec3(at[0], at[1], at[2]);
+    }
+
+    /// The lumen voxel whose centre is nearest to p within `reach` [mm]; ties by index.
+    /// \return false if there is none
+    bool nearest(const Vec3& p, double reach, VoxelId& found) const;
+
+    /// Offsets of the 26 neighbours in the voxel arrays, x fastest, the centre left out.
+    [[nodiscard]] std::array<int, 26> neighbour_offsets() const;
+
+    /// Lengths of these steps [mm].
+    [[nodiscard]] std::array<float, 26> neighbour_lengths() const;
+};
+
+/// Which crossings of a scan line make its inside.
+enum class InsideRule : std::uint8_t {
+    Winding,  ///< the winding number is not 0: for consistently oriented triangles
+    Parity    ///< an odd number of crossings: for any orientation
+};
+
+/// Voxels whose centre is inside the closed triangles (majority of three axes' scan lines, so that
+/// small defects do no harm) and at least 0.87 voxels away from them: vessels that nearly touch
+/// never become neighbours.
+/// \param spacing voxel edge [mm]
+[[nodiscard]] LumenGrid voxelise(const Positions& points, std::span<const Triangle> triangles,
+                                 double spacing, InsideRule rule, const Progress& progress);
+
+/// Fills in `depth`. Source: Felzenszwalb and Huttenlocher, "Distance transforms of sampled
+/// functions", Theory of Computing 8, 2012.
+void measure_depth(LumenGrid& grid);
+
+/// Keeps the voxels whose component has at least `fraction` of the largest one's voxels
+/// (26-neighbours).
+/// \return the number of components kept
+std::size_t keep_large_components(LumenGrid& grid, double fraction);
+
+/// Shortest path length [mm] through the lumen from a voxel to every lumen voxel, #voxels; infinite
+/// where there is no way.
+[[nodiscard]] std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from);
+
+}  // namespace vesselbench

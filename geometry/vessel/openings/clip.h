@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/kernel/cross_section.h"
+
+namespace vesselbench {
+
+/// A surface with one branch cut off; `rim` is the new border: a closed, planar loop in the
+/// direction of the surface's half-edges (clockwise seen from the removed side).
+struct OpenedSurface {
+    Surface surface;
+    std::vector<VertexId> rim;
+};
+
+/// Cuts off everything that lies behind the one curve in which the plane meets the vessel at its
+/// point; other vessels that the plane happens to meet stay whole. Vertices near the plane are
+/// moved onto it along their edges, and short rim edges are collapsed, so that no slivers arise.
+/// \param plane its normal points to the part that goes
+/// \throw AlgorithmFailure if there is no closed section at the plane's point, or if it does not
+///        separate a part from the rest (a loop of vessels): the text names the point
+[[nodiscard]] OpenedSurface cut_branch(const Surface& surface, const Plane& plane);
+
+/// Closes a planar border loop by a flat cap of its own patch; triangles of the rim's edge length.
+/// Corners are projected onto the plane.
+/// \param rim as cut_branch returns it
+/// \throw AlgorithmFailure if the rim crosses itself
+[[nodiscard]] Surface cap_rim(const OpenedSurface& opened, const Plane& plane, const Patch& patch);
+
+/// Both: cut, then cap.
+[[nodiscard]] Surface clip_branch(const Surface& surface, const Plane& plane, const Patch& patch);
+
+}  // namespace vesselbench

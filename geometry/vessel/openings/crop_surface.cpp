@@ -1,0 +1,144 @@
+#include "geometry/vessel/openings/crop_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/surface_parts.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// One limit of the region: how far outside a point is (negative inside) [mm], and where an edge
+/// from inside to outside crosses it, in (0, 1).
+struct Limit {
+    std::function<double(const Vec3&)> outside;
+    std::function<double(const Vec3& from, const Vec3& to)> crossing;
+};
+
+/// Closer to the limit than this [mm], a vertex counts as lying on it: no sliver is cut off.
+constexpr double kOn = 1e-9;
+
+Limit plane_limit(Eigen::Index axis, double sign, double at) {
+    const auto outside = [=](const Vec3& p) { return sign * (p[axis] - at); };
+    return {outside, [outside](const Vec3& from, const Vec3& to) {
+                const double a = outside(from), b = outside(to);
+                return a / (a - b);
+            }};
+}
+
+Limit sphere_limit(const Vec3& centre, double radius) {
+    const auto crossing = [=](const Vec3& from, const Vec3& to) {
+        // |from + t d - centre| = radius, the root on the way out
+        const Vec3 f = from - centre, d = to - from;
+        const double a = d.squaredNorm(), b = f.dot(d), c = f.squaredNorm() - radius * radius;
+        return std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, 0.0, 1.0);
+    };
+    return {[=](const Vec3& p) { return (p - centre).norm() - radius; }, crossing};
+}
+
+/// Cuts all triangles at one limit and keeps what is inside.
+class Cutter {
+public:
+    Cutter(SurfaceParts& parts, const Limit& limit) : parts_(parts), limit_(limit) {
+        for (const Vec3& p : parts.positions) outside_.push_back(limit.outside(p));
+    }
+
+    void cut() {
+        const auto triangles = std::move(parts_.triangles);
+        const auto labels = std::move(parts_.labels);
+        parts_.triangles.clear();
+        parts_.labels.clear();
+        for (std::size_t t = 0; t < triangles.size(); ++t) cut_triangle(triangles[t], labels[t]);
+    }
+
+private:
+    [[nodiscard]] bool is_inside(VertexId v) const { return outside_[v] < -kOn; }
+
+    [[nodiscard]] bool is_outside(VertexId v) const { return outside_[v] > kOn; }
+
+    /// Walks around the triangle, keeps inner corners and adds the crossings.
+    void cut_triangle(const Triangle& triangle, std::uint16_t label) {
+        const auto some_inside =
+            std::any_of(triangle.begin(), triangle.end(), [&](auto v) { return is_inside(v); });
+        if (!some_inside) return;
+        std::vector<VertexId> polygon;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const VertexId a = triangle[c], b = triangle[(c + 1) % 3];
+            if (!is_outside(a)) polygon.push_back(a);
+            if ((is_inside(a) && is_outside(b)) || (is_outside(a) && is_inside(b)))
+                polygon.push_back(crossing(a, b));
+        }
+        for (std::size_t c = 2; c < polygon.size(); ++c)
+            parts_.add_triangle({polygon[0], polygon[c - 1], polygon[c]}, label);
+    }
+
+    VertexId crossing(VertexId a, VertexId b) {
+        const auto known = crossings_.find(std::minmax(a, b));
+        if (known != crossings_.end()) return known->second;
+        const VertexId from = is_inside(a) ? a : b, to = is_inside(a) ? b : a;
+        const double t = limit_.crossing(parts_.positions[from], parts_.positions[to]);
+        const Vec3 p = parts_.positions[from] + t * (parts_.positions[to] - parts_.positions[from]);
+        const std::array<VertexId, 2> sources = {from, to};
+        const std::array<double, 2> weights = {1.0 - t, t};
+        const VertexId made = parts_.add_vertex(p, sources, weights);
+        crossings_[std::minmax(a, b)] = made;
+        return made;
+    }
+
+    SurfaceParts& parts_;
+    const Limit& limit_;
+    std::vector<double> outside_;
+    std::map<std::pair<VertexId, VertexId>, VertexId> crossings_;
+};
+
+Surface cropped(const Surface& surface, const std::vector<Limit>& limits) {
+    SurfaceParts parts = take_apart(surface);
+    for (const Limit& limit : limits) Cutter(parts, limit).cut();
+    if (parts.triangles.empty())
+        throw AlgorithmFailure(
+            "nothing of the surface lies in the region to crop; give it in mm "
+            "in patient coordinates (LPS)");
+    return put_together(parts);
+}
+
+}  // namespace
+
+Surface crop_to_box(const Surface& surface, const Vec3& low, const Vec3& high) {
+    if (!((high - low).minCoeff() > 0.0))
+        throw InvalidInput(
+            "the box to crop is empty: its upper corner must lie above its lower one");
+    std::vector<Limit> limits;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        limits.push_back(plane_limit(axis, -1.0, low[axis]));
+        limits.push_back(plane_limit(axis, 1.0, high[axis]));
+    }
+    return cropped(surface, limits);
+}
+
+Surface crop_to_sphere(const Surface& surface, const Vec3& centre, double radius) {
+    if (!(radius > 0.0)) throw InvalidInput("the radius to crop must be above 0 mm");
+    return cropped(surface, {sphere_limit(centre, radius)});
+}
+
+LargestPiece largest_piece(const Surface& surface) {
+    const Components components = connected_components(*surface.topology);
+    std::vector<double> area(components.count(), 0.0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        area[components.of_triangle[t]] +=
+            area_normal(surface.points(), surface.triangles()[t]).norm();
+    const auto largest = std::distance(area.begin(), std::max_element(area.begin(), area.end()));
+    std::vector<std::uint8_t> removed;
+    removed.reserve(surface.triangle_count());
+    for (const std::uint32_t c : components.of_triangle) removed.push_back(c == largest ? 0 : 1);
+    return {put_together(take_apart(surface), removed), components.count()};
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,146 @@
+#include "geometry/vessel/openings/opening_axis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/surface_parts.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kFirstSection = 0.25;  // diameters inward
+constexpr double kSectionStep = 0.125;
+constexpr int kSections = 7;
+constexpr double kLargestAreaRatio = 1.6;
+
+double degrees(double radians) {
+    return radians * 180.0 / std::numbers::pi;
+}
+
+double angle_deg(const Vec3& a, const Vec3& b) {
+    return degrees(std::atan2(a.cross(b).norm(), a.dot(b)));
+}
+
+Positions centroids_inward(const Surface& surface, const Plane& plane, double diameter) {
+    Positions found;
+    double area = std::numbers::pi * diameter * diameter / 4.0;
+    Vec3 at = plane.point;
+    double depth = 0.0;
+    for (int k = 0; k < kSections; ++k) {
+        const double next = (kFirstSection + k * kSectionStep) * diameter;
+        at -= (next - depth) * plane.normal;
+        depth = next;
+        const auto curve = cross_section_at(surface, {at, plane.normal});
+        if (!curve || !curve->closed) break;
+        const double ratio = std::abs(curve->area) / area;
+        if (ratio > kLargestAreaRatio || ratio < 1.0 / kLargestAreaRatio) break;
+        area = std::abs(curve->area);
+        at = curve->centroid;
+        found.push_back(at);
+    }
+    return found;
+}
+
+Vec3 mean(const Positions& points) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : points) sum += p;
+    return sum / static_cast<double>(points.size());
+}
+
+Vec3 line_through(const Positions& points, const Vec3& outward) {
+    const Vec3 centre = mean(points);
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : points) scatter += (p - centre) * (p - centre).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+    const Vec3 direction = solver.eigenvectors().col(2).normalized();
+    return direction.dot(outward) < 0.0 ? Vec3(-direction) : direction;
+}
+
+/// Turn over one diameter: the angle between the chords of both halves, which lie half the sampled
+/// depth apart.
+double bend(const Positions& centroids, double diameter) {
+    const Vec3& first = centroids.front();
+    const Vec3& last = centroids.back();
+    const Vec3& middle = centroids[centroids.size() / 2];
+    const double apart = 0.5 * (last - first).norm();
+    return apart > 0.0 ? angle_deg(middle - first, last - middle) * diameter / apart : 0.0;
+}
+
+}  // namespace
+
+std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane,
+                                       double diameter) {
+    const Positions centroids = centroids_inward(surface, plane, diameter);
+    if (centroids.size() < 3) return std::nullopt;
+    OpeningAxis axis{.direction = line_through(centroids, plane.normal),
+                     .bend_deg = bend(centroids, diameter),
+                     .diameter = diameter,
+                     .sections = static_cast<int>(centroids.size())};
+    axis.tilt_deg = angle_deg(axis.direction, plane.normal);
+    return axis;
+}
+
+std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch) {
+    const PatchShape shape = patch_shape(surface, patch);
+    return axis_inward(part_near(surface, shape.plane.point, 2.5 * shape.diameter()), shape.plane,
+                       shape.diameter());
+}
+
+double opening_tilt_deg(const Surface& surface, std::size_t patch) {
+    const auto axis = axis_at_patch(surface, patch);
+    return axis ? axis->tilt_deg : 90.0;
+}
+
+double PatchShape::diameter() const {
+    return 2.0 * std::sqrt(area / std::numbers::pi);
+}
+
+PatchShape patch_shape(const Surface& surface, std::size_t patch) {
+    Vec3 normal = Vec3::Zero(), moment = Vec3::Zero();
+    PatchShape shape;
+    const auto triangles = surface.triangles();
+    const auto each = [&](const auto& use) {
+        for (TriangleId t = 0; t < triangles.size(); ++t)
+            if ((*surface.patch_labels)[t] == patch) use(triangles[t]);
+    };
+    each([&](const Triangle& t) {
+        const Vec3 n = area_normal(surface.points(), t);
+        const auto& x = surface.points();
+        normal += n;
+        shape.area += 0.5 * n.norm();
+        moment += 0.5 * n.norm() * (x[t[0]] + x[t[1]] + x[t[2]]) / 3.0;
+    });
+    if (patch >= surface.patches.size() || !(shape.area > 0.0))
+        throw InvalidInput("the surface has no patch number " + std::to_string(patch));
+    shape.plane = {moment / shape.area, normal.normalized()};
+    each([&](const Triangle& t) {
+        for (const VertexId v : t)
+            shape.flatness =
+                std::max(shape.flatness, std::abs(shape.plane.distance(surface.points()[v])));
+    });
+    return shape;
+}
+
+Surface part_near(const Surface& surface, const Vec3& centre, double radius) {
+    SurfaceParts parts{.positions = surface.points(),
+                       .triangles = {},
+                       .labels = {},
+                       .patches = surface.patches,
+                       .attributes = {}};
+    std::vector<std::uint8_t> near(parts.positions.size());
+    for (std::size_t v = 0; v < near.size(); ++v)
+        near[v] = (parts.positions[v] - centre).squaredNorm() <= radius * radius ? 1 : 0;
+    const auto triangles = surface.triangles();
+    for (TriangleId t = 0; t < triangles.size(); ++t)
+        if (near[triangles[t][0]] || near[triangles[t][1]] || near[triangles[t][2]])
+            parts.add_triangle(triangles[t], (*surface.patch_labels)[t]);
+    return put_together(parts);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,197 @@
+#include "geometry/vessel/openings/opening_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/opening_axis.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Steps along the branch in tip radii: searching the first whole section, then straight places.
+constexpr double kSearchStep = 0.15;
+constexpr double kCandidateStep = 0.4;
+constexpr int kCandidates = 9;
+/// Left between the first whole section and the first place [tip radii].
+constexpr double kMargin = 0.25;
+constexpr double kBlindMargin = 0.5;
+/// The line's last stretch may turn: directions are taken at least this far inward [tip radii].
+constexpr double kSteady = 1.0;
+/// At most this share of a branch is given up; of a vessel without furcations, at each end.
+constexpr double kMostOfBranch = 0.6;
+constexpr double kMostOfVessel = 0.2;
+constexpr double kMostOfObliqueVessel = 0.65;  // where its end is cut very obliquely
+/// A place whose axis cannot be measured counts as this much bent [deg].
+constexpr double kUnmeasuredCost = 60.0;
+/// One radius of vessel given up weighs as much as this much of bend [deg].
+constexpr double kCostPerRadius = 5.0;
+/// A section is whole when half a radius further inward is hardly larger.
+constexpr double kWholeShare = 0.85;
+constexpr int kMostTurns = 12;
+constexpr double kConvergedTilt = 0.02;  // [deg]
+
+/// One branch seen from its tip.
+class BranchFromTip {
+public:
+    BranchFromTip(const Surface& surface, const CenterlineGraph& graph, std::size_t tip)
+        : graph_(graph),
+          tip_(tip),
+          branch_(branch_of_tip(graph, tip)),
+          radius(tip_radius(graph, tip)),
+          length(branch_length(graph.branches[branch_])),
+          near_(part_near(surface, graph.nodes[tip].position, reach())) {}
+
+    Vec3 position(double s) const {
+        return point_at(graph_.branches[branch_],
+                        place_from_node(graph_, branch_, tip_, s).abscissa);
+    }
+
+    Vec3 outward(double s) const {
+        const double steady = std::max(s, std::min(kSteady * radius, 0.5 * length));
+        return outward_direction(graph_, tip_, std::min(steady, length), radius);
+    }
+
+    /// Arc length from the tip up to which a cut may be chosen: where the branch is a vessel of its
+    /// own, or in the outer part of a stub that never becomes one.
+    double reach_of_cut() const {
+        const auto& branch = graph_.branches[branch_];
+        const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
+        if (graph_.nodes[other].is_tip()) return kMostOfVessel * length;
+        const double own = length - furcation_zone_end(graph_, branch_, other);
+        return std::min(std::max(own, 0.5 * length), kMostOfBranch * length);
+    }
+
+    /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
+    /// middle. Too far and it meets the cut at the other end, which then says so.
+    double utmost_cut() const {
+        const auto& branch = graph_.branches[branch_];
+        const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
+        if (graph_.nodes[other].is_tip()) return kMostOfObliqueVessel * length;
+        return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
+    }
+
+    /// Neither an open border nor a known cap is at the tip: the end may be rounded.
+    bool is_blind() const {
+        const Vec3 tip = graph_.nodes[tip_].position;
+        const auto& border = near_.topology->boundary_vertices();
+        for (TriangleId t = 0; t < near_.triangle_count(); ++t)
+            for (const VertexId v : near_.triangles()[t])
+                if ((near_.patch_of(t).kind != PatchKind::Wall || border[v]) &&
+                    (near_.points()[v] - tip).norm() < 1.5 * radius)
+                    return false;
+        return true;
+    }
+
+    /// The closed curve round the plane's point that lies wholly on the wall.
+    std::optional<SectionCurve> section(const Plane& plane) const {
+        auto curve = cross_section_at(near_, plane);
+        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) return std::nullopt;
+        for (const TriangleId t : curve->triangles)
+            if (near_.patch_of(t).kind != PatchKind::Wall) return std::nullopt;
+        return curve;
+    }
+
+    /// The section is closed and, at an end that may be rounded, has its full area.
+    bool is_whole(double s, bool blind) const {
+        const Vec3 normal = outward(s);
+        const auto here = section({position(s), normal});
+        if (!blind) return here.has_value();
+        const auto inward = section({position(s) - 0.5 * radius * normal, normal});
+        return here && inward && std::abs(here->area) >= kWholeShare * std::abs(inward->area);
+    }
+
+    /// The plane at s whose normal is the axis measured from it; empty without a closed section.
+    std::optional<OpeningPlace> place(double s) const {
+        OpeningPlace found{
+            .tip = graph_.nodes[tip_].position, .plane = {position(s), outward(s)}, .distance = s};
+        double best_tilt = 180.0;
+        Plane plane = found.plane;
+        for (int turn = 0; turn < kMostTurns && best_tilt > kConvergedTilt; ++turn) {
+            const auto curve = section(plane);
+            if (!curve) break;
+            plane.point = curve->centroid;
+            const auto axis = axis_inward(near_, plane, curve->diameter());
+            if (turn == 0 || (axis && axis->tilt_deg < best_tilt)) {
+                found.measured = axis.has_value();
+                found.plane = plane;
+                found.diameter = curve->diameter();
+                found.tilt_deg = axis ? axis->tilt_deg : 0.0;
+                found.bend_deg = axis ? axis->bend_deg : 0.0;
+                if (axis) best_tilt = axis->tilt_deg;
+            }
+            if (!axis) break;
+            plane.normal = axis->direction;
+        }
+        return found.diameter > 0.0 ? std::optional(found) : std::nullopt;
+    }
+
+private:
+    double reach() const {
+        return radius * (6.0 + kCandidateStep * kCandidates) + std::min(length, 6.0 * radius);
+    }
+
+    const CenterlineGraph& graph_;
+    std::size_t tip_, branch_;
+
+public:
+    double radius, length;  ///< [mm]
+
+private:
+    Surface near_;
+};
+
+[[noreturn]] void fail(const Vec3& tip, const std::string& why) {
+    throw AlgorithmFailure("the branch with its tip at " + place_text(tip) + " " + why);
+}
+
+OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
+    const bool blind = branch.is_blind();
+    const double utmost = blind ? branch.reach_of_cut() : branch.utmost_cut();
+    double first = 0.5 * kSearchStep * branch.radius;
+    while (first < utmost && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
+    const double end = first < branch.reach_of_cut() ? branch.reach_of_cut() : utmost;
+    if (first >= end)
+        fail(tip,
+             "has no whole section before its furcation or its other end: remove it "
+             "(remove-branch), or give the distance from its tip");
+    first = std::min(first + (blind ? kBlindMargin : kMargin) * branch.radius, 0.5 * (first + end));
+    std::optional<OpeningPlace> best;
+    double least = 0.0;
+    for (int k = 0; k < kCandidates; ++k) {
+        const double s = first + k * kCandidateStep * branch.radius;
+        if (s > end) break;
+        const auto place = branch.place(s);
+        if (!place) continue;
+        const double bent = place->measured ? place->bend_deg + place->tilt_deg : kUnmeasuredCost;
+        const double cost = bent + kCostPerRadius * (s - first) / branch.radius;
+        if (best && cost >= least) continue;
+        best = place;
+        least = cost;
+    }
+    if (!best) fail(tip, "has no closed section: give the distance from its tip");
+    best->share = best->distance / branch.length;
+    return *best;
+}
+
+}  // namespace
+
+OpeningPlace choose_opening_place(const Surface& surface, const CenterlineGraph& graph,
+                                  std::size_t tip, std::optional<double> distance) {
+    const Vec3 at = graph.nodes.at(tip).position;
+    const BranchFromTip branch(surface, graph, tip);
+    if (!distance) return place_by_itself(branch, at);
+    if (*distance > branch.length)
+        fail(at, "is only " + std::to_string(branch.length) + " mm long: choose a distance below");
+    const auto place = branch.place(*distance);
+    if (!place)
+        fail(at, "has no closed section " + std::to_string(*distance) +
+                     " mm from its tip: choose another distance");
+    return *place;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,139 @@
+#include "geometry/vessel/repair/repair.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/repair/repair_mesh.h"
+#include "geometry/vessel/repair/sheets.h"
+#include "geometry/vessel/repair/slivers.h"
+#include "geometry/vessel/repair/soup.h"
+#include "geometry/vessel/repair/stray_holes.h"
+#include "geometry/vessel/repair/untangle.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex lets others appear
+
+/// Untangling may cost this part of the area [-] before it counts as damage.
+constexpr double kMostLost = 0.05;
+
+void check_input(const Surface& surface) {
+    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to repair");
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (!surface.points()[v].allFinite())
+            throw InvalidInput("vertex " + std::to_string(v) +
+                               " has a coordinate that is not finite: export the surface again");
+}
+
+/// Manifold, one component, stray holes closed.
+void restore_manifold(RepairMesh& mesh, const RepairParameters& parameters, RepairReport& report) {
+    make_manifold(mesh, false, report);
+    keep_largest_components(mesh, parameters.keep_components, report);
+    face_outward(mesh, report);
+    for (int closing = 0; closing < kMostClosings; ++closing) {
+        if (!close_stray_holes(mesh, parameters, report)) break;
+        make_manifold(mesh, false, report);
+    }
+    make_manifold(mesh, true, report);
+    keep_largest_components(mesh, parameters.keep_components, report);
+    remove_degenerate_and_duplicate(mesh, report);
+    std::fill(mesh.cut.begin(), mesh.cut.end(), std::uint8_t{0});
+    constexpr int kMostPasses = 5;  // the mean edge grows a little each time
+    for (int pass = 0; pass < kMostPasses; ++pass)
+        if (!remove_slivers(mesh, parameters.smallest_feature * mean_side(mesh), report)) break;
+}
+
+void note_intersections(const RepairMesh& mesh, const std::vector<TrianglePair>& pairs,
+                        RepairReport& report) {
+    report.self_intersections = pairs.size();
+    for (const auto& [a, b] : pairs)
+        report.places.push_back(
+            {RepairKind::SelfIntersection, centroid(mesh, mesh.triangles[a]), 0.0});
+}
+
+[[noreturn]] void fail_tangled(const RepairMesh& mesh, const std::vector<TrianglePair>& pairs) {
+    throw AlgorithmFailure(
+        std::to_string(pairs.size()) + " self-intersections could not be removed, one near " +
+        place_text(centroid(mesh, mesh.triangles[pairs.front().first])) +
+        "; cut that place away (remove-branch, clip-opening), or rebuild the surface from its "
+        "image");
+}
+
+double area_of(const RepairMesh& mesh) {
+    double sum = 0.0;
+    for (const Triangle& t : mesh.triangles) sum += triangle_area(mesh.points, t);
+    return sum;
+}
+
+/// Bodies that pass through each other fall apart when the place is cut out: never silently.
+void check_nothing_lost(const RepairMesh& mesh, double area_before, const Vec3& place) {
+    const double lost = 1.0 - area_of(mesh) / area_before;
+    if (lost > kMostLost)
+        throw AlgorithmFailure(
+            "parts of the surface pass through each other near " + place_text(place) +
+            "; removing that would lose " + std::to_string(static_cast<int>(100.0 * lost)) +
+            " % of the area: separate or unite these parts first, or rebuild the surface from its "
+            "image");
+}
+
+void untangle_all(RepairMesh& mesh, const RepairParameters& parameters, const Progress& progress,
+                  RepairReport& report) {
+    const double area_before = area_of(mesh);
+    auto pairs = self_intersections(mesh.points, mesh.triangles, progress.part(0.0, 0.5));
+    note_intersections(mesh, pairs, report);
+    for (int attempt = 0; !pairs.empty(); ++attempt) {
+        if (attempt == kUntangleAttempts) fail_tangled(mesh, pairs);
+        progress.report(0.5 + 0.5 * attempt / kUntangleAttempts, "removing self-intersections");
+        const Vec3 place = centroid(mesh, mesh.triangles[pairs.front().first]);
+        const Regions regions = untangle(mesh, pairs, attempt, report);
+        restore_manifold(mesh, parameters, report);
+        check_nothing_lost(mesh, area_before, place);
+        pairs = self_intersections_in(mesh, regions, progress);
+        if (pairs.empty()) pairs = self_intersections(mesh.points, mesh.triangles, progress);
+    }
+}
+
+void check_result(const RepairMesh& mesh) {
+    const ManifoldDefects defects = manifold_defects(Topology(mesh.triangles, mesh.points.size()));
+    if (defects.none()) return;
+    const VertexId at = !defects.edges.empty()      ? defects.edges[0][0]
+                        : !defects.vertices.empty() ? defects.vertices[0]
+                        : !defects.inconsistent_edges.empty()
+                            ? defects.inconsistent_edges[0][0]
+                            : mesh.triangles[defects.degenerate[0]][0];
+    throw AlgorithmFailure("a place near " + place_text(mesh.points[at]) +
+                           " stays non-manifold: cut it away, or rebuild the surface from its "
+                           "image");
+}
+
+}  // namespace
+
+Repaired repair(const Surface& surface, const RepairParameters& parameters,
+                const Progress& progress) {
+    check_input(surface);
+    RepairReport report;
+    RepairMesh mesh = repair_mesh_from(surface);
+    progress.report(0.0, "welding");
+    weld(mesh, parameters.smallest_feature * mean_side(mesh), report);
+    remove_degenerate_and_duplicate(mesh, report);
+    if (mesh.triangles.empty())
+        throw InvalidInput("all triangles are degenerate: there is no surface");
+    progress.report(0.2, "mending connectivity");
+    restore_manifold(mesh, parameters, report);
+    if (mesh.triangles.empty())
+        throw InvalidInput("all triangles are degenerate: there is no surface");
+    if (parameters.remove_self_intersections)
+        untangle_all(mesh, parameters, progress.part(0.4, 1.0), report);
+    report.unused_vertices = mesh.remove_unused_vertices();
+    check_result(mesh);
+    progress.report(1.0, "repaired");
+    if (!report.changed()) return {surface, std::move(report)};
+    return {surface_from(std::move(mesh), surface.patches), std::move(report)};
+}
+
+}  // namespace vesselbench

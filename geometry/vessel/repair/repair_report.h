@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/vec3.h"
+
+namespace vesselbench {
+
+enum class RepairKind {
+    Weld,
+    Degenerate,
+    Duplicate,
+    Component,
+    NonManifold,
+    Orientation,
+    SelfIntersection,
+    Hole,
+    ShortEdge
+};
+
+[[nodiscard]] std::string to_string(RepairKind kind);
+
+/// Where something was repaired.
+struct RepairPlace {
+    RepairKind kind = RepairKind::Weld;
+    Vec3 position = Vec3::Zero();  ///< [mm]
+    double size = 0.0;             ///< radius of the place [mm]; 0: a point
+};
+
+/// An open end that was left open.
+struct KeptOpening {
+    Vec3 centre = Vec3::Zero();  ///< [mm]
+    double radius = 0.0;         ///< of the circle of the same area [mm]
+    std::size_t edges = 0;
+};
+
+/// What repair did; all zero for a clean surface.
+struct RepairReport {
+    std::size_t welded_vertices = 0;
+    std::size_t unused_vertices = 0;
+    std::size_t degenerate_triangles = 0;
+    std::size_t duplicate_triangles = 0;
+    std::size_t removed_components = 0;
+    std::size_t removed_component_triangles = 0;
+    std::size_t non_manifold_edges = 0;
+    std::size_t non_manifold_vertices = 0;
+    std::size_t turned_triangles = 0;    ///< to make the orientation consistent
+    bool turned_inside_out = false;      ///< then the whole surface was turned over
+    std::size_t self_intersections = 0;  ///< pairs found at the beginning
+    std::size_t refilled_triangles = 0;  ///< cut out around them
+    std::size_t smoothed_vertices = 0;   ///< moved to part them
+    std::size_t closed_holes = 0;
+    std::size_t collapsed_edges = 0;
+    std::size_t flipped_edges = 0;
+    std::vector<KeptOpening> openings;
+    std::vector<RepairPlace> places;
+    /// Radius that parts the closed holes from the kept openings [mm], if one does.
+    std::optional<double> closed_up_to;
+
+    [[nodiscard]] bool changed() const;
+};
+
+}  // namespace vesselbench

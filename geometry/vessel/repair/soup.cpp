@@ -1,0 +1,151 @@
+#include "geometry/vessel/repair/soup.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/point_welder.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A surface whose largest piece has less than this part of the whole area [-] is a heap of scraps.
+constexpr double kSmallestMainPart = 0.1;
+
+bool names_vertex_twice(const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+std::size_t weld_equal_points(RepairMesh& mesh) {
+    PointWelder welder(mesh.points.size());
+    std::vector<VertexId> first, target(mesh.points.size());
+    std::size_t welded = 0;
+    for (VertexId v = 0; v < mesh.points.size(); ++v) {
+        const VertexId number = welder.add(mesh.points[v]);
+        if (number == first.size())
+            first.push_back(v);
+        else
+            ++welded;
+        target[v] = first[number];
+    }
+    if (welded > 0) mesh.renumber(target);
+    return welded;
+}
+
+/// Rim points near each other, found by sorting along x: rims are small.
+std::size_t weld_rims(RepairMesh& mesh, double tolerance) {
+    const Topology topology(mesh.triangles, mesh.points.size());
+    const auto& boundary = topology.boundary_vertices();
+    std::vector<VertexId> rim;
+    for (VertexId v = 0; v < boundary.size(); ++v)
+        if (boundary[v]) rim.push_back(v);
+    std::sort(rim.begin(), rim.end(), [&](VertexId a, VertexId b) {
+        return std::tuple(mesh.points[a].x(), a) < std::tuple(mesh.points[b].x(), b);
+    });
+    std::vector<VertexId> target(mesh.points.size());
+    std::iota(target.begin(), target.end(), VertexId{0});
+    std::size_t welded = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        if (target[rim[i]] != rim[i]) continue;
+        for (std::size_t j = i + 1; j < rim.size(); ++j) {
+            const Vec3 apart = mesh.points[rim[j]] - mesh.points[rim[i]];
+            if (apart.x() > tolerance) break;
+            if (target[rim[j]] != rim[j] || apart.norm() > tolerance) continue;
+            target[rim[j]] = rim[i];
+            ++welded;
+        }
+    }
+    if (welded > 0) mesh.renumber(target);
+    return welded;
+}
+
+}  // namespace
+
+void weld(RepairMesh& mesh, double tolerance, RepairReport& report) {
+    report.welded_vertices += weld_equal_points(mesh);
+    report.welded_vertices += weld_rims(mesh, tolerance);
+}
+
+void remove_degenerate_and_duplicate(RepairMesh& mesh, RepairReport& report) {
+    struct Key {
+        Triangle sorted;
+        TriangleId triangle;
+    };
+
+    std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
+    std::vector<Key> keys;
+    keys.reserve(mesh.triangles.size());
+    for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+        Triangle sorted = mesh.triangles[t];
+        std::sort(sorted.begin(), sorted.end());
+        if (names_vertex_twice(sorted)) {
+            marked[t] = 1;
+            ++report.degenerate_triangles;
+            report.places.push_back(
+                {RepairKind::Degenerate, centroid(mesh, mesh.triangles[t]), 0.0});
+        } else {
+            keys.push_back({sorted, t});
+        }
+    }
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.sorted < b.sorted || (a.sorted == b.sorted && a.triangle < b.triangle);
+    });
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (keys[i].sorted != keys[i - 1].sorted) continue;
+        marked[keys[i].triangle] = 1;
+        ++report.duplicate_triangles;
+        report.places.push_back(
+            {RepairKind::Duplicate, centroid(mesh, mesh.triangles[keys[i].triangle]), 0.0});
+    }
+    mesh.remove_triangles(marked);
+}
+
+void keep_largest_components(RepairMesh& mesh, std::size_t count, RepairReport& report) {
+    const Components parts = connected_components(Topology(mesh.triangles, mesh.points.size()));
+    if (parts.count() <= 1) return;
+
+    struct Part {
+        double area = 0.0;
+        Vec3 centre = Vec3::Zero();
+        std::size_t number = 0;
+    };
+
+    std::vector<Part> order(parts.count());
+    double whole = 0.0;
+    for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+        const double its = triangle_area(mesh.points, mesh.triangles[t]);
+        Part& part = order[parts.of_triangle[t]];
+        part.area += its;
+        part.centre += its * centroid(mesh, mesh.triangles[t]);
+        whole += its;
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) order[i].number = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Part& a, const Part& b) { return a.area > b.area; });
+    if (order[0].area < kSmallestMainPart * whole)
+        throw AlgorithmFailure(
+            "the triangles fall into " + std::to_string(parts.count()) +
+            " unconnected pieces, the largest of which has only " +
+            std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
+            " % of the area: this is no connected surface; export it again with shared points");
+    std::vector<std::uint8_t> drop(parts.count(), 0);
+    for (std::size_t i = count; i < order.size(); ++i) {
+        drop[order[i].number] = 1;
+        ++report.removed_components;
+        report.removed_component_triangles += parts.triangle_counts[order[i].number];
+        const Vec3 centre =
+            order[i].area > 0.0 ? Vec3(order[i].centre / order[i].area) : Vec3(Vec3::Zero());
+        report.places.push_back({RepairKind::Component, centre, std::sqrt(order[i].area)});
+    }
+    std::vector<std::uint8_t> marked(mesh.triangles.size());
+    for (TriangleId t = 0; t < marked.size(); ++t) marked[t] = drop[parts.of_triangle[t]];
+    mesh.remove_triangles(marked);
+}
+
+}  // namespace vesselbench

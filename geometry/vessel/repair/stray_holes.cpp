@@ -1,0 +1,184 @@
+#include "geometry/vessel/repair/stray_holes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/vessel/repair/hole_patch.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A vessel end is at least this wide against the lumen behind it [-]; holes in a wall see the
+/// whole lumen behind them and stay below it.
+constexpr double kWideAsLumen = 0.4;
+constexpr double kLeastRound = 0.25;     ///< slits and zigzags are no ends [-]
+constexpr std::size_t kFewestEdges = 6;  ///< loops of fewer edges are always stray
+
+/// A cut that somebody made: many edges, flat, round.
+constexpr std::size_t kCutEdges = 16;
+constexpr double kCutFlat = 0.02;
+constexpr double kCutRound = 0.85;
+
+/// Rings of triangles around a hole that lead the bending of its patch.
+constexpr int kRings = 3;
+
+double cut_part(const RepairMesh& mesh, const std::vector<VertexId>& loop) {
+    std::size_t cut = 0;
+    for (const VertexId v : loop) cut += mesh.cut[v];
+    return static_cast<double>(cut) / static_cast<double>(loop.size());
+}
+
+OpenLoop shape_of(const RepairMesh& mesh, std::vector<VertexId> vertices) {
+    OpenLoop loop;
+    loop.vertices = std::move(vertices);
+    const std::size_t n = loop.vertices.size();
+    for (const VertexId v : loop.vertices) loop.centre += mesh.points[v];
+    loop.centre /= static_cast<double>(n);
+    Vec3 normal = Vec3::Zero();
+    double length = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 a = mesh.points[loop.vertices[i]] - loop.centre;
+        const Vec3 b = mesh.points[loop.vertices[(i + 1) % n]] - loop.centre;
+        normal += 0.5 * a.cross(b);
+        length += (b - a).norm();
+    }
+    const double area = normal.norm();
+    loop.radius = std::sqrt(area / std::numbers::pi);
+    if (length > 0.0) loop.roundness = 4.0 * std::numbers::pi * area / (length * length);
+    if (area > 0.0)
+        for (const VertexId v : loop.vertices)
+            loop.flatness =
+                std::max(loop.flatness,
+                         std::abs((mesh.points[v] - loop.centre).dot(normal / area)) / loop.radius);
+    loop.from_cut = cut_part(mesh, loop.vertices) > 0.5;
+    return loop;
+}
+
+/// Half the distance from the inner side of the wall beside the rim to what lies opposite.
+double lumen_radius(const RepairMesh& mesh, const SurfaceDistance& distance,
+                    const std::vector<TriangleId>& rim_triangles) {
+    std::vector<double> widths;
+    for (const TriangleId t : rim_triangles) {
+        const Vec3 normal = area_normal(mesh.points, mesh.triangles[t]).normalized();
+        const Vec3 from = centroid(mesh, mesh.triangles[t]);
+        for (const SurfaceHit& hit : distance.all_hits(from, -normal)) {
+            if (!hit.from_inside || hit.triangle == t) continue;
+            widths.push_back(hit.distance);
+            break;
+        }
+    }
+    if (2 * widths.size() < rim_triangles.size() || widths.empty()) return 0.0;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    return 0.5 * *middle;
+}
+
+/// Triangles within some rings of the loop's vertices, ascending.
+std::vector<Triangle> triangles_around(const RepairMesh& mesh, const Topology& topology,
+                                       const std::vector<VertexId>& loop) {
+    std::vector<VertexId> front = loop;
+    std::vector<TriangleId> found;
+    for (int ring = 0; ring < kRings; ++ring) {
+        for (const VertexId v : front)
+            for (const TriangleId t : topology.triangles_at().row(v)) found.push_back(t);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        front.clear();
+        for (const TriangleId t : found)
+            front.insert(front.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+        std::sort(front.begin(), front.end());
+        front.erase(std::unique(front.begin(), front.end()), front.end());
+    }
+    std::vector<Triangle> triangles;
+    for (const TriangleId t : found) triangles.push_back(mesh.triangles[t]);
+    return triangles;
+}
+
+/// The patch label that most rim triangles have.
+std::uint16_t label_around(const RepairMesh& mesh, const Topology& topology,
+                           const std::vector<VertexId>& loop) {
+    std::map<std::uint16_t, int> votes;
+    for (const VertexId v : loop)
+        for (const TriangleId t : topology.triangles_at().row(v)) ++votes[mesh.labels[t]];
+    const auto most =
+        std::max_element(votes.begin(), votes.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    return most == votes.end() ? std::uint16_t{0} : most->first;
+}
+
+void close_loop(RepairMesh& mesh, const Topology& topology, const std::vector<VertexId>& loop) {
+    const HolePatch patch =
+        fill_hole_smoothly(mesh.points, triangles_around(mesh, topology, loop), loop);
+    const std::uint16_t label = label_around(mesh, topology, loop);
+    std::vector<VertexId> number = loop;
+    for (const Vec3& p : patch.points) number.push_back(mesh.add_vertex(p, loop));
+    for (const Triangle& t : patch.triangles)
+        mesh.add_triangle({number[t[0]], number[t[1]], number[t[2]]}, label);
+}
+
+bool stays_open(const OpenLoop& loop, const RepairParameters& parameters) {
+    if (loop.from_cut || loop.vertices.size() <= 3) return false;
+    if (parameters.close_holes_up_to) return loop.radius > *parameters.close_holes_up_to;
+    return is_vessel_end(loop);
+}
+
+}  // namespace
+
+std::vector<OpenLoop> open_loops(const RepairMesh& mesh) {
+    const Topology topology(mesh.triangles, mesh.points.size());
+    std::vector<OpenLoop> loops;
+    for (auto& vertices : topology.boundary_loops())
+        if (vertices.size() > 2) loops.push_back(shape_of(mesh, std::move(vertices)));
+    const bool any = std::any_of(loops.begin(), loops.end(),
+                                 [](const OpenLoop& loop) { return !loop.from_cut; });
+    if (!any) return loops;
+    const SurfaceDistance distance(mesh.points, mesh.triangles);
+    for (OpenLoop& loop : loops) {
+        if (loop.from_cut) continue;
+        std::vector<TriangleId> beside;
+        for (const VertexId v : loop.vertices)
+            for (const TriangleId t : topology.triangles_at().row(v)) beside.push_back(t);
+        std::sort(beside.begin(), beside.end());
+        beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+        loop.lumen_radius = lumen_radius(mesh, distance, beside);
+    }
+    return loops;
+}
+
+bool is_vessel_end(const OpenLoop& loop) {
+    if (loop.vertices.size() < kFewestEdges || !(loop.radius > 0.0)) return false;
+    if (loop.vertices.size() >= kCutEdges && loop.flatness < kCutFlat && loop.roundness > kCutRound)
+        return true;
+    return loop.roundness > kLeastRound && loop.radius > kWideAsLumen * loop.lumen_radius;
+}
+
+bool close_stray_holes(RepairMesh& mesh, const RepairParameters& parameters, RepairReport& report) {
+    const Topology topology(mesh.triangles, mesh.points.size());
+    report.openings.clear();
+    double largest_closed = 0.0, smallest_kept = std::numeric_limits<double>::infinity();
+    bool closed = false;
+    for (const OpenLoop& loop : open_loops(mesh)) {
+        if (stays_open(loop, parameters)) {
+            report.openings.push_back({loop.centre, loop.radius, loop.vertices.size()});
+            smallest_kept = std::min(smallest_kept, loop.radius);
+            continue;
+        }
+        close_loop(mesh, topology, loop.vertices);
+        closed = true;
+        if (loop.from_cut) continue;
+        ++report.closed_holes;
+        largest_closed = std::max(largest_closed, loop.radius);
+        report.places.push_back({RepairKind::Hole, loop.centre, loop.radius});
+    }
+    if (!report.closed_up_to && largest_closed > 0.0 && largest_closed < smallest_kept)
+        report.closed_up_to =
+            std::isfinite(smallest_kept) ? 0.5 * (largest_closed + smallest_kept) : largest_closed;
+    return closed;
+}
+
+}  // namespace vesselbench

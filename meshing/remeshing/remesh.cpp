@@ -1,0 +1,242 @@
+#include "meshing/remeshing/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/repair/repair.h"
+#include "meshing/remeshing/carried_attributes.h"
+#include "meshing/remeshing/remesher.h"
+#include "meshing/remeshing/sizing_field.h"
+#include "meshing/remeshing/triangle_shape.h"
+#include "meshing/remeshing/uniform_remesh.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kRounds = 12;  // of split, collapse, flip, relax
+/// In the first round edges are split well below the wanted length [-]: what is collapsed next then
+/// forgets the pattern of a coarse source.
+constexpr double kFirstSplit = 0.8;
+
+/// While the mesh still finds its pattern, edges are split sooner than later on [-].
+constexpr double kEarlySplit = 1.2;
+constexpr int kEarlyRounds = 4;
+
+constexpr int kFinalRounds = 5;         // of flip and relax: sizes have settled, angles follow
+constexpr int kMostAttempts = 3;        // at a result without bad places, finer there each time
+constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
+constexpr double kFiner = 0.6;
+
+constexpr double kEdgePerRadius = 0.28;              // 22 triangles around
+constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
+
+/// Polishing visits so many triangles in all, but twice each at least: small meshes, in which rims
+/// take a larger share, need it most and can afford it.
+constexpr std::size_t kPolishBudget = 20000;
+constexpr int kFewestPolishRounds = 2, kMostPolishRounds = 8;
+
+constexpr double kQuality = 0.5;  // below it a triangle is worked on singly
+
+/// Angles, once the sizes have settled.
+Surface finished(Remesher& remesher, const Progress& progress) {
+    for (int round = 0; round < kFinalRounds; ++round) {
+        progress.report(0.5 * round / kFinalRounds, "improving triangles");
+        remesher.flip_edges(Remesher::FlipRule::Angle);
+        remesher.relax(Remesher::RelaxRule::Shape);
+    }
+    const int polish_rounds =
+        std::clamp(static_cast<int>(kPolishBudget /
+                                    std::max<std::size_t>(remesher.mesh().triangle_count(), 1)),
+                   kFewestPolishRounds, kMostPolishRounds);
+    for (int round = 0; round < polish_rounds; ++round) {
+        progress.report(0.5 + 0.5 * round / polish_rounds, "improving triangles");
+        remesher.polish();
+    }
+    remesher.improve_worst(kQuality);
+    remesher.keep_volume();
+    return remesher.result();
+}
+
+double split_limit(int round) {
+    return round == 0 ? kFirstSplit : round < kEarlyRounds ? kEarlySplit : Remesher::kLong;
+}
+
+void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
+    remesher.collapse_short_edges();  // before needles are split into crowds of short edges
+    for (int round = 0; round < rounds; ++round) {
+        progress.report(static_cast<double>(round) / rounds, "remeshing");
+        remesher.split_long_edges(split_limit(round));
+        remesher.collapse_short_edges();
+        if (round >= 2 && round + 2 < rounds)
+            remesher.collapse_defects();  // sizes have settled, and settle again
+        remesher.flip_edges(Remesher::FlipRule::Valence);
+        remesher.relax(Remesher::RelaxRule::Size);
+        remesher.relax(Remesher::RelaxRule::Shape);
+    }
+}
+
+/// One attempt, which begins with the mesh `start`.
+Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Surface& start,
+                      const Progress& progress) {
+    for (double& size : sizes) size /= Remesher::kStretch;
+    Remesher remesher(surface, sizes, start);
+    run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
+    return finished(remesher, progress.part(0.8, 1.0));
+}
+
+void measure_quality(const Surface& surface, RemeshReport& report) {
+    double walls = 0.0, caps = 0.0;
+    report.wall_radius_ratio_min = 1.0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const auto& [a, b, c] = surface.triangles()[t];
+        const Positions& points = surface.points();
+        const double skewness = equiangle_skewness(points[a], points[b], points[c]);
+        const double ratio = radius_ratio(points[a], points[b], points[c]);
+        if (surface.patch_of(t).kind != PatchKind::Wall) {
+            report.caps_skewness_mean += skewness;
+            caps += 1.0;
+            continue;
+        }
+        walls += 1.0;
+        report.wall_skewness_mean += skewness;
+        report.wall_radius_ratio_mean += ratio;
+        report.wall_skewness_max = std::max(report.wall_skewness_max, skewness);
+        report.wall_radius_ratio_min = std::min(report.wall_radius_ratio_min, ratio);
+    }
+    report.wall_skewness_mean /= std::max(walls, 1.0);
+    report.wall_radius_ratio_mean /= std::max(walls, 1.0);
+    report.caps_skewness_mean /= std::max(caps, 1.0);
+}
+
+/// Where the result crosses itself, or a triangle could not be made well-shaped.
+Positions bad_places(const Surface& result) {
+    const Positions& points = result.points();
+    Positions places;
+    const auto add = [&](TriangleId t) {
+        const auto& [a, b, c] = result.triangles()[t];
+        places.push_back((points[a] + points[b] + points[c]) / 3.0);
+    };
+    for (const auto& [s, t] : self_intersections(result)) {
+        add(s);
+        add(t);
+    }
+    for (TriangleId t = 0; t < result.triangle_count(); ++t) {
+        const auto& [a, b, c] = result.triangles()[t];
+        if (1.0 - equiangle_skewness(points[a], points[b], points[c]) < kLeastQuality ||
+            radius_ratio(points[a], points[b], points[c]) < kLeastQuality)
+            add(t);
+    }
+    return places;
+}
+
+/// Shortens the wanted edges of the source within two edges of the places.
+void refine(const Surface& source, const Positions& places, double gradation,
+            std::vector<double>& sizes) {
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+        if (std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
+                return (place - source.points()[v]).norm() < 2.0 * sizes[v];
+            }))
+            sizes[v] *= kFiner;
+    limit_slope(source, slope_of(gradation), sizes);
+}
+
+[[noreturn]] void refuse_crossing(const Surface& source, const Surface& result) {
+    const auto describe = [](const Surface& surface, TriangleId t) {
+        return "near " + place_text(surface.points()[surface.triangles()[t][0]]);
+    };
+    if (const auto old = self_intersections(source); !old.empty())
+        throw AlgorithmFailure("the surface intersects itself " +
+                               describe(source, old.front().first) + "; use repair before remesh");
+    throw AlgorithmFailure("the remeshed surface would intersect itself " +
+                           describe(result, self_intersections(result).front().first) +
+                           "; use a smaller edge, or separate the walls that touch there");
+}
+
+/// Walls that all but touch may cross however fine their edges are: there, crossings are smoothed
+/// or cut out and filled again.
+Surface parted(const Surface& source, const Surface& result, RemeshReport& report) {
+    const auto crossings = self_intersections(result);
+    if (crossings.empty()) return result;
+    report.crossings_parted = crossings.size();
+    report.crossing = result.points()[result.triangles()[crossings.front().first][0]];
+    try {
+        Repaired repaired =
+            repair(result, {.keep_components = std::numeric_limits<std::size_t>::max()});
+        // repair faces every component outward, which would fill a cavity
+        if (!repaired.report.turned_inside_out) return std::move(repaired.surface);
+    } catch (const AlgorithmFailure&) {
+        // told below, in terms of this operation
+    }
+    refuse_crossing(source, result);
+}
+
+Surface remeshed_until_sound(const Surface& surface, const Surface& start,
+                             std::vector<double> sizes, double gradation, RemeshReport& report,
+                             const Progress& progress) {
+    Surface result = remeshed_once(surface, sizes, start, progress);
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        const Positions places = bad_places(result);
+        if (places.empty()) return result;
+        refine(surface, places, gradation, sizes);
+        result = remeshed_once(surface, sizes, surface, progress);
+    }
+    return parted(surface, result, report);
+}
+
+RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
+                     const std::vector<double>& radii) {
+    RemeshReport report;
+    report.usual_radius = usual_radius(surface, radii);
+    report.edge = parameters.edge.value_or(kEdgePerRadius * report.usual_radius);
+    report.min_edge = parameters.min_edge.value_or(kLeastEdge * report.edge);
+    report.max_edge = parameters.max_edge.value_or(kMostEdge * report.edge);
+    report.triangles_before = surface.triangle_count();
+    return report;
+}
+
+Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
+               double gradation, const Progress& progress) {
+    std::vector<double> sizes = sizing_field(surface, radii,
+                                             {.edge = report.edge,
+                                              .min_edge = report.min_edge,
+                                              .max_edge = report.max_edge,
+                                              .gradation = gradation},
+                                             progress.part(0.0, 0.2));
+    return remeshed_until_sound(surface, surface, std::move(sizes), gradation, report,
+                                progress.part(0.2, 1.0));
+}
+
+/// CGAL knows one edge length only, and leaves slivers at rims; its mesh is where the rounds start.
+Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
+                const Progress& progress) {
+    progress.report(0.0, "remeshing");
+    const Surface even = remesh_uniform(surface, report.edge);
+    const std::vector<double> sizes(surface.vertex_count(), report.edge);
+    return remeshed_until_sound(surface, even, sizes, gradation, report, progress.part(0.3, 1.0));
+}
+
+}  // namespace
+
+Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
+                const CenterlineGraph* lines, const Progress& progress) {
+    if (surface.empty()) throw InvalidInput("there is no surface to remesh");
+    if (parameters.edge && !(*parameters.edge > 0.0 && std::isfinite(*parameters.edge)))
+        throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
+    const std::vector<double> radii = local_radii(surface, lines, progress.part(0.0, 0.1));
+    RemeshReport report = decided(surface, parameters, radii);
+    Surface result =
+        parameters.mode == RemeshMode::Uniform
+            ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
+            : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
+    result = with_attributes_of(surface, std::move(result));
+    report.triangles_after = result.triangle_count();
+    measure_quality(result, report);
+    return {std::move(result), report};
+}
+
+}  // namespace vesselbench

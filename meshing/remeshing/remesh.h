@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
+#include "geometry/vessel/centerlines/centerline_graph.h"
+
+namespace vesselbench {
+
+enum class RemeshMode { Graded, Uniform };
+
+struct RemeshParameters {
+    RemeshMode mode = RemeshMode::Graded;
+    /// Edge length where the vessel has its usual radius (the median over the wall's area), of all
+    /// edges in uniform mode [mm]; default 0.28 of that radius: 22 triangles around.
+    std::optional<double> edge = {};
+    std::optional<double> min_edge = {};  ///< graded: no edge shorter [mm]; default edge / 5
+    std::optional<double> max_edge = {};  ///< graded: no edge longer [mm]; default 2 edge
+    double gradation = 1.5;  ///< graded: neighbouring edges differ by at most this factor, > 1
+};
+
+/// What remeshing decided and reached.
+struct RemeshReport {
+    double usual_radius = 0.0;              ///< [mm]
+    double edge = 0.0;                      ///< [mm]
+    double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
+    std::size_t triangles_before = 0, triangles_after = 0;
+    double wall_skewness_mean = 0.0, wall_skewness_max = 0.0;          ///< equiangle skewness [-]
+    double wall_radius_ratio_mean = 0.0, wall_radius_ratio_min = 0.0;  ///< 2 r_in / r_out [-]
+    double caps_skewness_mean = 0.0;                                   ///< 0 without caps [-]
+    /// Pairs of triangles that crossed where walls all but touch, until the walls were parted
+    /// there, which leaves worse triangles; and where the first was [mm].
+    std::size_t crossings_parted = 0;
+    Vec3 crossing = Vec3::Zero();
+};
+
+struct Remeshed {
+    Surface surface;
+    RemeshReport report;
+};
+
+/// Covers the surface with well-shaped triangles of a wanted size: graded (small where the vessel
+/// is thin, curved, or close to another wall) or uniform.
+/// Vertices lie on the input, but for the small lift that gives its volume back to the flat
+/// triangles. Patches stay; rims of caps and open boundaries stay features (on their circle where
+/// round, on their polyline otherwise), flat caps stay exactly flat; attributes are interpolated at
+/// the closest point.
+/// Sources: Botsch & Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004; Dunyach
+/// et al., "Adaptive remeshing for real-time mesh deformation", Eurographics short papers 2013.
+/// \param surface an oriented manifold, closed or open
+/// \param lines centerlines for the vessel's radius; null: it is measured by rays
+/// \throw InvalidInput if a parameter is out of its range or the surface is not a manifold;
+///        AlgorithmFailure that names the place if the result would intersect itself and
+///        its walls cannot be parted
+[[nodiscard]] Remeshed remesh(const Surface& surface, const RemeshParameters& parameters = {},
+                              const CenterlineGraph* lines = nullptr,
+                              const Progress& progress = {});
+
+}  // namespace vesselbench

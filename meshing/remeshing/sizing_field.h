@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
+#include "geometry/vessel/centerlines/centerline_graph.h"
+
+namespace vesselbench {
+
+/// How long the edges of a graded mesh shall be.
+struct SizingParameters {
+    double edge = 0.0;       ///< edge where the vessel has its usual radius [mm], > 0
+    double min_edge = 0.0;   ///< no edge shall be shorter [mm], > 0
+    double max_edge = 0.0;   ///< no edge shall be longer [mm], >= min_edge
+    double gradation = 1.5;  ///< neighbouring edges differ by at most this factor [-], > 1
+    double turn = 0.7;       ///< an edge spans at most this angle of the curved wall [rad]
+    double gap_edges = 1.0;  ///< edges that fit into the gap to the opposite wall outside [-]
+};
+
+/// Local vessel radius at every vertex [mm], #V: from the centerlines where there are some (the
+/// radius at the point of the lines whose inscribed sphere is nearest), from rays across the lumen
+/// otherwise. A bulge does not count: a blind branch is capped by the radius of the vessel that it
+/// leaves, everything by the largest opening's radius, if there are openings. On caps: the rim's.
+/// \param lines may be null
+[[nodiscard]] std::vector<double> local_radii(const Surface& surface, const CenterlineGraph* lines,
+                                              const Progress& progress = {});
+
+/// The radius that half of the wall's area stays below [mm]. \throw InvalidInput without a wall
+[[nodiscard]] double usual_radius(const Surface& surface, const std::vector<double>& radii);
+
+/// Wanted edge length at every vertex [mm], #V: the smallest of edge * radius / usual radius, of
+/// what the curvature allows, and of the gap to the wall opposite outside; within the limits; then
+/// reduced until it grows so slowly that neighbouring edges differ by at most `gradation`.
+/// \throw InvalidInput if a parameter is out of its range
+[[nodiscard]] std::vector<double> sizing_field(const Surface& surface,
+                                               const std::vector<double>& radii,
+                                               const SizingParameters& parameters,
+                                               const Progress& progress = {});
+
+/// Reduces sizes until |size(u) - size(v)| <= slope |u - v| along every edge.
+void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes);
+
+/// Slope of the size that keeps neighbouring edges within `gradation` of each other: a quarter of
+/// the factor that is above 1, for real triangles scatter about their size.
+[[nodiscard]] double slope_of(double gradation);
+
+}  // namespace vesselbench

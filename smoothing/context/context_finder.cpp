@@ -1,0 +1,48 @@
+#include "smoothing/context/context_finder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "smoothing/context/staircases.h"
+
+namespace vesselbench {
+
+namespace {
+
+class CpuFinder final : public ContextFinder {
+public:
+    explicit CpuFinder(Surface surface) : surface_(std::move(surface)) {}
+
+    [[nodiscard]] StaircaseContext staircases(const Vec3& stack_axis,
+                                              const StaircaseParameters& parameters) override {
+        const auto change = orientation_change(*surface_.topology, surface_.points(), stack_axis);
+        StaircaseContext found;
+        found.weights =
+            staircase_weights(*surface_.topology, surface_.points(), change, parameters);
+        for (std::size_t v = 0; v < change.size(); ++v) {
+            const bool cap = !parameters.caps.empty() && parameters.caps[v] != 0;
+            found.vertices += change[v] > parameters.tau_theta && !cap ? 1 : 0;
+        }
+        return found;
+    }
+
+    [[nodiscard]] NeighbourContext neighbours(std::span<const Surface> neighbours,
+                                              const DistanceParameters& parameters) override {
+        const auto distances = neighbour_distances(surface_.points(), neighbours);
+        const auto [least, most] = std::ranges::minmax(distances);
+        return {distance_weights(distances, parameters), least, most};
+    }
+
+private:
+    [[nodiscard]] std::vector<Cap> search_caps() override { return find_caps(surface_); }
+
+    Surface surface_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContextFinder> make_cpu_finder(Surface surface) {
+    return std::make_unique<CpuFinder>(std::move(surface));
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geometry/kernel/box_tree.h"
+#include "geometry/kernel/topology.h"
+#include "geometry/kernel/vec3.h"
+
+namespace vesselbench::detail {
+
+/// Some vertices of a surface, to be found by place. Where two lie equally near, either is found.
+class PointTree {
+public:
+    struct Found {
+        VertexId vertex = std::numeric_limits<VertexId>::max();  ///< the largest: none
+        double squared = std::numeric_limits<double>::infinity();
+    };
+
+    /// \param chosen vertices at finite positions, at least one
+    PointTree(const Positions& positions, std::span<const VertexId> chosen);
+
+    /// The vertex nearest to p, if it is nearer than the square root of known.squared; else known.
+    [[nodiscard]] Found nearest(const Vec3& p, Found known) const;
+
+    /// Calls visit(Found) for every vertex nearer to p than the square root of `squared`.
+    template <class Visit>
+    void visit_nearer(const Vec3& p, double squared, const Visit& visit) const {
+        std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items split in halves
+        std::size_t size = 0;
+        stack[size++] = 0;
+        while (size > 0) {
+            const std::uint32_t at = stack[--size];
+            const BoxTree::Node& node = tree_.nodes()[at];
+            if (!(node.box.squaredExteriorDistance(p) < squared)) continue;
+            if (node.right == 0) {
+                for (std::uint32_t i = node.begin; i < node.end; ++i) {
+                    const double d = (p - points_[i]).squaredNorm();
+                    if (d < squared) visit(Found{vertices_[i], d});
+                }
+            } else {
+                stack[size++] = node.right;
+                stack[size++] = at + 1;
+            }
+        }
+    }
+
+private:
+    BoxTree tree_;
+    std::vector<Vec3> points_;        ///< in the order of the tree's leaves
+    std::vector<VertexId> vertices_;  ///< the same
+};
+
+}  // namespace vesselbench::detail

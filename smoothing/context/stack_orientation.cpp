@@ -1,0 +1,157 @@
+#include "smoothing/context/stack_orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/kernel/errors.h"
+#include "smoothing/context/gauss_map.h"
+#include "smoothing/context/normal_peaks.h"
+#include "smoothing/filters/filter_support.h"
+
+namespace vesselbench {
+
+namespace {
+
+using detail::FaceNormals;
+using detail::GaussMap;
+using detail::NormalPeak;
+
+constexpr double kCertain = 2.0 / 3.0;      // confidence from which on the axis is certain
+constexpr double kFewestFaces = 20.0;       // that make a peak certain
+constexpr double kSmallestShare = 0.003;    // of all faces, likewise
+constexpr double kOtherPeak = 0.9945;       // cosine of 6 degrees: nearer ones are of the same peak
+constexpr double kLongestSecondEdge = 0.8;  // in relation to the longest, of voxels with an axis
+
+/// \param counts 0 where a face is to be left out; empty: all count
+FaceNormals face_normals(const Topology& topology, const Positions& positions,
+                         const std::vector<std::uint8_t>& counts) {
+    const auto triangles = topology.triangles();
+    std::vector<Vec3> scaled(triangles.size());
+    detail::for_each_vertex(
+        triangles.size(), [&](std::size_t t) { scaled[t] = area_normal(positions, triangles[t]); });
+    FaceNormals faces;
+    for (std::size_t t = 0; t < scaled.size(); ++t) {
+        const double length = scaled[t].norm();
+        if (!(length > 0.0) || !std::isfinite(length) || (!counts.empty() && !counts[t])) continue;
+        faces.normals.emplace_back(scaled[t] / length);
+        faces.areas.push_back(0.5 * length);
+    }
+    return faces;
+}
+
+double flat_share(const FaceNormals& faces, const Vec3& axis, double theta_limit) {
+    const auto flat = std::count_if(faces.normals.begin(), faces.normals.end(), [&](const Vec3& n) {
+        return 1.0 - std::abs(n.dot(axis)) < theta_limit;  // Eq. 5.3
+    });
+    return static_cast<double>(flat) / static_cast<double>(faces.normals.size());
+}
+
+/// Bins denser than midway between mean and maximum, connected within the radius; the centre of
+/// each cluster.
+std::vector<Vec3> cluster_centres(const FaceNormals& faces, double radius) {
+    const GaussMap map(faces.normals, radius);
+    const std::vector<std::uint64_t> density = map.densities();
+    double sum = 0.0;
+    for (std::size_t b = 0; b < map.size(); ++b)
+        sum += static_cast<double>(map.count(b)) * static_cast<double>(density[b]);
+    const double highest = static_cast<double>(*std::max_element(density.begin(), density.end()));
+    const double threshold = 0.5 * (sum / static_cast<double>(faces.normals.size()) + highest);
+    std::vector<float> side(map.size(), 0.0F);  // in relation to the cluster's first bin; 0: none
+    std::vector<Vec3> centres;
+    for (std::size_t first = 0; first < map.size(); ++first) {
+        if (side[first] != 0.0F || static_cast<double>(density[first]) < threshold) continue;
+        std::vector<std::size_t> members{first};
+        side[first] = 1.0F;
+        Vec3 centre = Vec3::Zero();
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const std::size_t b = members[m];
+            centre += static_cast<double>(side[b]) * map.count(b) * map.direction(b);
+            map.visit_within(map.direction(b), [&](std::size_t other, float sign) {
+                if (side[other] != 0.0F || static_cast<double>(density[other]) < threshold) return;
+                side[other] = sign * side[b];
+                members.push_back(other);
+            });
+        }
+        // A belt around the sphere has no centre; its first bin stands for it.
+        const bool belt = centre.norm() < 1e-6 * static_cast<double>(faces.normals.size());
+        centres.push_back(belt ? map.direction(first) : Vec3(centre.normalized()));
+    }
+    return centres;
+}
+
+/// The thesis' own choice: the cluster with the most flat faces around its centre.
+Vec3 flattest_cluster(const FaceNormals& faces, const StackOrientationParameters& parameters) {
+    Vec3 best = Vec3::UnitZ();
+    double most = -1.0;
+    for (const Vec3& centre : cluster_centres(faces, parameters.radius)) {
+        const double share = flat_share(faces, centre, parameters.theta_limit);
+        if (share <= most) continue;
+        most = share;
+        best = centre;
+    }
+    return best;
+}
+
+/// How far a peak stands out: in number and share of its faces, and from the next one.
+/// 2/3 where it has just enough faces, or three times as many as the next.
+double peak_confidence(const std::vector<NormalPeak>& peaks, std::size_t faces) {
+    const double excess = peaks.front().excess;
+    if (!(excess > 0.0)) return 0.0;
+    const double enough = std::max(kFewestFaces, kSmallestShare * static_cast<double>(faces));
+    const auto rival = std::find_if(peaks.begin(), peaks.end(), [&](const NormalPeak& peak) {
+        return std::abs(peak.axis.dot(peaks.front().axis)) < kOtherPeak;
+    });
+    const double next = rival != peaks.end() ? rival->excess : 0.0;
+    return std::min(excess / (excess + 0.5 * enough), 1.0 - next / excess);
+}
+
+/// 2/3 where the longest voxel edge is just enough longer than the next.
+double lattice_confidence(const detail::VoxelLattice& lattice) {
+    return std::clamp(kCertain * (1.0 - lattice.second_edge) / (1.0 - kLongestSecondEdge), 0.0,
+                      lattice.share);
+}
+
+StackOrientation estimate(const FaceNormals& faces, const StackOrientationParameters& parameters) {
+    StackOrientation found;
+    if (faces.normals.empty()) return found;
+    const std::vector<NormalPeak> peaks = detail::highest_peaks(faces);
+    if (const auto lattice = detail::voxel_lattice(faces, peaks)) {
+        found.direction = lattice->long_axis;
+        found.confidence = lattice_confidence(*lattice);
+    } else {
+        found.direction = peaks.front().axis;
+        found.confidence = peak_confidence(peaks, faces.normals.size());
+    }
+    found.certain = found.confidence >= kCertain;
+    if (!found.certain)
+        found.direction = detail::peak_near(faces, flattest_cluster(faces, parameters)).axis;
+    found.direction = detail::folded(found.direction);
+    found.flat_share = flat_share(faces, found.direction, parameters.theta_limit);
+    return found;
+}
+
+void require_usable(const StackOrientationParameters& parameters) {
+    detail::require_range("radius", parameters.radius, 0.02, 0.5);
+    detail::require_positive("theta_limit", parameters.theta_limit);
+    detail::require_range("theta_limit", parameters.theta_limit, 0.0, 1.0);
+}
+
+}  // namespace
+
+StackOrientation estimate_stack_orientation(const Topology& topology, const Positions& positions,
+                                            const StackOrientationParameters& parameters) {
+    require_usable(parameters);
+    return estimate(face_normals(topology, positions, {}), parameters);
+}
+
+StackOrientation estimate_stack_orientation(const Surface& surface,
+                                            const StackOrientationParameters& parameters) {
+    require_usable(parameters);
+    if (surface.empty()) return {};
+    std::vector<std::uint8_t> wall(surface.triangle_count());
+    for (TriangleId t = 0; t < wall.size(); ++t)
+        wall[t] = surface.patch_of(t).kind == PatchKind::Wall ? 1 : 0;
+    return estimate(face_normals(*surface.topology, surface.points(), wall), parameters);
+}
+
+}  // namespace vesselbench

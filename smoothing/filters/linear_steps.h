@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "smoothing/filters/laplace.h"
+#include "smoothing/filters/laplace_hc.h"
+#include "smoothing/filters/linear_step.h"
+#include "smoothing/filters/taubin.h"
+
+namespace vesselbench::detail {
+
+/// One iteration of a filter as linear steps, for any device.
+/// \throw InvalidInput if a parameter is out of its range
+[[nodiscard]] std::vector<LinearStep> linear_steps(const LaplaceParameters& parameters);
+[[nodiscard]] std::vector<LinearStep> linear_steps(const LaplaceHcParameters& parameters);
+[[nodiscard]] std::vector<LinearStep> linear_steps(const TaubinParameters& parameters);
+
+}  // namespace vesselbench::detail

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "geometry/kernel/progress.h"
+#include "smoothing/filters/neighbour_blocks.h"
+
+namespace vesselbench::detail {
+
+/// Runs `steps` steps over all blocks, where a step of a block needs the step before of all blocks
+/// within the reach. Several steps go over the same part of the surface while it is in the cache,
+/// each behind the one before (time skewing); the parts run in parallel. Two buffers that take
+/// turns suffice: when a block is written, nobody needs its value of two steps before any more.
+/// Every block's step sees exactly the values of the step before, whatever the order.
+/// Source: Wolf, "More iteration space tiling", 1989; Wonnacott, "Achieving scalable locality with
+/// time skewing", 2002.
+/// \param bytes_at_place that a step reads and writes
+/// \param run step (from 0) and block
+void sweep(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
+           const std::function<void(std::size_t step, std::size_t block)>& run,
+           const Progress& progress);
+
+}  // namespace vesselbench::detail

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "geometry/kernel/surface.h"
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/surface_samples.h"
+#include "smoothing/quality/quality_measures.h"
+
+namespace vesselbench {
+
+/// Measures surfaces of any triangles against one original (thesis 7.2: the local error needs the
+/// same triangles). The error is the area-weighted mean of the distances both ways, from samples no
+/// wider apart than the original's mean edge; curvature and volume are those of
+/// geometry/measure.h.
+class ComparisonMeter {
+public:
+    /// \throw InvalidInput if the surface has no triangle, or none with an area
+    explicit ComparisonMeter(Surface original);
+
+    /// \throw InvalidInput as the constructor
+    [[nodiscard]] QualityMeasures measure(const Surface& surface) const;
+
+    [[nodiscard]] const QualityMeasures& original() const { return original_measures_; }
+
+    [[nodiscard]] double mean_edge() const { return mean_edge_; }  ///< of the original [mm]
+
+private:
+    Surface original_;
+    QualityMeasures original_measures_;
+    SurfaceDistance distance_;
+    double mean_edge_ = 0.0;
+    SurfaceSamples samples_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "smoothing/quality/sensitivity.h"
+
+namespace vesselbench {
+
+/// What is known so far about a request.
+struct LiveAnswer {
+    std::uint64_t request = 0;
+    SensitivityAnalysis analysis;    ///< with a suggestion for each parameter
+    std::optional<Suggestion> best;  ///< of all parameters together; none in the first answers
+    bool complete = false;           ///< no finer answer follows
+    std::string error;               ///< why there is none; else empty
+};
+
+/// Sensitivity analysis and suggestions behind a user who changes parameters: a new value stops
+/// what is under way at once, and is answered coarsely first, then finer. What was measured for
+/// earlier values serves again; the complete answer does not depend on them.
+class LiveAnalysis {
+public:
+    /// Called on the analysis' own thread, answer after answer; must not call back.
+    using Receiver = std::function<void(const LiveAnswer&)>;
+
+    LiveAnalysis(ParameterSearch search, Receiver receiver);
+
+    /// Stops what is under way.
+    ~LiveAnalysis();
+    LiveAnalysis(const LiveAnalysis&) = delete;
+    LiveAnalysis& operator=(const LiveAnalysis&) = delete;
+
+    /// Asks for the analysis around a set. \return the number that its answers bear
+    std::uint64_t ask(ParameterSet current, ScoreSettings settings);
+
+    /// Blocks until the last request is answered completely.
+    void wait();
+
+private:
+    struct Request {
+        std::uint64_t number = 0;
+        ParameterSet current;
+        ScoreSettings settings;
+        std::stop_token stop;
+    };
+
+    void work(const std::stop_token& end);
+    void answer(const Request& request);
+    void send(const Request& request, const LiveAnswer& answer);
+
+    ParameterSearch search_;
+    Receiver receiver_;
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::optional<Request> waiting_;
+    bool busy_ = false;
+    std::stop_source current_;
+    std::uint64_t asked_ = 0;
+    std::jthread worker_;  ///< last: ends before what it works on goes
+};
+
+}  // namespace vesselbench

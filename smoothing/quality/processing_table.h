@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "geometry/kernel/surface.h"
+#include "smoothing/quality/comparison_meter.h"
+#include "smoothing/quality/measure_source.h"
+
+namespace vesselbench {
+
+/// What an operation makes of the original with a set; none: a set to leave out. \throw Cancelled
+using Processing = std::function<std::optional<Surface>(const ParameterSet&, const Progress&)>;
+
+/// A change that graphs measure by.
+struct StrongChange {
+    ParameterSet set;
+    std::string name;  ///< "share=0.05"
+};
+
+/// The measures of what an operation makes of one surface, whatever happens to its triangles
+/// (thesis 7.2), each found once, one after the other.
+class ProcessingTable final : public MeasureSource {
+public:
+    /// \param idle true of sets that leave the surface as it is
+    /// \throw InvalidInput if the original has no area
+    ProcessingTable(const Surface& original, Processing processing,
+                    std::function<bool(const ParameterSet&)> idle, StrongChange strong);
+
+    void find(std::span<const ParameterSet> sets, const Progress& progress = {}) override;
+
+    [[nodiscard]] std::optional<QualityMeasures> at(const ParameterSet& set,
+                                                    const Progress& progress = {}) override;
+
+    [[nodiscard]] const QualityMeasures& original() const override { return meter_.original(); }
+
+    [[nodiscard]] double mean_edge() const override { return meter_.mean_edge(); }
+
+    /// The original's where the strong change is of no use.
+    [[nodiscard]] const QualityMeasures& strong(const Progress& progress = {}) override;
+
+    [[nodiscard]] std::string strong_name() const override { return strong_.name; }
+
+    [[nodiscard]] const Work& work() const override { return work_; }
+
+private:
+    ComparisonMeter meter_;
+    Processing processing_;
+    std::function<bool(const ParameterSet&)> idle_;
+    StrongChange strong_;
+    std::map<ParameterSet, std::optional<QualityMeasures>> known_;
+    Work work_;
+};
+
+}  // namespace vesselbench

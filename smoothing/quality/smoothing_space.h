@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "smoothing/quality/search.h"
+
+namespace vesselbench {
+
+/// What a search of smoothing parameters is to go through.
+struct SmoothingSpaceOptions {
+    FilterParameters filter;  ///< values of the parameters that stay
+    std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< that stay; null: all 1
+    StaircaseWeights staircase = nullptr;  ///< searches tau_theta, tau_max, beta_min too (7.2)
+    bool engine_weighs = false;            ///< SmoothingEngine::weighs_staircases
+    double slice = 1.0;                    ///< distance of the image's slices, scales tau_max [mm]
+    int most_iterations = 50;
+    bool all_parameters = false;  ///< also those that the search leaves alone: for graphs
+    bool mu_stays = false;        ///< of Taubin: mu does not follow lambda
+};
+
+/// The grid of a filter's parameters: weights in steps of 0.05, iterations in steps of 1, at first
+/// 0.1 (0.2 where there are more than two parameters) and 5. Laplace+HC searches alpha and beta,
+/// Taubin lambda with mu = -1.02 lambda (mu by itself in graphs), the others lambda. Sets with
+/// which the filter would enlarge some bumps are left out.
+[[nodiscard]] SearchSpace smoothing_space(const SmoothingSpaceOptions& options);
+
+/// The values of a filter as a set of that space; staircases take the given values.
+[[nodiscard]] ParameterSet current_set(const SearchSpace& space, const FilterParameters& filter,
+                                       int iterations, const StaircaseValues& staircase = {});
+
+/// A set's value of a parameter; none if the space has no such parameter.
+[[nodiscard]] std::optional<double> value_of(const SearchSpace& space, const ParameterSet& set,
+                                             const std::string& name);
+
+}  // namespace vesselbench

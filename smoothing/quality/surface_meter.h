@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/topology.h"
+#include "geometry/kernel/vec3.h"
+#include "smoothing/filters/linear_step.h"
+#include "smoothing/quality/quality_measures.h"
+
+namespace vesselbench {
+
+/// Measures states of one surface against their original, again and again: all measures in two
+/// passes over the vertices, on all threads, about the time of 20 sweeps of a filter. The same
+/// bits on any number of threads. Numbers are those of geometry/kernel/local_error.h and
+/// geometry/kernel/measure.h, but for the signed curvature: here H is the curvature normal's
+/// component along the vertex normal (weighted by area), there all of its length with that
+/// component's sign, which differs where slivers fold.
+class SurfaceMeter {
+public:
+    /// Positions in memory: 4 numbers each, so that a vertex fills one register.
+    using Packs = std::span<const detail::PackRow>;
+
+    /// \param planes measures error_thesis too
+    /// \param order the vertex at every place, where states are not in the order of the vertices;
+    ///        empty: they are
+    /// \throw InvalidInput if a length does not fit, or a position is not finite
+    SurfaceMeter(std::shared_ptr<const Topology> topology,
+                 std::shared_ptr<const Positions> original, bool planes = false,
+                 std::span<const VertexId> order = {});
+    ~SurfaceMeter();
+    SurfaceMeter(const SurfaceMeter&) = delete;
+    SurfaceMeter& operator=(const SurfaceMeter&) = delete;
+
+    /// Every place as its own reference.
+    [[nodiscard]] std::vector<VertexId> own_references() const;
+
+    /// Moves the reference neighbourhoods on with a state's vertices (6.4.1).
+    void follow(Packs moved, std::vector<VertexId>& references) const;
+
+    /// Follows the references to this state, and measures it.
+    [[nodiscard]] QualityMeasures follow_and_measure(Packs moved,
+                                                     std::vector<VertexId>& references) const;
+
+    /// The same, for states between those that the references are to pass.
+    [[nodiscard]] QualityMeasures measure(Packs moved,
+                                          const std::vector<VertexId>& references) const;
+
+    /// The same from every 32nd place, followed alone; the volume is exact. Curvature is scaled by
+    /// the area that the sample stands for. All states err the same way, by a few per cent at some
+    /// thousand vertices: this serves to tell sets apart before the best ones are measured.
+    [[nodiscard]] QualityMeasures follow_and_estimate(Packs moved,
+                                                      std::vector<VertexId>& references) const;
+
+    [[nodiscard]] const QualityMeasures& original() const { return original_; }
+
+    [[nodiscard]] double mean_edge() const { return mean_edge_; }  ///< of the original [mm]
+
+private:
+    struct Data;
+    QualityMeasures measured(Packs moved, const VertexId* references, VertexId* followed) const;
+    [[nodiscard]] QualityMeasures sampled(Packs moved, VertexId* references) const;
+
+    std::unique_ptr<const Data> data_;
+    QualityMeasures original_;
+    double sample_scale_ = 1.0;  ///< the original's area by that around the sample
+    double mean_edge_ = 0.0;
+};
+
+}  // namespace vesselbench

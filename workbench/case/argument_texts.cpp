@@ -1,0 +1,36 @@
+#include "workbench/case/argument_texts.h"
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+Arguments arguments_from_texts(const Operation& operation, std::span<const std::string> texts) {
+    Arguments arguments;
+    for (const std::string& text : texts) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw UsageError("'" + text + "' is not of the form parameter=value");
+        const std::string name = text.substr(0, equals);
+        const Parameter& parameter = find_parameter(operation, name);
+        if (arguments.has(name))
+            throw UsageError(operation.name + ": parameter '" + name + "' is given twice");
+        try {
+            arguments.set(name, parse_value(parameter, text.substr(equals + 1)));
+        } catch (const UsageError& error) {
+            throw UsageError(operation.name + ": " + error.what());
+        }
+    }
+    return arguments;
+}
+
+std::string argument_summary(const Operation& operation, const Arguments& arguments) {
+    std::string summary;
+    for (const Parameter& parameter : operation.parameters) {
+        const auto found = arguments.values().find(parameter.name);
+        if (found == arguments.values().end() || found->second == parameter.default_value) continue;
+        summary += (summary.empty() ? "" : " ") + parameter.name + "=" + to_text(found->second);
+    }
+    return summary;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+/// Reads the command line's "parameter=value" texts in the operation's own types. Defaults are not
+/// filled in.
+/// \throw UsageError that names the operation and the text
+[[nodiscard]] Arguments arguments_from_texts(const Operation& operation,
+                                             std::span<const std::string> texts);
+
+/// "parameter=value parameter=value", in the order of the table; defaults are left out.
+[[nodiscard]] std::string argument_summary(const Operation& operation, const Arguments& arguments);
+
+}  // namespace vesselbench

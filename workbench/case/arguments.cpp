@@ -1,0 +1,95 @@
+#include "workbench/case/arguments.h"
+
+#include <charconv>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+const Value& value_of(const std::map<std::string, Value>& values, const std::string& name) {
+    const auto found = values.find(name);
+    if (found == values.end()) throw UsageError("parameter '" + name + "' is needed");
+    return found->second;
+}
+
+template <class T>
+const T& typed(const std::map<std::string, Value>& values, const std::string& name,
+               const char* type) {
+    const Value& value = value_of(values, name);
+    if (const T* held = std::get_if<T>(&value)) return *held;
+    throw UsageError("parameter '" + name + "' = " + to_text(value) + " is not " + type);
+}
+
+std::string shortest(double number) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+    return {buffer, end};
+}
+
+struct TextOf {
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+
+    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+
+    std::string operator()(double number) const { return shortest(number); }
+
+    std::string operator()(const std::string& text) const { return text; }
+
+    std::string operator()(const Vec3& p) const {
+        return shortest(p.x()) + "," + shortest(p.y()) + "," + shortest(p.z());
+    }
+
+    std::string operator()(const std::vector<double>& list) const {
+        std::string text;
+        for (const double number : list) text += (text.empty() ? "" : ",") + shortest(number);
+        return text;
+    }
+};
+
+}  // namespace
+
+std::string to_text(const Value& value) {
+    return std::visit(TextOf{}, value);
+}
+
+bool Arguments::flag(const std::string& name) const {
+    return typed<bool>(values_, name, "true or false");
+}
+
+std::int64_t Arguments::integer(const std::string& name) const {
+    return typed<std::int64_t>(values_, name, "a whole number");
+}
+
+double Arguments::real(const std::string& name) const {
+    if (const auto* whole = std::get_if<std::int64_t>(&value_of(values_, name)))
+        return static_cast<double>(*whole);
+    return typed<double>(values_, name, "a number");
+}
+
+const std::string& Arguments::text(const std::string& name) const {
+    return typed<std::string>(values_, name, "a text");
+}
+
+Vec3 Arguments::point(const std::string& name) const {
+    return typed<Vec3>(values_, name, "x,y,z");
+}
+
+const std::vector<double>& Arguments::list(const std::string& name) const {
+    return typed<std::vector<double>>(values_, name, "a list of numbers");
+}
+
+std::optional<double> Arguments::optional_real(const std::string& name) const {
+    return has(name) ? std::optional(real(name)) : std::nullopt;
+}
+
+std::optional<Vec3> Arguments::optional_point(const std::string& name) const {
+    return has(name) ? std::optional(point(name)) : std::nullopt;
+}
+
+std::optional<std::string> Arguments::optional_text(const std::string& name) const {
+    return has(name) ? std::optional(text(name)) : std::nullopt;
+}
+
+}  // namespace vesselbench

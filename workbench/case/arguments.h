@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/kernel/vec3.h"
+
+namespace vesselbench {
+
+/// One argument's value. Its text form is the command line's: true|false, 12, 0.5, text, x,y,z,
+/// 1,2,3.
+using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>>;
+
+/// Named values of an operation, by parameter name. What is absent takes its default or is decided
+/// by the operation.
+class Arguments {
+public:
+    Arguments() = default;
+
+    Arguments(std::initializer_list<std::pair<const std::string, Value>> values)
+        : values_(values) {}
+
+    [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
+
+    void set(const std::string& name, Value value) { values_[name] = std::move(value); }
+
+    void remove(const std::string& name) { values_.erase(name); }
+
+    /// \throw UsageError if the argument is missing or of another type (a whole number serves as a
+    /// real one)
+    [[nodiscard]] bool flag(const std::string& name) const;
+    [[nodiscard]] std::int64_t integer(const std::string& name) const;
+    [[nodiscard]] double real(const std::string& name) const;
+    [[nodiscard]] const std::string& text(const std::string& name) const;
+    [[nodiscard]] Vec3 point(const std::string& name) const;
+    [[nodiscard]] const std::vector<double>& list(const std::string& name) const;
+
+    /// As above, but empty when absent (the operation decides by itself).
+    [[nodiscard]] std::optional<double> optional_real(const std::string& name) const;
+    [[nodiscard]] std::optional<Vec3> optional_point(const std::string& name) const;
+    [[nodiscard]] std::optional<std::string> optional_text(const std::string& name) const;
+
+    [[nodiscard]] const std::map<std::string, Value>& values() const { return values_; }
+
+    bool operator==(const Arguments&) const = default;
+
+private:
+    std::map<std::string, Value> values_;
+};
+
+/// The command line's text of a value, with all digits that reading it back needs.
+[[nodiscard]] std::string to_text(const Value& value);
+
+}  // namespace vesselbench

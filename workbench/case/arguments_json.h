@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+/// JSON form of a value: true|false, number, text, [x,y,z], [1,2,3].
+[[nodiscard]] nlohmann::ordered_json to_json(const Value& value);
+
+/// JSON object of the arguments, by parameter name.
+[[nodiscard]] nlohmann::ordered_json to_json(const Arguments& arguments);
+
+/// Reads the JSON object back in the operation's own types, as checked_arguments does, but without
+/// filling in defaults or asking for what is absent.
+/// \throw UsageError as checked_arguments
+[[nodiscard]] Arguments arguments_from_json(const Operation& operation,
+                                            const nlohmann::ordered_json& object);
+
+}  // namespace vesselbench

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/case/history.h"
+
+namespace vesselbench {
+
+/// What an edit did to the surface, in figures. Empty where there was no surface to measure.
+struct SurfaceChange {
+    std::optional<double> volume_before;      ///< [mm^3], openings closed in thought
+    std::optional<double> volume_after;       ///< [mm^3]
+    std::optional<double> largest_deviation;  ///< [mm], between the old surface and the new
+    std::optional<double> mean_deviation;     ///< [mm]
+    std::size_t triangles_before = 0;
+    std::size_t triangles_after = 0;
+    std::size_t moved_vertices = 0;  ///< where the connectivity stayed
+
+    bool operator==(const SurfaceChange&) const = default;
+};
+
+/// What the user asked for: one revision of an edit.
+struct EditRecord {
+    EditRef edit;
+    EditPlace place;
+    std::string operation;
+    Arguments given;  ///< file arguments hold the file's name without its folder
+    std::string author;
+    std::string time;  ///< UTC, 2024-05-17T09:30:00Z
+    std::string note;
+
+    bool operator==(const EditRecord&) const = default;
+};
+
+/// What came of running it on a certain input.
+struct ResultRecord {
+    ResultId id = 0;
+    EditRef edit;
+    ResultId input = 0;
+    std::string stale_reason;
+    Arguments resolved;
+    std::vector<std::string> warnings;
+    std::string report;  ///< JSON; may be empty
+    SurfaceChange change;
+    double duration = 0.0;        ///< [s]
+    std::string time;             ///< when it ran, UTC
+    std::string program_version;  ///< of vesselbench
+    std::string device;           ///< "cpu" or "gpu"
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+using EditId = std::int64_t;    ///< lasting; 1, 2, ... in the order the edits were first made
+using StateId = std::int64_t;   ///< 0 is the empty case every history starts from
+using ResultId = std::int64_t;  ///< 0 is the empty scene
+
+/// One form of an edit: changing its arguments makes the next revision of the same edit. An
+/// expert's verdict binds to both.
+struct EditRef {
+    EditId id = 0;
+    int revision = 1;
+
+    auto operator<=>(const EditRef&) const = default;
+};
+
+/// Where an edit stands in the case.
+struct EditPlace {
+    Step step = Step::Source;
+    std::string variant;  ///< "cfd", "rp", ...; empty for steps 1-5, the trunk of all variants
+
+    bool operator==(const EditPlace&) const = default;
+};
+
+/// True for the steps whose edits belong to a variant: deformation, remeshing, product.
+[[nodiscard]] bool belongs_to_variant(Step step);
+
+enum class StateChange : std::uint8_t { Start, Apply, Change, Remove };
+
+/// A node of the history's tree: its parent, and the one edit by which it differs.
+struct HistoryState {
+    StateId id = 0;
+    StateId parent = 0;
+    StateChange change = StateChange::Start;
+    EditRef edit;            ///< the edit applied, changed (its new revision) or removed
+    StateId last_child = 0;  ///< the child last visited; 0: none. What redo goes to
+};
+
+/// What came out when an edit ran on a certain input.
+struct HistoryResult {
+    ResultId id = 0;
+    EditRef edit;
+    ResultId input = 0;        ///< the result it ran on
+    std::string stale_reason;  ///< not empty: it does not apply there; its input passes through
+};
+
+enum class EditStatus : std::uint8_t {
+    Done,     ///< it has run on what stands before it
+    Pending,  ///< something before it changed; it runs when its result is shown or exported
+    Stale     ///< it no longer applies to what stands before it
+};
+
+[[nodiscard]] std::string to_string(EditStatus status);
+
+/// An edit of a state with what is known of its result there.
+struct HistoryEntry {
+    EditRef edit;
+    EditPlace place;
+    EditStatus status = EditStatus::Pending;
+    ResultId result = 0;  ///< Done: its result. Stale: the result that tells why. Pending: 0
+    ResultId input = 0;   ///< what it ran on or would run on; meaningless behind a pending edit
+    std::string reason;   ///< of a stale edit
+};
+
+/// The tree of states (DESIGN 1), a value. A state is the list of its edits, ordered by step, then
+/// time; to apply, change or remove an edit makes a child state, and nothing is ever thrown away.
+/// Whether an edit is done is not stored but follows from the results known: an edit is done if its
+/// revision has run on exactly what stands before it.
+class History {
+public:
+    History();
+
+    /// Rebuilds a stored history. \throw InvalidInput if it contradicts itself
+    History(std::map<EditRef, EditPlace> edits, std::vector<HistoryState> states,
+            std::vector<HistoryResult> results, StateId current);
+
+    [[nodiscard]] StateId current() const { return current_; }
+
+    [[nodiscard]] const std::map<StateId, HistoryState>& states() const { return states_; }
+
+    [[nodiscard]] const std::map<EditRef, EditPlace>& edits() const { return edits_; }
+
+    [[nodiscard]] const std::map<ResultId, HistoryResult>& results() const { return results_; }
+
+    /// \throw UsageError if there is no such state
+    [[nodiscard]] const HistoryState& state(StateId id) const;
+
+    /// The revision of an edit in the current state; empty if the state does not hold it.
+    [[nodiscard]] std::optional<EditRef> find(EditId id) const;
+
+    /// All edits of the current state, by step, then time.
+    [[nodiscard]] std::vector<HistoryEntry> entries() const;
+
+    /// The edits that make one variant of the current state: the trunk's, then its own. An unknown
+    /// variant has the trunk's only.
+    [[nodiscard]] std::vector<HistoryEntry> line(const std::string& variant) const;
+
+    /// Names of the variants that have edits in the current state, ascending.
+    [[nodiscard]] std::vector<std::string> variants() const;
+
+    /// The result of an edit on an input, if it ever ran on it.
+    [[nodiscard]] const HistoryResult* result_of(EditRef edit, ResultId input) const;
+
+    /// The newest result of this revision that is not stale, on any input.
+    [[nodiscard]] const HistoryResult* newest_result_of(EditRef edit) const;
+
+    /// Adds a new edit behind the edits of its step: a child state. \return the new edit
+    EditRef apply(const EditPlace& place);
+
+    /// A new revision of an edit in its old place: a child state.
+    /// \throw UsageError if the current state does not hold it
+    EditRef change(EditId id);
+
+    /// Leaves an edit out: a child state. \throw UsageError if the current state does not hold it
+    void remove(EditId id);
+
+    /// To the parent. \throw UsageError at the start
+    void undo();
+    /// To the child last visited. \throw UsageError if there is none
+    void redo();
+    /// Back to the state before the current revision of an edit was made.
+    /// \throw UsageError if the current state does not come from one
+    void undo_before(EditId id);
+    /// Forward along the children last visited until the edit is made or changed.
+    /// \throw UsageError if none of them does
+    void redo_to(EditId id);
+    /// To any state. \throw UsageError if there is none of this id
+    void jump(StateId id);
+
+    ResultId add_result(EditRef edit, ResultId input, std::string stale_reason = {});
+
+private:
+    [[nodiscard]] std::vector<EditRef> edits_of(StateId id) const;
+    void add_state(StateChange change, EditRef edit);
+    [[nodiscard]] EditRef held(EditId id) const;
+
+    std::map<EditRef, EditPlace> edits_;
+    std::map<StateId, HistoryState> states_;
+    std::map<ResultId, HistoryResult> results_;
+    std::map<std::pair<EditRef, ResultId>, ResultId> result_by_input_;
+    StateId current_ = 0;
+};
+
+}  // namespace vesselbench

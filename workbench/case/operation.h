@@ -1,0 +1,112 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/kernel/progress.h"
+#include "workbench/case/arguments.h"
+#include "workbench/case/scene.h"
+
+namespace vesselbench {
+
+/// The ordered steps of a case (DESIGN 2); an edit's place in the history goes by step, then by
+/// time.
+enum class Step : int {
+    Source = 1,
+    Branches,
+    LocalRepair,
+    Openings,
+    Smoothing,
+    Deformation,
+    Remeshing,
+    Product,
+    Review
+};
+
+[[nodiscard]] std::string to_string(Step step);  ///< "source", "branches", "local-repair" ...
+
+enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
+
+/// An argument without which another one has no effect: "distance=margin".
+struct Condition {
+    std::string parameter;
+    std::vector<std::string> values;  ///< any of them, as the command line writes it
+};
+
+[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
+
+/// One documented parameter: the command line's option, the check and its error text, the recipe's
+/// key and the page docs/operations.md all come from this.
+struct Parameter {
+    std::string name;
+    ParameterType type = ParameterType::Real;
+    std::string unit = {};  ///< "mm", "-", "deg" ...; empty for texts
+    std::optional<Value> default_value =
+        {};            ///< none: the operation decides by itself, or `required`
+    std::string help;  ///< one sentence; says what is decided when it is absent
+    double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
+    double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
+    std::vector<std::string> choices = {};                      ///< for Choice
+    bool required = false;
+    bool above_minimum = false;               ///< the minimum itself is not allowed
+    std::optional<Condition> only_with = {};  ///< else it has no effect; none: it always has
+};
+
+/// Figures an operation states about what it found and did: a JSON object with units in the keys
+/// (`volume_mm3`).
+using Report = std::shared_ptr<const nlohmann::ordered_json>;
+
+/// What an operation leaves: a new scene, its figures, the arguments with everything it decided
+/// filled in.
+struct Outcome {
+    Scene scene;
+    Report report;
+    Arguments resolved;
+    std::vector<std::string> warnings;
+};
+
+/// A pure function: same scene, same arguments, same outcome, bit for bit.
+/// \throw UsageError, InvalidInput, AlgorithmFailure, Cancelled; the scene is never touched
+using OperationFunction = Outcome (*)(const Scene& scene, const Arguments& arguments,
+                                      Progress& progress);
+
+/// One row of the operation table.
+struct Operation {
+    std::string name;  ///< the command-line name, "clip-opening"
+    Step usual_step = Step::Source;
+    std::vector<Step> allowed;  ///< all the steps it may stand in, the usual one included
+    std::string summary;        ///< one line
+    std::vector<Parameter> parameters;
+    OperationFunction run = nullptr;
+    /// The same scene without the figures, where these cost as much again; null: run.
+    OperationFunction run_bare = nullptr;
+    bool isolated =
+        false;           ///< run in a worker process: it reads foreign files, or may crash or hang
+    std::string thesis;  ///< section numbers, "4.2.7"; may be empty
+};
+
+/// \throw UsageError that lists the near names and all names if the operation has none of this name
+[[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
+
+/// Parses the command line's text of one argument.
+/// \throw UsageError that names the parameter, the text and the range
+[[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
+
+/// Fills in defaults and checks types, ranges, choices, unknown names. Absent optional arguments
+/// stay absent.
+/// \throw UsageError that names the operation, the parameter, the value and what is allowed
+[[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
+
+/// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
+/// \param resolved what the operation was run with in the end
+[[nodiscard]] std::vector<std::string> arguments_without_effect(const Operation& operation,
+                                                                const Arguments& given,
+                                                                const Arguments& resolved);
+
+}  // namespace vesselbench

@@ -1,0 +1,23 @@
+#include "workbench/case/scene.h"
+
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+const Surface& surface_of(const Scene& scene) {
+    if (!scene.surface || scene.surface->empty())
+        throw InvalidInput(
+            "there is no surface yet: use load-surface, or load-image and extract-surface");
+    return *scene.surface;
+}
+
+Scene with_surface(const Scene& scene, Surface surface) {
+    Scene result = scene;
+    result.surface = std::move(surface);
+    result.volume_mesh.reset();
+    return result;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,451 @@
+#include "workbench/commands/command_line.h"
+
+#include <functional>
+#include <iostream>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/near_names.h"
+#include "workbench/case/version.h"
+#include "workbench/commands/commands.h"
+#include "workbench/phantoms/phantom_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr const char* kDescription =
+    "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
+
+constexpr const char* kPrepareFooter =
+    "Surfaces: .stl .ply .obj .off .vtp .vtk. Images: .nii .nii.gz .nrrd .mha .mhd .vti .vtk and "
+    "DICOM.\n"
+    "A case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the like\n"
+    "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
+    "OUT gets project.vbench, surface.vtp, surface.stl, report.json, report.html; for cfd\n"
+    "volume.vtu, volume.msh, openfoam/; for rp print.stl, print.3mf.\n\n"
+    "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
+    "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out print";
+
+constexpr const char* kExportFooter =
+    "Formats: .stl .ply .obj .off .vtp .glb .3mf of the surface, .vtu .msh of the volume mesh.\n"
+    "All are in millimetres but .glb and OpenFOAM, which are in metres.\n"
+    "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, residual,\n"
+    "processes; --set may be repeated.";
+
+constexpr const char* kPictureFooter =
+    "Patient coordinates are LPS: y points backwards, z to the head. --view 0,1,0 looks from the\n"
+    "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
+    "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
+
+constexpr const char* kSuggestFooter =
+    "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by\n"
+    "tau; the rows below the first one are for little, medium and much of it. Of remesh and\n"
+    "decimate, fewer triangles count in place of less curvature.\n\n"
+    "  vesselbench suggest aorta.vbench --filter laplace --tau 0.4\n"
+    "  vesselbench suggest aorta.vbench staircase=true\n"
+    "  vesselbench suggest aorta.vbench --operation decimate";
+
+constexpr const char* kQualityFooter =
+    "Graphs and bars start from the given arguments of the operation (or its defaults) and change\n"
+    "one parameter at a time. Errors and volumes are shares of what a strong change does: of\n"
+    "smooth, 50 iterations of Laplace with lambda 1. Curvature goes from 100 % of the original to\n"
+    "0 % of the strong change.\n\n"
+    "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png\n"
+    "  vesselbench quality aorta.stl --operation remesh --out graphs.svg";
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
+    "'vesselbench COMMAND --help' explains a command, 'vesselbench operations' the operations.";
+
+/// The parser, and what to do with what it found.
+struct CommandLine {
+    explicit CommandLine(Progress p) : progress(std::move(p)) {}
+
+    CLI::App app{kDescription, "vesselbench"};
+    Progress progress;
+    std::function<int()> command;
+};
+
+CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
+                      std::function<int()> command) {
+    CLI::App& added = *line.app.add_subcommand(name, summary);
+    added.callback([&line, run = std::move(command)] { line.command = run; });
+    return added;
+}
+
+void add_project(CLI::App& command, std::string& project) {
+    command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
+}
+
+void add_operations(CommandLine& line) {
+    const auto options = std::make_shared<OperationsOptions>();
+    CLI::App& command = add_command(line, "operations", "List the operations and their parameters",
+                                    [options] { return list_operations(*options), 0; });
+    command.add_option("NAME", options->name, "Explain this operation only")->type_name("");
+    command.add_flag("--json", options->json, "Print one JSON document");
+    command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
+        ->group("");
+}
+
+void add_apply(CommandLine& line) {
+    const auto options = std::make_shared<ApplyOptions>();
+    CLI::App& command =
+        add_command(line, "apply", "Run an operation on a project, as an edit that can be undone",
+                    [options, &line] { return apply_operation(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command.add_option("OPERATION", options->operation, "Its name, as 'operations' lists it")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("parameter=value", options->arguments,
+                    "Its arguments; 'vesselbench operations OPERATION' explains them")
+        ->type_name("");
+    command
+        .add_option("--variant", options->variant,
+                    "Variant for edits of steps 6-8: cfd, rp or a name")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--step", options->step,
+                    "Step the edit belongs to (default: the operation's usual step)")
+        ->type_name("STEP");
+    command.add_option("--author", options->author, "Who makes the edit (default: login name)")
+        ->type_name("NAME");
+    command.add_option("--note", options->note, "Why, in your words")->type_name("WORDS");
+    command.add_flag("--json", options->json, "Print the edit as one JSON document");
+}
+
+void add_log(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command =
+        add_command(line, "log", "List steps, edits, authors, and what each edit changed",
+                    [options] { return show_log(*options), 0; });
+    add_project(command, options->project);
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_undo_and_redo(CommandLine& line) {
+    const auto options = std::make_shared<StepBackOptions>();
+    CLI::App& undo = add_command(line, "undo", "Go back to the state before an edit",
+                                 [options] { return undo_edit(*options), 0; });
+    add_project(undo, options->project);
+    undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)")
+        ->type_name("");
+    CLI::App& redo = add_command(line, "redo", "Go forward again to an edit that was undone",
+                                 [options] { return redo_edit(*options), 0; });
+    add_project(redo, options->project);
+    redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)")
+        ->type_name("");
+}
+
+void add_replay(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command = add_command(
+        line, "replay", "Run every edit anew and compare with the stored results, bit for bit",
+        [options, &line] { return replay_project(*options, line.progress) ? 0 : 1; });
+    add_project(command, options->project);
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_input(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("INPUT", input.input,
+                    "A surface, an image, a folder of DICOM slices, or of a case")
+        ->required()
+        ->type_name("");
+    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
+        ->type_name("FILE");
+    command
+        .add_option("--units", input.units,
+                    "Unit of the file: mm, cm or m (default: as it says, or a guess)")
+        ->type_name("UNIT");
+}
+
+void add_prepare(CommandLine& line) {
+    const auto options = std::make_shared<PrepareArguments>();
+    CLI::App& command =
+        add_command(line, "prepare", "Make a CFD model or a print model of an image or a surface",
+                    [options, &line] { return prepare_case(*options, line.progress), 0; });
+    add_input(command, options->input);
+    command.footer(kPrepareFooter);
+    command
+        .add_option("--for", options->purpose,
+                    "What the model is for: flow simulation (cfd), printing (rp), pictures\n"
+                    "(planning: keeps raw triangles), or surgery simulation (simulation)")
+        ->required()
+        ->type_name("cfd|rp|planning|simulation");
+    command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead")
+        ->type_name("FILE");
+    command
+        .add_option("--set", options->settings,
+                    "operation.parameter=value: change an argument of the recipe")
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+    command.add_option("--out", options->out, "Folder of the results; made if it is not there")
+        ->required()
+        ->type_name("FOLDER");
+}
+
+void add_new(CommandLine& line) {
+    const auto options = std::make_shared<std::pair<std::string, InputArguments>>();
+    CLI::App& command =
+        add_command(line, "new", "Make a project of an image or a surface", [options, &line] {
+            make_project(options->first, options->second, line.progress);
+            return 0;
+        });
+    add_project(command, options->first);
+    add_input(command, options->second);
+}
+
+void add_export(CommandLine& line) {
+    const auto options = std::make_shared<ExportArguments>();
+    CLI::App& command =
+        add_command(line, "export", "Write the model as a file, or as an OpenFOAM case",
+                    [options, &line] { return export_project(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command
+        .add_option("FILE", options->file,
+                    "Its suffix tells the format; a folder: an OpenFOAM case")
+        ->required()
+        ->type_name("");
+    command.footer(kExportFooter);
+    command.add_option("--variant", options->variant, "Variant to write")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--set", options->settings,
+                    "openfoam.parameter=value: change the flow of the case")
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+}
+
+void add_measure(CommandLine& line) {
+    const auto options = std::make_shared<MeasureOptions>();
+    CLI::App& command =
+        add_command(line, "measure", "Measure a surface, also against a reference surface",
+                    [options] { return measure_surface(*options), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("REFERENCE", options->reference, "Surface file to compare with")
+        ->type_name("");
+    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.add_flag("--json", options->json, "Print one JSON document");
+}
+
+void add_picture(CommandLine& line) {
+    const auto options = std::make_shared<PictureArguments>();
+    CLI::App& command =
+        add_command(line, "picture", "Draw a surface, or its deviation from a reference",
+                    [options] { return draw_picture(*options), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("OUT.png", options->out, "The picture")->required()->type_name("");
+    command
+        .add_option("--reference", options->reference,
+                    "Surface file to compare with: blue is inside, red outside of it")
+        ->type_name("FILE");
+    command
+        .add_option("--full-colour", options->full_colour,
+                    "Deviation of the full colours [mm] (default: 98 of 100 vertices are below)")
+        ->type_name("MM");
+    command
+        .add_option("--view", options->view,
+                    "Direction of sight (default: 0,1,0, from the patient's front)")
+        ->delimiter(',')
+        ->expected(3)
+        ->type_name("X,Y,Z");
+    command.add_option("--size", options->size, "Width and height [pixels]")
+        ->capture_default_str()
+        ->type_name("PIXELS");
+    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.footer(kPictureFooter);
+}
+
+void add_subject(CLI::App& command, SubjectOptions& subject) {
+    command.add_option("SOURCE", subject.source, "Project (.vbench) or surface file")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("parameter=value", subject.arguments,
+                    "Arguments of the operation, which stay as they are; of smooth, staircase=true "
+                    "searches its thresholds, too")
+        ->type_name("");
+    command
+        .add_option("--operation", subject.operation,
+                    "Operation: smooth, remesh, decimate or subdivide (default: smooth)")
+        ->type_name("NAME");
+    command
+        .add_option("--variant", subject.variant,
+                    "Variant of a project, where the operation belongs to one (default: cfd)")
+        ->type_name("NAME");
+    command.add_option("--filter", subject.filter, "Filter of smooth (default: what smooth takes)")
+        ->type_name("NAME");
+    command
+        .add_option("--units", subject.units, "Unit of surface files: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+}
+
+void add_suggest(CommandLine& line) {
+    const auto options = std::make_shared<SuggestOptions>();
+    CLI::App& command = add_command(
+        line, "suggest", "Suggest parameters of smooth, or another operation, for a surface",
+        [options, &line] { return suggest_parameters(*options, line.progress), 0; });
+    add_subject(command, options->subject);
+    command
+        .add_option("--tau", options->tau, "Target, from 0 (accurate) to 1 (smooth; few triangles)")
+        ->capture_default_str()
+        ->type_name("TAU");
+    command
+        .add_option("--score", options->score,
+                    "default, thesis (its Eq. 6.6 as printed) or compact (few triangles)")
+        ->capture_default_str()
+        ->type_name("FORM");
+    command
+        .add_option(
+            "--search", options->search,
+            "automatic, coarse (of laplace: steps of 0.1 and 5 iterations), exhaustive (0.05 "
+            "and 1) or pattern")
+        ->capture_default_str()
+        ->type_name("WAY");
+    command.add_flag("--json", options->json, "Print one JSON document");
+    command.add_flag("--grid", options->grid, "With --json: the measures of all coarse sets, too");
+    command
+        .add_option("--truth", options->truth,
+                    "With --grid: how far each set ends from this surface, which is known to be "
+                    "true")
+        ->type_name("FILE");
+    command.footer(kSuggestFooter);
+}
+
+void add_quality(CommandLine& line) {
+    const auto options = std::make_shared<QualityOptions>();
+    CLI::App& command = add_command(
+        line, "quality", "Draw how parameters of smooth, or another operation, change a surface",
+        [options, &line] { return draw_quality(*options, line.progress), 0; });
+    add_subject(command, options->subject);
+    command
+        .add_option("--out", options->out,
+                    "Where to: an .svg gets graphs, or bars if its name holds that word; a .png "
+                    "gets the gallery of three suggestions; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
+    command.add_option("--tau", options->tau, "Target of the suggestions in graphs and bars")
+        ->capture_default_str()
+        ->type_name("TAU");
+    command.add_option("--sort", options->sort, "Bars by parameter or by measure")
+        ->capture_default_str()
+        ->type_name("ORDER");
+    command
+        .add_option("--at", options->at,
+                    "Place that the gallery magnifies [mm] (default: where the surface moves most)")
+        ->delimiter(',')
+        ->expected(3)
+        ->type_name("X,Y,Z");
+    command.add_flag("--json", options->json, "Print the graphs' figures as one JSON document");
+    command.footer(kQualityFooter);
+}
+
+void add_centerlines(CommandLine& line) {
+    const auto options = std::make_shared<CenterlineOptions>();
+    CLI::App& command =
+        add_command(line, "centerlines", "Find the vessel tree's centerlines and radii",
+                    [options, &line] { return find_centerlines(*options, line.progress), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("OUT.vtp", options->out, "Polylines with MaximumInscribedSphereRadius")
+        ->required()
+        ->type_name("");
+    command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)")
+        ->type_name("UNIT");
+    command.add_flag("--json", options->json, "Print nodes and branches as one JSON document");
+}
+
+void add_phantom(CommandLine& line) {
+    const auto options = std::make_shared<PhantomOptions>();
+    CLI::App& command =
+        add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
+                    [options, &line] { return write_phantom(*options, line.progress), 0; });
+    command.add_option("--seed", options->seed, "Seed of its noise; its own by default");
+    command
+        .add_option("NAME", options->name,
+                    "One of " + joined(phantom_names()) +
+                        ", or a file (.json) that describes one, as those of cases/phantoms do")
+        ->required()
+        ->type_name("");
+    command.add_option("--out", options->out, "Folder; made if it is not there")
+        ->required()
+        ->type_name("FOLDER");
+}
+
+void set_up(CommandLine& line) {
+    line.app.footer(kFooter);
+    line.app.set_version_flag("--version", "vesselbench " + version(),
+                              "Print the version and exit");
+    line.app.set_help_flag("-h,--help", "Print this help and exit");
+    line.app.failure_message(CLI::FailureMessage::simple);
+    line.app.require_subcommand(0, 1);
+    add_prepare(line);
+    add_new(line);
+    add_apply(line);
+    add_log(line);
+    add_undo_and_redo(line);
+    add_replay(line);
+    add_export(line);
+    add_measure(line);
+    add_picture(line);
+    add_suggest(line);
+    add_quality(line);
+    add_centerlines(line);
+    add_operations(line);
+    add_phantom(line);
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2) return;
+    if (std::string(argv[1]).starts_with("--screenshot"))
+        throw UsageError("--screenshot: this version has no window yet");
+    if (argv[1][0] == '-') return;
+    const std::vector<std::string> names = command_names(app);
+    const std::string name = argv[1];
+    if (std::ranges::find(names, name) != names.end()) return;
+    throw UsageError("there is no command '" + name + "' in this version" +
+                     did_you_mean(name, names) + " (the commands are " + joined(names) + ")");
+}
+
+/// The command whose arguments were wrong: its help is what the user needs.
+std::string help_hint(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";
+    return " (see 'vesselbench " + command + "--help')";
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv, const Progress& progress) {
+    CommandLine line(progress);
+    set_up(line);
+    refuse_unknown_command(line.app, argc, argv);
+    try {
+        line.app.parse(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+        return line.app.exit(done, std::cout, std::cerr);
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(error.what() + help_hint(line.app));
+    }
+    if (!line.command) {
+        std::cerr << line.app.help();
+        throw UsageError("this version has no window yet: name a command");
+    }
+    return line.command();
+}
+
+}  // namespace vesselbench

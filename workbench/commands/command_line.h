@@ -1,0 +1,13 @@
+#pragma once
+
+#include "geometry/kernel/progress.h"
+
+namespace vesselbench {
+
+/// Parses the command line and runs the command it names. Results go to stdout, progress and
+/// remarks to stderr.
+/// \return the exit code of a command that ended by itself
+/// \throw UsageError for wrong usage, and what the command throws (geometry/kernel/errors.h)
+int run_command_line(int argc, char** argv, const Progress& progress);
+
+}  // namespace vesselbench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+
+namespace vesselbench {
+
+/// Turns SIGINT and SIGTERM into a stop request for as long as it lives; a second signal ends the
+/// program at once.
+class SignalStop {
+public:
+    SignalStop();
+    ~SignalStop();
+    SignalStop(const SignalStop&) = delete;
+    SignalStop& operator=(const SignalStop&) = delete;
+
+    [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+
+private:
+    struct Listener;
+    std::stop_source source_;
+    std::unique_ptr<Listener> listener_;
+};
+
+/// Shows progress as one changing line on stderr when stderr is a terminal, else shows nothing.
+[[nodiscard]] Progress console_progress(std::stop_token stop);
+
+/// Writes the line "vesselbench: text" to stderr: why the program ends without having done it.
+void complain(const std::string& text);
+
+/// Writes one line to stderr: what was done, or a warning.
+void remark(const std::string& text);
+
+/// Rows as left-aligned columns, two spaces apart; the last column is wrapped to the width of 100
+/// letters.
+[[nodiscard]] std::string as_columns(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace vesselbench

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "meshing/products/cfd_parameters.h"
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+/// The documented parameters of an exported OpenFOAM case: density, viscosity, flow, profile ...
+[[nodiscard]] std::vector<Parameter> flow_parameters();
+
+/// \param arguments checked against flow_parameters(); what is absent keeps its default
+[[nodiscard]] CfdParameters flow_from(const Arguments& arguments);
+
+}  // namespace vesselbench

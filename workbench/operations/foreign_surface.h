@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/kernel/progress.h"
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+/// Reads a surface file in a worker process, by the operation load-surface: whatever a damaged file
+/// does to its reader, the program lives. [mm]
+/// \param units of the file: "mm", "cm" or "m"; empty: mm, for a figure must not depend on a guess
+/// \throw UsageError for other units; what read_surface throws; InvalidInput if the reader crashed
+[[nodiscard]] Surface read_foreign_surface(const std::string& file, const std::string& units = "",
+                                           const Progress& progress = {});
+
+}  // namespace vesselbench

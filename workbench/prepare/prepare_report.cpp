@@ -1,0 +1,243 @@
+#include "workbench/prepare/prepare_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "meshing/tetrahedra/quality.h"
+#include "workbench/case/version.h"
+#include "workbench/report/log_json.h"
+#include "workbench/report/measure_json.h"
+#include "workbench/report/report_pictures.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A cut end: what lies beyond it, or close before it, was made by clipping, blending and
+/// extruding and has no counterpart in the source.
+struct CutEnd {
+    Vec3 centre;
+    Vec3 outward;
+    double diameter = 0.0;
+};
+
+/// How far inward of a cut the surface may differ from the source on purpose [diameters].
+constexpr double kInward = 0.5;
+/// How far to the side the end's own vessel reaches [diameters].
+constexpr double kSideward = 1.5;
+
+std::vector<CutEnd> cut_ends(const Surface& surface) {
+    std::vector<CutEnd> ends;
+    for (const PatchMeasures& patch : measure_patches(surface))
+        if (patch.kind != PatchKind::Wall)
+            ends.push_back({patch.centroid, patch.normal, diameter_of_area(patch.area)});
+    return ends;
+}
+
+bool near_an_end(const Vec3& p, const std::vector<CutEnd>& ends) {
+    return std::ranges::any_of(ends, [&](const CutEnd& end) {
+        const double along = (p - end.centre).dot(end.outward);
+        const double aside = ((p - end.centre) - along * end.outward).norm();
+        return along > -kInward * end.diameter && aside < kSideward * end.diameter;
+    });
+}
+
+/// 1 at the wall's vertices that have a counterpart in the source, #V.
+std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
+                                              const std::vector<CutEnd>& ends) {
+    std::vector<std::uint8_t> flags(surface.vertex_count(), 0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (surface.patch_of(t).kind == PatchKind::Wall)
+            for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (flags[v] && near_an_end(surface.points()[v], ends)) flags[v] = 0;
+    return flags;
+}
+
+Json distance_json(const Surface& surface, const Surface& reference,
+                   const std::vector<std::uint8_t>& comparable) {
+    Positions points;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (comparable[v]) points.push_back(surface.points()[v]);
+    if (points.empty()) return nullptr;
+    std::vector<double> distances;
+    double sum = 0.0;
+    for (const SurfacePoint& found : SurfaceDistance(reference).closest_points(points)) {
+        distances.push_back(found.distance);
+        sum += found.distance;
+    }
+    std::ranges::sort(distances);
+    const std::size_t count = distances.size();
+    return {{"mean_mm", sum / static_cast<double>(count)},
+            {"percentile_95_mm", distances[count - 1 - count / 20]},
+            {"largest_mm", distances.back()},
+            {"points", count}};
+}
+
+/// The edits that make the shown variant, in order.
+std::vector<LogEntry> edits_of(const Session& session, const std::string& variant) {
+    std::vector<LogEntry> edits;
+    for (LogEntry& entry : session.log())
+        if (entry.edit.place.variant.empty() || entry.edit.place.variant == variant)
+            edits.push_back(std::move(entry));
+    return edits;
+}
+
+std::optional<EditId> last_edit(const std::vector<LogEntry>& edits,
+                                std::initializer_list<const char*> operations) {
+    std::optional<EditId> last;
+    for (const LogEntry& entry : edits)
+        if (std::ranges::count(operations, entry.edit.operation) > 0) last = entry.edit.edit.id;
+    return last;
+}
+
+/// Quality of the wall's own triangles: caps are judged apart from it.
+Json wall_json(const Surface& surface) {
+    double skewness = 0.0, worst_skewness = 0.0, ratio = 0.0, worst_ratio = 1.0;
+    std::size_t count = 0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        if (surface.patch_of(t).kind != PatchKind::Wall) continue;
+        const double s = equiangle_skewness(surface.points(), surface.triangles()[t]);
+        const double r = radius_ratio(surface.points(), surface.triangles()[t]);
+        skewness += s;
+        ratio += r;
+        worst_skewness = std::max(worst_skewness, s);
+        worst_ratio = std::min(worst_ratio, r);
+        ++count;
+    }
+    const double n = static_cast<double>(std::max<std::size_t>(count, 1));
+    return {{"equiangle_skewness", {{"mean", skewness / n}, {"max", worst_skewness}}},
+            {"radius_ratio", {{"min", worst_ratio}, {"mean", ratio / n}}}};
+}
+
+Json volume_mesh_json(const VolumeMesh& mesh) {
+    const VolumeQuality q = volume_quality(mesh);
+    return {{"points", q.points},
+            {"cells", q.cells},
+            {"volume_mm3", q.volume},
+            {"smallest_cell_mm3", q.smallest_cell},
+            {"mean_edge_mm", q.mean_edge},
+            {"smallest_dihedral_deg", q.smallest_dihedral},
+            {"largest_dihedral_deg", q.largest_dihedral},
+            {"cells_below_10_deg", q.cells_below_10_deg},
+            {"mean_non_orthogonality_deg", q.mean_non_orthogonality},
+            {"largest_non_orthogonality_deg", q.largest_non_orthogonality},
+            {"faces_over_70_deg", q.faces_over_70_deg},
+            {"faces", q.faces},
+            {"largest_skewness", q.largest_skewness},
+            {"largest_aspect_ratio", q.largest_aspect_ratio},
+            {"mean_volume_ratio", q.mean_volume_ratio},
+            {"largest_volume_ratio", q.largest_volume_ratio}};
+}
+
+Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
+    Json inlets = Json::array();
+    for (const InletFlow& inlet : summary.inlets)
+        inlets.push_back({{"name", inlet.name},
+                          {"area_mm2", inlet.area},
+                          {"diameter_mm", inlet.diameter},
+                          {"mean_velocity_m_s", inlet.mean_velocity},
+                          {"reynolds", inlet.reynolds}});
+    return {{"density_kg_m3", flow.density},
+            {"viscosity_pa_s", flow.viscosity},
+            {"flow_cm3_s", flow.flow},
+            {"profile", flow.profile == InflowProfile::Plug ? "plug" : "parabolic"},
+            {"inlets", inlets},
+            {"outlets", summary.outlets}};
+}
+
+/// The openings' measures, with how they stand to the vessel just inside of them.
+Json openings_json(const Json& patches, const Surface& surface) {
+    Json openings = Json::array();
+    for (Json opening : patches) {
+        if (opening["kind"] == "wall") continue;
+        const auto row =
+            std::ranges::find(surface.patches, opening["name"].get<std::string>(), &Patch::name);
+        const auto axis =
+            axis_at_patch(surface, static_cast<std::size_t>(row - surface.patches.begin()));
+        opening["tilt_deg"] = axis ? Json(axis->tilt_deg) : Json();
+        opening["bend_deg"] = axis ? Json(axis->bend_deg) : Json();
+        openings.push_back(std::move(opening));
+    }
+    return openings;
+}
+
+/// Turn of the vessel just inside the inlet [deg]; 0 where it cannot be measured.
+double inlet_bend(const Json& openings) {
+    for (const Json& opening : openings)
+        if (opening["kind"] == "inlet" && opening["bend_deg"].is_number())
+            return opening["bend_deg"];
+    return 0.0;
+}
+
+void add_quality(Json& report, const Scene& source, const Surface& surface) {
+    report["quality"]["before"] = source.surface ? measure_json(measure(*source.surface)) : Json();
+    report["quality"]["after"] = measure_json(measure(surface));
+    report["quality"]["wall"] = wall_json(surface);
+    report["patches"] = report["quality"]["after"]["patches"];
+    report["openings"] = openings_json(report["patches"], surface);
+}
+
+void add_cfd(Json& report, const PreparedCase& prepared) {
+    report["volume_mesh"] = volume_mesh_json(*prepared.scene.volume_mesh);
+    const FlowSummary summary =
+        flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
+    report["flow"] = flow_json(summary, prepared.flow);
+    for (const std::string& warning : summary.warnings) report["warnings"].push_back(warning);
+}
+
+void add_steps(Json& report, const std::vector<LogEntry>& edits) {
+    report["steps"] = Json::array();
+    for (const LogEntry& entry : edits) {
+        report["steps"].push_back(log_json(entry));
+        if (!entry.result) continue;
+        for (const std::string& warning : entry.result->warnings)
+            report["warnings"].push_back(entry.edit.operation + ": " + warning);
+        if (entry.edit.operation == "print-check")
+            report["print"] = Json::parse(entry.result->report, nullptr, false);
+    }
+}
+
+}  // namespace
+
+PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
+                              const Progress& progress) {
+    const std::vector<LogEntry> edits = edits_of(session, prepared.purpose);
+    const Surface& surface = surface_of(prepared.scene);
+    Json report = {{"program_version", version()},
+                   {"purpose", prepared.purpose},
+                   {"units", "mm"},
+                   {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
+                   {"input",
+                    {{"name", prepared.input.name},
+                     {"kind", prepared.input.is_image ? "image" : "surface"},
+                     {"mask", prepared.input.mask.filename().string()}}},
+                   {"warnings", prepared.warnings}};
+    add_steps(report, edits);
+    const auto source_edit = last_edit(edits, {"load-surface", "extract-surface"});
+    const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
+    progress.report(0.1, "measuring");
+    add_quality(report, source, surface);
+    const auto clip = last_edit(edits, {"clip-opening"});
+    const std::vector<std::uint8_t> comparable = comparable_vertices(
+        surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
+    if (source.surface) {
+        report["distance_to_source"] = distance_json(surface, *source.surface, comparable);
+        report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
+    }
+    if (prepared.input.exact)
+        report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
+    if (prepared.purpose == "cfd") add_cfd(report, prepared);
+    report["products"] = prepared.products;
+    progress.report(0.5, "drawing");
+    return {report,
+            report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable)};
+}
+
+}  // namespace vesselbench

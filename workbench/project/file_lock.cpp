@@ -1,0 +1,66 @@
+#include "workbench/project/file_lock.h"
+
+#include <array>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace vesselbench {
+
+namespace {
+
+/// True if the path still names the opened file: its last holder may have removed it meanwhile.
+bool still_there(int descriptor, const std::filesystem::path& path) {
+    struct stat opened {};
+
+    struct stat named {};
+
+    return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+           opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+std::string holder(int descriptor) {
+    std::array<char, 32> text{};
+    const auto size = pread(descriptor, text.data(), text.size() - 1, 0);
+    return size > 0 ? " (process " + std::string(text.data()) + ")" : "";
+}
+
+void write_holder(int descriptor) {
+    const std::string pid = std::to_string(getpid());
+    // Only a courtesy to the next one who asks; the lock holds without it.
+    if (ftruncate(descriptor, 0) == 0 && pwrite(descriptor, pid.data(), pid.size(), 0) < 0) return;
+}
+
+}  // namespace
+
+FileLock::Attempt FileLock::acquire(const std::filesystem::path& project) {
+    std::filesystem::path path = project;
+    path += "-lock";
+    while (true) {
+        const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor < 0) return {nullptr, "its folder cannot be written"};
+        if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+            const std::string who = holder(descriptor);
+            close(descriptor);
+            return {nullptr, "another vesselbench" + who + " has it open"};
+        }
+        if (still_there(descriptor, path)) {
+            write_holder(descriptor);
+            return {std::unique_ptr<FileLock>(new FileLock(std::move(path), descriptor)), {}};
+        }
+        close(descriptor);
+    }
+}
+
+FileLock::FileLock(std::filesystem::path path, int descriptor)
+    : path_(std::move(path)), descriptor_(descriptor) {}
+
+FileLock::~FileLock() {
+    unlink(path_.c_str());
+    close(descriptor_);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "workbench/case/scene.h"
+#include "workbench/project/bytes.h"
+
+namespace vesselbench {
+
+/// One of the shared arrays a scene consists of. Each is stored once, however many states share it.
+/// The order of the alternatives is part of the blob format.
+using ScenePart =
+    std::variant<std::shared_ptr<const Topology>, std::shared_ptr<const Positions>,
+                 std::shared_ptr<const PatchLabels>, std::shared_ptr<const std::vector<double>>,
+                 std::shared_ptr<const std::vector<float>>, std::shared_ptr<const VolumeMesh>>;
+
+/// The address that two scenes sharing the part have in common.
+[[nodiscard]] const void* identity(const ScenePart& part);
+
+/// Bytes the part holds in memory, neighbour arrays of a topology included.
+[[nodiscard]] std::size_t memory_bytes(const ScenePart& part);
+
+/// SHA-256 of the part's content, 64 hexadecimal digits.
+[[nodiscard]] std::string content_hash(const ScenePart& part);
+
+enum class Compression : std::uint8_t { None = 0, Zstd = 1 };
+
+/// A part as a versioned blob, bit-exact. Compressed blobs carry a checksum.
+[[nodiscard]] Bytes encode(const ScenePart& part, Compression compression);
+
+/// The part as its difference from another of the same kind: the elements that differ, bit-exact,
+/// about 27 bytes for a moved vertex. Empty if so many differ that the whole part is the better
+/// blob.
+[[nodiscard]] std::optional<Bytes> encode_difference(const ScenePart& part, const ScenePart& base);
+
+/// Reads parts back, by a whole blob (or a known part) and then any number of differences in their
+/// order.
+class PartDecoder {
+public:
+    /// \throw InvalidInput if the blob is damaged, of a newer version, or a difference
+    explicit PartDecoder(std::span<const std::byte> blob);
+    explicit PartDecoder(const ScenePart& known);
+
+    /// \throw InvalidInput if the blob is damaged or no difference of this kind of part
+    void apply_difference(std::span<const std::byte> blob);
+
+    /// \throw InvalidInput if the content contradicts itself (a triangle without its vertices...)
+    [[nodiscard]] ScenePart finish();
+
+private:
+    std::uint8_t kind_ = 0;
+    std::uint64_t extra_ = 0;  ///< a topology's number of vertices
+    Bytes content_;
+};
+
+}  // namespace vesselbench

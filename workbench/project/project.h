@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "workbench/case/edit_record.h"
+#include "workbench/case/history.h"
+#include "workbench/case/scene.h"
+
+namespace vesselbench {
+
+/// Image voxels up to this size are embedded; of larger ones only size and SHA-256 are kept.
+constexpr std::size_t kEmbeddedImageBytes = std::size_t{256} << 20;
+
+/// A file that an edit read.
+struct SourceFile {
+    std::string parameter;  ///< of the operation
+    std::string name;       ///< without its folder
+    std::string hash;       ///< SHA-256 of its content
+    std::string place;      ///< path relative to the project; only kept if the scene refers to it
+};
+
+/// What one transaction adds to a project: the difference between two histories, and what belongs
+/// to it.
+struct ProjectChange {
+    const History* before = nullptr;
+    const History* after = nullptr;
+    const EditRecord* edit = nullptr;      ///< of the new edit revision, if there is one
+    const ResultRecord* result = nullptr;  ///< of the new result, if there is one
+    const Scene* scene = nullptr;          ///< of the new result, unless it is stale
+    const Scene* input = nullptr;          ///< the scene it was made from
+    std::vector<SourceFile> sources;       ///< of the new edit revision
+};
+
+/// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
+[[nodiscard]] bool is_project_file(const std::filesystem::path& path);
+
+/// A project file: SQLite in WAL mode, one transaction a change, one writer. What was committed
+/// outlives the death of the process at any moment.
+class ProjectFile {
+public:
+    /// \param embed_limit [bytes] see kEmbeddedImageBytes
+    /// \throw IoError if the file exists or cannot be written
+    [[nodiscard]] static ProjectFile create(const std::filesystem::path& path,
+                                            std::size_t embed_limit = kEmbeddedImageBytes);
+    /// \throw IoError if it cannot be read, InvalidInput if it is no project, damaged, or newer
+    [[nodiscard]] static ProjectFile open(const std::filesystem::path& path,
+                                          std::size_t embed_limit = kEmbeddedImageBytes);
+    /// A project without a name, in a temporary file.
+    [[nodiscard]] static ProjectFile temporary(std::size_t embed_limit = kEmbeddedImageBytes);
+
+    ProjectFile(ProjectFile&&) noexcept;
+    ProjectFile& operator=(ProjectFile&&) noexcept;
+    ~ProjectFile();
+
+    /// Empty if it may be written.
+    [[nodiscard]] const std::string& read_only_reason() const;
+
+    /// The file's folder; empty for a temporary project.
+    [[nodiscard]] std::filesystem::path folder() const;
+
+    [[nodiscard]] History history() const;
+    [[nodiscard]] EditRecord edit(EditRef edit) const;
+    [[nodiscard]] ResultRecord result(ResultId id) const;
+    [[nodiscard]] std::vector<SourceFile> sources(EditRef edit) const;
+
+    /// One transaction. \throw IoError if it cannot be written; the project is then as before
+    void commit(const ProjectChange& change);
+
+    /// The scene of a result, sharing its parts with the scenes in memory.
+    /// \throw InvalidInput if it is damaged, or if a part of it is referenced only and was not
+    ///        recalled
+    [[nodiscard]] Scene scene(ResultId id) const;
+
+    /// True if the result's scene holds an image that is referenced only and not in memory.
+    [[nodiscard]] bool needs_recall(ResultId id) const;
+
+    /// Offers a scene whose parts serve where the stored ones are referenced only, as long as it
+    /// lives.
+    void recall(const Scene& scene) const;
+
+    /// Names of the parts in which a scene differs from the stored one, bit for bit; empty: none.
+    [[nodiscard]] std::vector<std::string> differences(ResultId id, const Scene& scene) const;
+
+    /// Names of the stored parts of a result whose content does not fit their checksum.
+    [[nodiscard]] std::vector<std::string> damages(ResultId id) const;
+
+    /// \throw IoError if the file exists or cannot be written
+    void save_as(const std::filesystem::path& path) const;
+
+private:
+    struct Parts;
+    explicit ProjectFile(std::unique_ptr<Parts> parts);
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "workbench/case/scene.h"
+#include "workbench/project/bytes.h"
+#include "workbench/project/part_codec.h"
+
+namespace vesselbench {
+
+/// A scene as its parts and a few bytes that say how they belong together. A part that stands in
+/// several places is listed as often, so that the bytes do not depend on what happens to be shared.
+struct SceneParts {
+    Bytes manifest;
+    std::vector<ScenePart> parts;
+};
+
+[[nodiscard]] SceneParts take_apart(const Scene& scene);
+
+/// The scene again, sharing the parts.
+/// \throw InvalidInput if the manifest is damaged, or parts do not fit together
+[[nodiscard]] Scene put_together(std::span<const std::byte> manifest,
+                                 const std::vector<ScenePart>& parts);
+
+/// A whole scene in one blob, for worker processes: not compressed. Parts of `known` are not
+/// written but named; decode_scene needs the same known parts.
+[[nodiscard]] Bytes encode_scene(const Scene& scene, const std::vector<ScenePart>& known = {});
+[[nodiscard]] Scene decode_scene(std::span<const std::byte> blob,
+                                 const std::vector<ScenePart>& known = {});
+
+}  // namespace vesselbench

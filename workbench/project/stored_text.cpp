@@ -1,0 +1,117 @@
+#include "workbench/project/stored_text.h"
+
+#include <cmath>
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/project/compression.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Below this size zstd's own frame eats what it saves.
+constexpr std::size_t kShortText = 200;
+
+/// JSON has no infinities: they and NaN are written as {"real": "inf"}.
+Json number_to_json(double number) {
+    if (std::isfinite(number)) return number;
+    return {{"real", std::isnan(number) ? "nan" : number > 0.0 ? "inf" : "-inf"}};
+}
+
+double number_from_json(const Json& json) {
+    if (json.is_number()) return json.get<double>();
+    const auto text = json.at("real").get<std::string>();
+    if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    return text == "inf" ? infinity : -infinity;
+}
+
+struct ToJson {
+    Json operator()(bool flag) const { return flag; }
+
+    Json operator()(std::int64_t number) const { return number; }
+
+    Json operator()(double number) const { return number_to_json(number); }
+
+    Json operator()(const std::string& text) const { return text; }
+
+    Json operator()(const Vec3& p) const {
+        return {{"x", number_to_json(p.x())},
+                {"y", number_to_json(p.y())},
+                {"z", number_to_json(p.z())}};
+    }
+
+    Json operator()(const std::vector<double>& list) const {
+        Json json = Json::array();
+        for (const double number : list) json.push_back(number_to_json(number));
+        return json;
+    }
+};
+
+Value value_from_json(const Json& json) {
+    if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_integer()) return json.get<std::int64_t>();
+    if (json.is_string()) return json.get<std::string>();
+    if (json.is_object() && json.contains("x"))
+        return Vec3(number_from_json(json.at("x")), number_from_json(json.at("y")),
+                    number_from_json(json.at("z")));
+    if (json.is_array()) {
+        std::vector<double> list;
+        for (const Json& number : json) list.push_back(number_from_json(number));
+        return list;
+    }
+    return number_from_json(json);
+}
+
+}  // namespace
+
+std::string stored_text(const Arguments& arguments) {
+    Json json = Json::object();
+    for (const auto& [name, value] : arguments.values()) json[name] = std::visit(ToJson{}, value);
+    return stored_text(json);
+}
+
+std::string stored_text(const Json& report) {
+    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Arguments arguments_from_stored(const std::string& text) {
+    try {
+        Arguments arguments;
+        const Json json = Json::parse(text);
+        for (const auto& [name, value] : json.items()) arguments.set(name, value_from_json(value));
+        return arguments;
+    } catch (const Json::exception& error) {
+        throw InvalidInput(std::string("stored arguments cannot be read: ") + error.what());
+    }
+}
+
+Bytes pack_text(const std::string& text) {
+    ByteWriter writer;
+    const auto bytes = std::as_bytes(std::span(text));
+    const bool zstd = text.size() > kShortText;
+    writer.put<std::uint8_t>(zstd ? 1 : 0);
+    writer.put<std::uint64_t>(text.size());
+    if (zstd)
+        writer.append(compress(bytes));
+    else
+        writer.append(bytes);
+    return writer.take();
+}
+
+std::string unpack_text(std::span<const std::byte> blob) {
+    ByteReader reader(blob);
+    const auto zstd = reader.get<std::uint8_t>();
+    const auto size = reader.get<std::uint64_t>();
+    const auto rest = reader.get_bytes(reader.left());
+    const Bytes bytes = zstd != 0 ? decompress(rest, size) : Bytes(rest.begin(), rest.end());
+    if (bytes.size() != size) throw InvalidInput("a stored text is cut short");
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,94 @@
+#include "workbench/session/surface_change.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
+
+namespace vesselbench {
+
+namespace {
+
+// Of larger differences every n-th vertex is measured: the log must not cost more than the edit.
+constexpr std::size_t kLargestSample = 50000;
+
+struct Deviations {
+    double sum = 0.0;
+    double largest = 0.0;
+    double count = 0.0;
+
+    void add(double deviation, double weight = 1.0) {
+        sum += weight * deviation;
+        largest = std::max(largest, deviation);
+        count += weight;
+    }
+};
+
+bool comes_before(const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+Deviations deviations_in_place(const Positions& before, const Positions& after) {
+    Deviations found;
+    for (std::size_t v = 0; v < after.size(); ++v)
+        if (before[v] != after[v]) found.add((after[v] - before[v]).norm());
+    return found;
+}
+
+/// Distances of the vertices to another surface. Those that stand on one of its vertices need no
+/// search.
+Deviations deviations_from(const Positions& points, const Surface& other) {
+    Positions sorted = other.points();
+    std::sort(sorted.begin(), sorted.end(), comes_before);
+    Positions away;
+    for (const Vec3& p : points)
+        if (!std::binary_search(sorted.begin(), sorted.end(), p, comes_before)) away.push_back(p);
+    Deviations found;
+    found.count = static_cast<double>(points.size() - away.size());
+    if (away.empty()) return found;
+    const std::size_t stride = (away.size() - 1) / kLargestSample + 1;
+    const std::size_t all = away.size();
+    Positions sample;
+    for (std::size_t i = 0; i < all; i += stride) sample.push_back(away[i]);
+    const double weight = static_cast<double>(all) / static_cast<double>(sample.size());
+    for (const SurfacePoint& nearest : SurfaceDistance(other).closest_points(sample))
+        found.add(nearest.distance, weight);
+    return found;
+}
+
+void add_deviations(const Surface& before, const Surface& after, SurfaceChange& change) {
+    Deviations found;
+    if (before.topology == after.topology) {
+        found = deviations_in_place(before.points(), after.points());
+        change.moved_vertices = static_cast<std::size_t>(found.count);
+    } else {
+        found = deviations_from(after.points(), before);
+        const Deviations back = deviations_from(before.points(), after);
+        found = {found.sum + back.sum, std::max(found.largest, back.largest),
+                 found.count + back.count};
+    }
+    change.largest_deviation = found.largest;
+    change.mean_deviation = found.count > 0.0 ? found.sum / found.count : 0.0;
+}
+
+}  // namespace
+
+SurfaceChange surface_change(const Scene& before, const Scene& after) {
+    SurfaceChange change;
+    const bool had = before.surface && !before.surface->empty();
+    const bool has = after.surface && !after.surface->empty();
+    if (had) {
+        change.triangles_before = before.surface->triangle_count();
+        change.volume_before = volume(*before.surface);
+    }
+    if (!has) return change;
+    change.triangles_after = after.surface->triangle_count();
+    const bool same_shape = had && before.surface->positions == after.surface->positions &&
+                            before.surface->topology == after.surface->topology;
+    change.volume_after = same_shape ? change.volume_before : volume(*after.surface);
+    if (had) add_deviations(*before.surface, *after.surface, change);
+    return change;
+}
+
+}  // namespace vesselbench

@@ -1,9 +1,0 @@
-#include "workbench/version.h"
-
-namespace vesselbench {
-
-std::string version() {
-    return VESSELBENCH_VERSION;
-}
-
-}  // namespace vesselbench

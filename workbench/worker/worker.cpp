@@ -1,0 +1,366 @@
+#include "workbench/worker/worker.h"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/project/serialization.h"
+#include "workbench/project/stored_text.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+// The worker's ends: request on stdin, outcome and progress on these; stdout goes to stderr.
+constexpr int kOutcome = 3;
+constexpr int kProgress = 4;
+constexpr int kFirstFree = 10;
+constexpr int kPollMilliseconds = 20;
+constexpr auto kProgressInterval = std::chrono::milliseconds(20);
+
+// The sanitizers' shadow memory takes more address space than any limit.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+enum class Ending : std::uint8_t {
+    Done = 1,
+    Usage,
+    Input,
+    Io,
+    Algorithm,
+    Gpu,
+    Cancel,
+    Memory,
+    Broken
+};
+
+/// A file descriptor that is closed with its owner.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {
+        if (number < 0) throw IoError("cannot start a worker process: too many open files");
+    }
+
+    ~Descriptor() { reset(); }
+
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+
+    Descriptor& operator=(Descriptor&&) = delete;
+
+    [[nodiscard]] int number() const { return number_; }
+
+    void reset() {
+        if (number_ >= 0) close(number_);
+        number_ = -1;
+    }
+
+private:
+    int number_;
+};
+
+/// Away from the low numbers that the worker's ends get.
+Descriptor moved_up(int number) {
+    const Descriptor low(number);
+    return Descriptor(fcntl(number, F_DUPFD_CLOEXEC, kFirstFree));
+}
+
+/// A file in memory that only the two processes know.
+Descriptor memory_file(const char* name) {
+    return moved_up(memfd_create(name, MFD_CLOEXEC));
+}
+
+void write_all(int descriptor, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const auto done = write(descriptor, bytes.data(), bytes.size());
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) throw IoError("cannot hand a scene to a worker process: no memory left");
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+}
+
+Bytes read_all(int descriptor) {
+    struct stat info {};
+
+    fstat(descriptor, &info);
+    Bytes bytes(static_cast<std::size_t>(info.st_size));
+    std::size_t have = 0;
+    while (have < bytes.size()) {
+        const auto got =
+            pread(descriptor, bytes.data() + have, bytes.size() - have, static_cast<off_t>(have));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        have += static_cast<std::size_t>(got);
+    }
+    bytes.resize(have);
+    return bytes;
+}
+
+Bytes request_bytes(const Operation& operation, const Scene& scene, const Arguments& arguments,
+                    const WorkerOptions& options) {
+    ByteWriter writer;
+    writer.put<std::uint64_t>(options.memory_limit);
+    writer.put_text(operation.name);
+    writer.put_text(stored_text(arguments));
+    writer.append(encode_scene(scene));
+    return writer.take();
+}
+
+Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known) {
+    ByteWriter writer;
+    writer.put(Ending::Done);
+    writer.put_text(outcome.report ? stored_text(*outcome.report) : "");
+    writer.put_text(stored_text(outcome.resolved));
+    writer.put_text(stored_text(Json(outcome.warnings)));
+    writer.append(encode_scene(outcome.scene, known));
+    return writer.take();
+}
+
+Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known) {
+    Outcome outcome;
+    const std::string report = reader.get_text();
+    if (!report.empty()) outcome.report = std::make_shared<const Json>(Json::parse(report));
+    outcome.resolved = arguments_from_stored(reader.get_text());
+    outcome.warnings = Json::parse(reader.get_text()).get<std::vector<std::string>>();
+    outcome.scene = decode_scene(reader.get_bytes(reader.left()), known);
+    return outcome;
+}
+
+/// The worker process, killed and reaped with its owner.
+class Child {
+public:
+    Child(const std::vector<std::string>& command, const Descriptor& request,
+          const Descriptor& outcome, const Descriptor& progress) {
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, request.number(), STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, outcome.number(), kOutcome);
+        posix_spawn_file_actions_adddup2(&actions, progress.number(), kProgress);
+        std::vector<char*> words;
+        for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+        words.push_back(nullptr);
+        const int code = posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        if (code != 0) throw IoError("cannot start the worker process " + command[0]);
+    }
+
+    ~Child() {
+        if (pid_ <= 0) return;
+        kill(pid_, SIGKILL);
+        wait();
+    }
+
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    /// Waits for its end. \return its status as waitpid() tells it
+    int wait() {
+        int status = 0;
+        while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+        }
+        pid_ = -1;
+        return status;
+    }
+
+private:
+    pid_t pid_ = -1;
+};
+
+/// Passes the worker's progress lines on until it closes its end. \return false after the deadline
+bool follow(int descriptor, const Progress& progress, Clock::time_point deadline) {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    while (Clock::now() < deadline) {
+        progress.check_cancelled();
+        pollfd waiting{descriptor, POLLIN, 0};
+        if (poll(&waiting, 1, kPollMilliseconds) <= 0) continue;
+        const auto got = read(descriptor, buffer.data(), buffer.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return true;
+        text.append(buffer.data(), static_cast<std::size_t>(got));
+        for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
+            const auto space = text.find(' ');
+            const double fraction = std::strtod(text.c_str(), nullptr);
+            progress.report(std::clamp(fraction, 0.0, 1.0),
+                            text.substr(std::min(space + 1, end), end - std::min(space + 1, end)));
+            text.erase(0, end + 1);
+        }
+    }
+    return false;
+}
+
+/// The name of the foreign file that the operation reads, if it reads one.
+std::optional<std::string> file_of(const Operation& operation, const Arguments& arguments) {
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.type == ParameterType::File && arguments.has(parameter.name)) {
+            const std::string path = arguments.text(parameter.name);
+            return path.substr(path.find_last_of('/', path.size() - 2) + 1);
+        }
+    return std::nullopt;
+}
+
+[[noreturn]] void throw_broken(const Operation& operation, const Arguments& arguments,
+                               const std::string& what) {
+    if (const auto file = file_of(operation, arguments))
+        throw InvalidInput(operation.name + " " + what + " while reading " + *file +
+                           ": the file is probably damaged; the project is as it was");
+    throw AlgorithmFailure(operation.name + " " + what +
+                           "; the project is as it was. Try other parameters, or repair first");
+}
+
+[[noreturn]] void throw_ending(Ending ending, const std::string& text) {
+    switch (ending) {
+        case Ending::Usage:
+            throw UsageError(text);
+        case Ending::Input:
+            throw InvalidInput(text);
+        case Ending::Io:
+            throw IoError(text);
+        case Ending::Gpu:
+            throw GpuUnavailable(text);
+        case Ending::Cancel:
+            throw Cancelled();
+        default:
+            throw AlgorithmFailure(text);
+    }
+}
+
+std::string how_it_ended(int status) {
+    if (WIFSIGNALED(status)) return std::string("crashed (") + strsignal(WTERMSIG(status)) + ")";
+    return "ended early (code " + std::to_string(WEXITSTATUS(status)) + ")";
+}
+
+std::string gigabytes(std::size_t bytes) {
+    return std::to_string((bytes + (std::size_t{1} << 29)) >> 30) + " GiB";
+}
+
+/// What the worker says of an error that the operation threw.
+template <class Run>
+Bytes outcome_or_error(Run run) {
+    const auto error = [](Ending ending, const char* text) {
+        ByteWriter writer;
+        writer.put(ending);
+        writer.put_text(text);
+        return writer.take();
+    };
+    try {
+        return run();
+    } catch (const UsageError& e) {
+        return error(Ending::Usage, e.what());
+    } catch (const InvalidInput& e) {
+        return error(Ending::Input, e.what());
+    } catch (const IoError& e) {
+        return error(Ending::Io, e.what());
+    } catch (const GpuUnavailable& e) {
+        return error(Ending::Gpu, e.what());
+    } catch (const Cancelled& e) {
+        return error(Ending::Cancel, e.what());
+    } catch (const std::bad_alloc&) {
+        return error(Ending::Memory, "");
+    } catch (const AlgorithmFailure& e) {
+        return error(Ending::Algorithm, e.what());
+    } catch (const std::exception& e) {
+        return error(Ending::Broken, e.what());  // of a library: it names neither place nor remedy
+    }
+}
+
+void limit(int resource, std::size_t bytes) {
+    const rlimit value{bytes, bytes};
+    setrlimit(static_cast<__rlimit_resource>(resource), &value);
+}
+
+/// Writes "fraction text" lines, not more often than a reader can follow.
+Progress::Receiver progress_lines() {
+    return [last = Clock::time_point{}](double fraction, std::string_view what) mutable {
+        if (Clock::now() - last < kProgressInterval) return;
+        last = Clock::now();
+        std::string line = std::to_string(fraction) + " " + std::string(what);
+        std::replace(line.begin(), line.end(), '\n', ' ');
+        write_all(kProgress, std::as_bytes(std::span(line += '\n')));
+    };
+}
+
+Bytes run_request(const OperationLookup& find) {
+    const Bytes request = read_all(STDIN_FILENO);
+    ByteReader reader(request);
+    const auto memory = reader.get<std::uint64_t>();
+    if (memory > 0 && !kSanitized) limit(RLIMIT_AS, memory);
+    const Operation& operation = find(reader.get_text());
+    const Arguments arguments = arguments_from_stored(reader.get_text());
+    const Scene scene = decode_scene(reader.get_bytes(reader.left()));
+    Progress progress(progress_lines(), {});
+    const Outcome outcome = operation.run(scene, arguments, progress);
+    return outcome_bytes(outcome, take_apart(scene).parts);
+}
+
+}  // namespace
+
+Outcome run_in_worker(const Operation& operation, const Scene& scene, const Arguments& checked,
+                      const Progress& progress, const WorkerOptions& options) {
+    auto command = options.command;
+    if (command.empty()) command = {"/proc/self/exe", "--worker"};
+    const Descriptor request = memory_file("vesselbench-request");
+    const Descriptor answer = memory_file("vesselbench-outcome");
+    write_all(request.number(), request_bytes(operation, scene, checked, options));
+    lseek(request.number(), 0, SEEK_SET);
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw IoError("cannot start a worker process: too many open files");
+    const Descriptor reading = moved_up(ends[0]);
+    Descriptor writing = moved_up(ends[1]);
+    Child child(command, request, answer, writing);
+    writing.reset();
+
+    if (!follow(reading.number(), progress, Clock::now() + options.time_limit))
+        throw_broken(operation, checked,
+                     "took longer than " + std::to_string(options.time_limit.count()) + " s");
+    const int status = child.wait();
+    const Bytes bytes = read_all(answer.number());
+    if (status != 0 || bytes.empty()) throw_broken(operation, checked, how_it_ended(status));
+    ByteReader reader(bytes);
+    const auto ending = static_cast<Ending>(reader.get<std::uint8_t>());
+    if (ending == Ending::Memory)
+        throw_broken(operation, checked,
+                     "needs more memory than its limit of " + gigabytes(options.memory_limit));
+    if (ending == Ending::Broken)
+        throw_broken(operation, checked, "failed (" + reader.get_text() + ")");
+    if (ending != Ending::Done) throw_ending(ending, reader.get_text());
+    return read_outcome(reader, take_apart(scene).parts);
+}
+
+int worker_main(const OperationLookup& find) {
+    if (fcntl(kOutcome, F_GETFD) < 0 || fcntl(kProgress, F_GETFD) < 0) return 2;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no worker outlives the session that waits for it
+    limit(RLIMIT_CORE, 0);
+    const Bytes answer = outcome_or_error([&] { return run_request(find); });
+    try {
+        write_all(kOutcome, answer);
+    } catch (const std::exception&) {
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace vesselbench
