@@ -76,6 +76,28 @@ struct Outcome {
 using OperationFunction = Outcome (*)(const Scene& scene, const Arguments& arguments,
                                       Progress& progress);
 
+/// An operation that is driven live: started on a scene, then given arguments as they come. Its
+/// batch form is start plus everything added, so that what was previewed and what is committed have
+/// the same bits. Not thread-safe: one thread drives it.
+class Stepper {
+public:
+    virtual ~Stepper() = default;
+
+    /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
+    /// \throw as the operation's batch form; the scene then stays as it was
+    virtual void add(const Arguments& more, Progress& progress) = 0;
+
+    /// The scene after everything added so far.
+    [[nodiscard]] virtual const Scene& scene() const = 0;
+
+    /// What the batch form returns for everything added so far, figures included.
+    [[nodiscard]] virtual Outcome outcome(Progress& progress) = 0;
+};
+
+/// Starts an operation live. \param checked arguments as checked_arguments() returns them
+using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene, const Arguments& checked,
+                                                     Progress& progress);
+
 /// One row of the operation table.
 struct Operation {
     std::string name;  ///< the command-line name, "clip-opening"
@@ -86,6 +108,7 @@ struct Operation {
     OperationFunction run = nullptr;
     /// The same scene without the figures, where these cost as much again; null: run.
     OperationFunction run_bare = nullptr;
+    StepperFunction start = nullptr;  ///< the live form; null: the operation has none
     bool isolated =
         false;           ///< run in a worker process: it reads foreign files, or may crash or hang
     std::string thesis;  ///< section numbers, "4.2.7"; may be empty
