@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <stdlib.h>
 
+#include "tests/support/paths.h"
 #include "tests/support/surface_facts.h"
 
 namespace vesselbench::test {
@@ -221,7 +222,7 @@ Eigen::Matrix3d skew_rotation() {
 
 std::string shared_data(const std::string& name) {
     const auto path =
-        std::filesystem::path(VESSELBENCH_SOURCE_DIR).parent_path() / "shared" / "data" / name;
+        std::filesystem::path(test::source_folder()).parent_path() / "shared" / "data" / name;
     if (std::filesystem::exists(path)) return path.string();
     WARN("skipped: no ../shared/data");
     return {};

@@ -10,10 +10,12 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
 #include "tests/support/nasty_shapes.h"
+#include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/table.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -114,8 +116,8 @@ SCENARIO("A painted weight steers smooth, and every way back has the same bits",
     });
     write_surface(tube, file);
     const std::string project = temporary_folder() + "/p.vbench";
-    SessionOptions options;
-    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    SessionOptions options{.find = find_operation};
+    options.worker.command = {test::program_path(), "--worker"};
     Positions painted_points;
     {
         Session session = Session::create(project, options);
@@ -232,8 +234,8 @@ SCENARIO("In a project a stroke is undone, replayed, and stale where its place i
          "[workbench][brush]") {
     const std::string file = temporary_folder() + "/tube.vtp";
     write_surface(closed_tube(2.0, 12.0, 48, 60), file);
-    SessionOptions options;
-    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    SessionOptions options{.find = find_operation};
+    options.worker.command = {test::program_path(), "--worker"};
     Session session = Session::unsaved(options);
     const EditId loaded = session.apply("load-surface", {{"file", file}}).edit.edit.id;
     const Positions before = surface_of(session.scene()).points();

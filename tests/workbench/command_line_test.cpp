@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(VESSELBENCH_BINARY, arguments);
+    return run_program(vesselbench::test::program_path(), arguments);
 }
 
 std::vector<std::string> commands() {
@@ -90,7 +91,7 @@ SCENARIO("The operation table is printed for people and for programs",
 }
 
 SCENARIO("docs/operations.md says what the program says", "[workbench][command-line]") {
-    std::ifstream page(VESSELBENCH_SOURCE_DIR "/docs/operations.md");
+    std::ifstream page(vesselbench::test::source_folder() + "/docs/operations.md");
     const std::string text{std::istreambuf_iterator<char>(page), {}};
     INFO("renew it with scripts/docs");
     CHECK((text == run({"operations", "--markdown"}).out));

@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/paths.h"
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -15,10 +17,9 @@ namespace {
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"geometry", {"geometry"}},
     {"smoothing", {"geometry", "smoothing"}},
-    {"quality", {"geometry", "smoothing", "quality"}},
-    {"gpu", {"geometry", "smoothing", "quality", "gpu"}},
+    {"gpu", {"geometry", "smoothing", "gpu"}},
     {"meshing", {"geometry", "meshing"}},
-    {"workbench", {"geometry", "smoothing", "quality", "gpu", "meshing", "workbench"}}};
+    {"workbench", {"geometry", "smoothing", "gpu", "meshing", "workbench"}}};
 
 struct Include {
     std::string file;  ///< that includes, relative to the repository
@@ -31,7 +32,7 @@ bool is_header(const fs::path& file) {
 }
 
 std::vector<Include> includes_of(const std::string& folder) {
-    const fs::path root = VESSELBENCH_SOURCE_DIR;
+    const fs::path root = vesselbench::test::source_folder();
     static const std::regex pattern(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
     std::vector<Include> includes;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
@@ -53,7 +54,7 @@ bool is_heavy_library(const std::string& name) {
 }
 
 bool may_use_vtk(const std::string& file) {
-    return file.starts_with("geometry/io/") || file.starts_with("geometry/image/") ||
+    return file.starts_with("geometry/formats/") || file.starts_with("geometry/image/") ||
            file.starts_with("geometry/phantoms/");  // its iso-surface
 }
 

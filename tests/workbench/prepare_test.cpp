@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits = "") {
-    return run_program(VESSELBENCH_BINARY, arguments, limits);
+    return run_program(test::program_path(), arguments, limits);
 }
 
 std::string text_of(const fs::path& file) {
@@ -247,7 +248,7 @@ SCENARIO("Ctrl-C ends prepare and leaves the project", "[workbench][prepare]") {
                "for i in $(seq 200); do [ -f \"$3/project.vbench\" ] && break; sleep 0.05; done\n"
                "sleep 0.5\nkill -INT $pid\nwait $pid\n");
     const ProgramRun result = run_program(
-        "/bin/bash", {"-m", folder + "/run.sh", VESSELBENCH_BINARY, tube(), folder + "/out"});
+        "/bin/bash", {"-m", folder + "/run.sh", test::program_path(), tube(), folder + "/out"});
     INFO(result.err);
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, Contains("cancelled"));

@@ -7,6 +7,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "tests/support/nasty_shapes.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
@@ -103,7 +104,7 @@ SCENARIO("smooth refuses nonsense by the parameter's name and range", "[workbenc
     const std::string folder = temporary_folder(), project = folder + "/p.vbench";
     write_surface(closed_tube(2.0, 6.0, 12, 8), folder + "/tube.vtp");
     const auto program = [&](std::vector<std::string> arguments) {
-        return run_program(VESSELBENCH_BINARY, arguments);
+        return run_program(test::program_path(), arguments);
     };
     REQUIRE(program({"new", project, folder + "/tube.vtp"}).exit_code == 0);
     const auto check = [&](const std::vector<Nonsense>& cases, int exit_code) {
@@ -139,16 +140,17 @@ SCENARIO("A neighbour file without a surface is bad input and no edit", "[workbe
     write_surface(closed_tube(2.0, 6.0, 12, 8), folder + "/tube.vtp");
     write_text(folder + "/empty.stl", "solid empty\nendsolid empty\n");
     write_text(folder + "/nowhere.off", "OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n");
-    REQUIRE(run_program(VESSELBENCH_BINARY, {"new", project, folder + "/tube.vtp"}).exit_code == 0);
+    REQUIRE(run_program(test::program_path(), {"new", project, folder + "/tube.vtp"}).exit_code ==
+            0);
     for (const std::string name : {"empty.stl", "nowhere.off", "missing.stl"}) {
         const ProgramRun result = run_program(
-            VESSELBENCH_BINARY,
+            test::program_path(),
             {"apply", project, "load-neighbour", "name=tumour", "file=" + folder + "/" + name});
         INFO(result.err);
         CHECK(result.exit_code == 3);
         CHECK_THAT(result.err, Catch::Contains(name));
     }
-    const ProgramRun log = run_program(VESSELBENCH_BINARY, {"log", project, "--json"});
+    const ProgramRun log = run_program(test::program_path(), {"log", project, "--json"});
     CHECK(nlohmann::json::parse(log.out)["edits"].size() == 1);
 }
 

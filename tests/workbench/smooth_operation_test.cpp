@@ -10,6 +10,7 @@
 #include "geometry/phantoms/phantom.h"
 #include "smoothing/context/distance_weights.h"
 #include "tests/support/iso_surface.h"
+#include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
@@ -356,8 +357,8 @@ SCENARIO("A GPU finds the context that the CPU finds", "[workbench][smooth][devi
 SCENARIO("What a GPU smoothed is replayed by tolerance", "[workbench][smooth][device]") {
     const std::string folder = temporary_folder();
     write_surface(*terraced_vessel().surface, folder + "/vessel.vtp");
-    SessionOptions options;
-    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    SessionOptions options{.find = find_operation};
+    options.worker.command = {test::program_path(), "--worker"};
     Session session = Session::create(folder + "/case.vbench", options);
     session.apply("load-surface", {{"file", folder + "/vessel.vtp"}});
     const LogEntry cpu = session.apply("smooth", {{"iterations", std::int64_t{5}}});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -18,7 +19,7 @@ using Json = nlohmann::json;
 namespace {
 
 ProgramRun program(const std::vector<std::string>& arguments) {
-    return run_program(VESSELBENCH_BINARY, arguments);
+    return run_program(test::program_path(), arguments);
 }
 
 /// A noisy ball as a file.
