@@ -6,9 +6,9 @@
 #include <map>
 #include <numbers>
 
-#include <catch2/catch.hpp>
 #include <stdlib.h>
 
+#include "tests/support/skip.h"
 #include "tests/support/surface_facts.h"
 
 namespace vesselbench::test {
@@ -223,7 +223,7 @@ std::string shared_data(const std::string& name) {
     const auto path =
         std::filesystem::path(VESSELBENCH_SOURCE_DIR).parent_path() / "shared" / "data" / name;
     if (std::filesystem::exists(path)) return path.string();
-    WARN("skipped: no ../shared/data");
+    skip("no ../shared/data/" + name);
     return {};
 }
 
