@@ -83,10 +83,10 @@ double median(std::vector<double> values) {
 /// plus, minus or not at all.
 std::vector<Vec3> lattice_normals(const std::array<Vec3, 3>& axes, const Vec3& edges) {
     std::vector<Vec3> normals;
+    const auto sign = [](int digits) { return static_cast<double>(digits % 3 - 1); };
     for (int code = 14; code < 27; ++code) {  // one of each pair of opposite ones
-        const Vec3 n = (code / 9 - 1) / edges[0] * axes[0] +
-                       (code / 3 % 3 - 1) / edges[1] * axes[1] +
-                       (code % 3 - 1) / edges[2] * axes[2];
+        const Vec3 n = sign(code / 9) / edges[0] * axes[0] + sign(code / 3) / edges[1] * axes[1] +
+                       sign(code) / edges[2] * axes[2];
         normals.push_back(n.normalized());
     }
     return normals;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <random>
 
-#include <catch2/catch.hpp>
-
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
+#include "tests/support/skip.h"
 
 namespace vesselbench::test {
 
@@ -26,7 +25,7 @@ std::optional<TestDevice> test_device() {
     try {
         return TestDevice{};
     } catch (const GpuUnavailable& error) {
-        WARN("skipped: " << error.what());
+        skip(error.what());
         return std::nullopt;
     }
 }

@@ -17,7 +17,7 @@ struct TestDevice {
     Device device = current_device();
 };
 
-/// Nothing, after a WARN that says what is missing, where there is no usable OpenGL.
+/// Nothing where there is no usable OpenGL: the scenario counts as skipped.
 [[nodiscard]] std::optional<TestDevice> test_device();
 
 /// The surface on the device.

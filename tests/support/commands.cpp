@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <catch2/catch.hpp>
 #include <sys/wait.h>
+
+#include "tests/support/skip.h"
 
 namespace vesselbench::test {
 
@@ -30,7 +31,7 @@ std::optional<CommandRun> run_command(const std::string& program,
                                       const std::vector<std::string>& arguments,
                                       const std::string& folder) {
     if (!installed(program)) {
-        WARN("skipped: " + program + " is not installed");
+        skip(program + " is not installed");
         return std::nullopt;
     }
     std::string line = "export WM_PROJECT_DIR=/usr/share/openfoam; ";

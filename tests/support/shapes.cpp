@@ -6,10 +6,10 @@
 #include <map>
 #include <numbers>
 
-#include <catch2/catch.hpp>
 #include <stdlib.h>
 
 #include "tests/support/paths.h"
+#include "tests/support/skip.h"
 #include "tests/support/surface_facts.h"
 
 namespace vesselbench::test {
@@ -224,7 +224,7 @@ std::string shared_data(const std::string& name) {
     const auto path =
         std::filesystem::path(test::source_folder()).parent_path() / "shared" / "data" / name;
     if (std::filesystem::exists(path)) return path.string();
-    WARN("skipped: no ../shared/data");
+    skip("no ../shared/data/" + name);
     return {};
 }
 

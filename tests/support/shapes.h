@@ -33,8 +33,8 @@ namespace vesselbench::test {
 /// A rotation that is parallel to no axis.
 [[nodiscard]] Eigen::Matrix3d skew_rotation();
 
-/// Path of ../shared/data/<name> beside the checkout, or empty (after a WARN "skipped: no
-/// ../shared/data").
+/// Path of ../shared/data/<name> beside the checkout, or empty if it is not there: the
+/// scenario counts as skipped.
 [[nodiscard]] std::string shared_data(const std::string& name);
 
 /// A new empty folder for one test, removed when the program ends.

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,71 +17,341 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::map<std::string, std::set<std::string>> kMayInclude = {
-    {"geometry", {"geometry"}},
-    {"smoothing", {"geometry", "smoothing"}},
-    {"gpu", {"geometry", "smoothing", "gpu"}},
-    {"meshing", {"geometry", "meshing"}},
-    {"workbench", {"geometry", "smoothing", "gpu", "meshing", "workbench"}}};
+using Names = std::set<std::string>;
+
+// The rooms and the rooms each may include besides itself; the drawing is in docs/architecture.md.
+// A file belongs to the room of its longest prefix; "geometry" on the right means all rooms there.
+const std::map<std::string, Names> kDoors = {
+    {"geometry/kernel", {}},
+    {"geometry/image", {"geometry/kernel"}},
+    {"geometry/vessel/centerlines", {"geometry/kernel"}},
+    {"geometry/vessel/openings", {"geometry/kernel", "geometry/vessel/centerlines"}},
+    {"geometry/vessel/repair", {"geometry/kernel"}},
+    {"geometry/formats", {"geometry/kernel", "geometry/image", "geometry/vessel"}},
+    {"geometry/phantoms", {"geometry/kernel", "geometry/image"}},
+    {"smoothing/filters", {"geometry/kernel"}},
+    {"smoothing/context", {"geometry/kernel", "smoothing/filters"}},
+    {"smoothing/brush", {"geometry/kernel", "smoothing/filters"}},
+    {"smoothing/quality", {"geometry/kernel", "smoothing/filters", "smoothing/context"}},
+    {"gpu", {"geometry/kernel", "smoothing/filters", "smoothing/context", "smoothing/quality"}},
+    {"meshing/remeshing", {"geometry/kernel", "geometry/vessel"}},
+    {"meshing/tetrahedra", {"geometry/kernel"}},
+    {"meshing/products", {"geometry/kernel", "geometry/formats", "meshing/tetrahedra"}},
+    {"workbench/case", {"geometry/kernel", "geometry/image", "meshing/tetrahedra"}},
+    {"workbench/project", {"geometry/kernel", "workbench/case"}},
+    {"workbench/worker", {"geometry/kernel", "workbench/case", "workbench/project"}},
+    {"workbench/session",
+     {"geometry/kernel", "workbench/case", "workbench/project", "workbench/worker"}},
+    {"workbench/operations",
+     {"geometry", "smoothing", "gpu", "meshing", "workbench/case", "workbench/worker"}},
+    {"workbench/export",
+     {"geometry/kernel", "geometry/formats", "meshing/products", "workbench/case"}},
+    {"workbench/phantoms",
+     {"geometry/kernel", "geometry/formats", "geometry/phantoms", "workbench/case"}},
+    {"workbench/report",
+     {"geometry/kernel", "smoothing/quality", "gpu", "workbench/case", "workbench/session"}},
+    {"workbench/prepare",
+     {"geometry", "meshing", "workbench/case", "workbench/session", "workbench/operations",
+      "workbench/export", "workbench/report", "workbench/phantoms"}},
+    {"workbench/suggest",
+     {"geometry/kernel", "smoothing", "gpu", "meshing/remeshing", "workbench/case",
+      "workbench/project", "workbench/worker", "workbench/session", "workbench/operations"}},
+    {"workbench/commands", {"geometry", "smoothing", "gpu", "meshing", "workbench"}}};
+
+const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
+
+// Whose function another header declares: commands.h and operations/table.h, main(), and
+// what is yet to be parted.
+const Names kNoHeaderOfTheirOwn = {
+    "geometry/formats/vtp_writer.cpp",    "geometry/phantoms/exact_surface.cpp",
+    "geometry/phantoms/imaging.cpp",      "meshing/remeshing/improve_worst.cpp",
+    "meshing/remeshing/local_radius.cpp", "meshing/tetrahedra/tetgen_guard.cpp",
+    "smoothing/quality/cpu_engine.cpp",
+};
+
+// Defined in generated sources, in one source per command, or yet to be parted.
+const Names kDeclareWithoutSource = {
+    "gpu/shader_texts.h",
+    "workbench/phantoms/builtin.h",
+    "workbench/prepare/builtin_recipes.h",
+    "workbench/commands/commands.h",
+    "geometry/phantoms/phantom.h",
+    "geometry/kernel/kept_memory.h",
+    "smoothing/quality/smoothing_engine.h",
+};
 
 struct Include {
-    std::string file;  ///< that includes, relative to the repository
     std::string name;  ///< as written
     bool quoted = false;
 };
 
-bool is_header(const fs::path& file) {
-    return file.extension() == ".h";
+struct SourceFile {
+    std::string text;
+    std::vector<Include> includes;
+};
+
+bool is_source(const fs::path& file) {
+    static const Names suffixes = {".h", ".hpp", ".inc", ".cpp", ".cc", ".cu"};
+    return suffixes.contains(file.extension().string());
 }
 
-std::vector<Include> includes_of(const std::string& folder) {
-    const fs::path root = vesselbench::test::source_folder();
-    static const std::regex pattern(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
+bool is_header(const std::string& file) {
+    return file.ends_with(".h") || file.ends_with(".inc");
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<Include> includes_in(const std::string& text) {
+    static const std::regex pattern(
+        R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*(["<])([^">\n]+)[">])re");
     std::vector<Include> includes;
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-        if (!is_header(entry.path()) && entry.path().extension() != ".cpp") continue;
-        std::ifstream stream(entry.path());
-        std::smatch match;
-        for (std::string line; std::getline(stream, line);)
-            if (std::regex_search(line, match, pattern))
-                includes.push_back(
-                    {fs::relative(entry.path(), root).string(), match[2], match[1] == "\""});
-    }
+    for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i)
+        includes.push_back({(*i)[2], (*i)[1] == "\""});
     return includes;
 }
 
-bool is_heavy_library(const std::string& name) {
+/// All our code by its path in the repository.
+const std::map<std::string, SourceFile>& house() {
+    static const auto files = [] {
+        const fs::path root = vesselbench::test::source_folder();
+        std::map<std::string, SourceFile> all;
+        for (const std::string& folder : kFolders)
+            for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+                if (is_source(entry.path())) {
+                    const std::string text = text_of(entry.path());
+                    all[fs::relative(entry.path(), root).string()] = {text, includes_in(text)};
+                }
+        return all;
+    }();
+    return files;
+}
+
+bool is_below(const std::string& path, const std::string& folder) {
+    return path == folder || path.starts_with(folder + "/");
+}
+
+/// Empty if the file is in none.
+std::string room_of(const std::string& path) {
+    std::string room;
+    for (const auto& [name, doors] : kDoors)
+        if (is_below(path, name) && name.size() > room.size()) room = name;
+    return room;
+}
+
+bool may_use(const std::string& room, const std::string& other) {
+    return room == other || std::ranges::any_of(kDoors.at(room), [&](const std::string& door) {
+               return is_below(other, door);
+           });
+}
+
+/// Names that lead back to themselves over `next`, and what leads to them.
+Names circles(std::map<std::string, Names> next) {
+    const auto leads_nowhere = [&](const auto& entry) {
+        return std::ranges::none_of(entry.second,
+                                    [&](const std::string& name) { return next.contains(name); });
+    };
+    for (std::size_t before = 0; before != next.size();) {
+        before = next.size();
+        Names done;
+        for (const auto& entry : next)
+            if (leads_nowhere(entry)) done.insert(entry.first);
+        for (const std::string& name : done) next.erase(name);
+    }
+    Names left;
+    for (const auto& [name, followers] : next) left.insert(name);
+    return left;
+}
+
+bool is_large_library(const std::string& name) {
     return name.starts_with("vtk") || name.starts_with("CGAL/") || name.starts_with("OpenMesh/") ||
            name == "tetgen.h" || name.starts_with("gdcm") || name.starts_with("epoxy/") ||
-           name.starts_with("EGL/");
+           name.starts_with("EGL/") || name.starts_with("itk");
 }
 
 bool may_use_vtk(const std::string& file) {
-    return file.starts_with("geometry/formats/") || file.starts_with("geometry/image/") ||
-           file.starts_with("geometry/phantoms/");  // its iso-surface
+    static const Names rooms = {"geometry/formats", "geometry/image",
+                                "geometry/phantoms",  // its iso-surface
+                                "meshing/products"};
+    return rooms.contains(room_of(file));
+}
+
+/// An operation is registered in operations/table.h, a command is declared in commands.h.
+bool is_declared_in_a_table(const std::string& source) {
+    const fs::path path = source;
+    if (path.parent_path() == "workbench/commands") return true;
+    if (path.parent_path() != "workbench/operations") return false;
+    const std::regex maker("\\b" + path.stem().string() + "(_\\w+)?_operation\\(\\)");
+    return std::regex_search(house().at("workbench/operations/table.h").text, maker);
+}
+
+/// Functions that a header declares at namespace scope and leaves to a source file.
+std::vector<std::string> functions_left_to_a_source(const std::string& text) {
+    static const std::regex comment("//[^\n]*");
+    static const std::regex declaration(
+        R"re((^|\n)(?!using|template|inline|constexpr|friend|public:|private:|protected:|static_assert|#|\}))re"
+        R"re([A-Za-z\[][^;{}()]*\([^;{]*;)re");
+    const std::string code = std::regex_replace(text, comment, "");
+    std::vector<std::string> found;
+    for (std::sregex_iterator i(code.begin(), code.end(), declaration), end; i != end; ++i)
+        found.push_back(i->str());
+    return found;
+}
+
+// --- the targets as the CMakeLists link them
+
+struct Target {
+    Names rooms;  ///< of its sources; none: a bundle of other targets
+    Names links;  ///< our own targets among what it links
+};
+
+Names words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
+Names own_targets(const Names& words) {
+    Names targets;
+    for (const std::string& word : words)
+        if (word.starts_with("vb_")) targets.insert(word);
+    return targets;
+}
+
+Names rooms_of_sources(const std::string& folder, const Names& words) {
+    Names rooms;
+    for (const std::string& word : words)
+        if (word.ends_with(".cpp") && !word.starts_with("$"))
+            rooms.insert(room_of(folder + "/" + word));
+    return rooms;
+}
+
+void read_targets(const std::string& folder, std::map<std::string, Target>& targets) {
+    const std::string text =
+        text_of(fs::path(vesselbench::test::source_folder()) / folder / "CMakeLists.txt");
+    static const std::regex with_sources(
+        R"re((vesselbench_library|add_executable)\((\w+)([^)]*)\))re");
+    static const std::regex links(R"re(target_link_libraries\((\w+)([^)]*)\))re");
+    for (std::sregex_iterator i(text.begin(), text.end(), with_sources), end; i != end; ++i) {
+        const Names words = words_of(i->str(3));
+        const std::string prefix = i->str(1) == "add_executable" ? "" : "vb_";
+        targets[prefix + i->str(2)] = {rooms_of_sources(folder, words), own_targets(words)};
+    }
+    for (std::sregex_iterator i(text.begin(), text.end(), links), end; i != end; ++i)
+        targets[i->str(1)].links.merge(own_targets(words_of(i->str(2))));
+}
+
+std::map<std::string, Target> targets() {
+    std::map<std::string, Target> all;
+    for (const std::string& folder : kFolders) read_targets(folder, all);
+    return all;
+}
+
+/// Rooms whose code a target can call: its own and those it links, directly or through others.
+Names linked_rooms(const std::map<std::string, Target>& targets, const std::string& target) {
+    Names rooms = targets.at(target).rooms;
+    for (const std::string& link : targets.at(target).links)
+        rooms.merge(linked_rooms(targets, link));
+    return rooms;
+}
+
+bool may_link(const Target& target, const Target& other) {
+    const auto used_by = [&](const std::string& room) {
+        return std::ranges::any_of(other.rooms,
+                                   [&](const std::string& to) { return may_use(room, to); });
+    };
+    return other.rooms.empty() || target.rooms.empty() ||
+           std::ranges::any_of(target.rooms, used_by);
 }
 
 }  // namespace
 
-SCENARIO("Dependencies between the folders run one way", "[workbench][house]") {
-    for (const auto& [folder, allowed] : kMayInclude) {
-        const auto includes = includes_of(folder);
-        CHECK_FALSE(includes.empty());
-        for (const Include& include : includes) {
+SCENARIO("The table of rooms has no circle", "[workbench][house]") {
+    std::map<std::string, Names> next;
+    for (const auto& [room, doors] : kDoors)
+        for (const auto& [other, ignored] : kDoors)
+            if (room != other && may_use(room, other)) next[room].insert(other);
+    CHECK(circles(next) == Names{});
+    CHECK(circles({{"a", {"b"}}, {"b", {"a"}}, {"c", {}}}) == Names{"a", "b"});
+}
+
+SCENARIO("Every include goes through a door", "[workbench][house]") {
+    for (const auto& [file, source] : house()) {
+        const std::string room = room_of(file);
+        INFO(file << " of room '" << room << "'");
+        REQUIRE_FALSE(room.empty());
+        for (const Include& include : source.includes) {
             if (!include.quoted) continue;
-            INFO(include.file << " includes \"" << include.name << "\"");
-            const std::string from = include.name.substr(0, include.name.find('/'));
-            CHECK(allowed.contains(from));
+            INFO("includes \"" << include.name << "\"");
+            REQUIRE(house().contains(include.name));
+            CHECK(may_use(room, room_of(include.name)));
+        }
+    }
+}
+
+SCENARIO("No files include each other in a circle", "[workbench][house]") {
+    std::map<std::string, Names> next;
+    for (const auto& [file, source] : house())
+        for (const Include& include : source.includes) next[file].insert(include.name);
+    CHECK(circles(next) == Names{});
+}
+
+SCENARIO("A header's code is in the source file of the same name", "[workbench][house]") {
+    Names without_header, without_source;
+    for (const auto& [file, source] : house()) {
+        const std::string stem = file.substr(0, file.rfind('.'));
+        if (file.ends_with(".cpp") && !house().contains(stem + ".h") &&
+            !is_declared_in_a_table(file))
+            without_header.insert(file);
+        if (file.ends_with(".h") && !house().contains(stem + ".cpp") &&
+            !functions_left_to_a_source(source.text).empty())
+            without_source.insert(file);
+    }
+    CHECK(without_header == kNoHeaderOfTheirOwn);
+    CHECK(without_source == kDeclareWithoutSource);
+    CHECK(functions_left_to_a_source("inline int f() {}\nint two(\n  int);\nstruct A { int g(); };")
+              .size() == 1);
+}
+
+SCENARIO("No other folder at the top holds code", "[workbench][house]") {
+    for (const auto& entry : fs::directory_iterator(vesselbench::test::source_folder())) {
+        const std::string name = entry.path().filename().string();
+        const bool ours = kFolders.contains(name) || name == "tests";
+        if (!entry.is_directory() || ours || name == "build" || name == "out" || name[0] == '.')
+            continue;
+        for (const auto& inside : fs::recursive_directory_iterator(entry.path())) {
+            INFO(inside.path());
+            CHECK_FALSE(is_source(inside.path()));
         }
     }
 }
 
 SCENARIO("Large libraries stop at the source files", "[workbench][house]") {
-    for (const auto& [folder, allowed] : kMayInclude)
-        for (const Include& include : includes_of(folder)) {
-            INFO(include.file << " includes " << include.name);
-            CHECK_FALSE((is_header(include.file) && is_heavy_library(include.name)));
-            if (include.name.starts_with("vtk")) CHECK(may_use_vtk(include.file));
-            CHECK(include.name != "vtkSMPTools.h");
+    for (const auto& [file, source] : house())
+        for (const Include& include : source.includes) {
+            INFO(file << " includes " << include.name);
+            CHECK_FALSE((is_header(file) && is_large_library(include.name)));
+            if (include.name.starts_with("vtk")) CHECK(may_use_vtk(file));
+            CHECK(include.name != "vtkSMPTools.h");  // no C++20 with g++ 12
+        }
+}
+
+SCENARIO("The targets link the rooms that their doors name", "[workbench][house]") {
+    const auto all = targets();
+    CHECK(all.size() > 20);
+    std::map<std::string, Names> linked;
+    for (const auto& [name, target] : all) {
+        for (const std::string& room : target.rooms) linked[room].merge(linked_rooms(all, name));
+        for (const std::string& link : target.links) {
+            INFO(name << " links " << link);
+            CHECK(may_link(target, all.at(link)));
+        }
+    }
+    for (const auto& [file, source] : house())
+        for (const Include& include : source.includes) {
+            if (!include.quoted) continue;
+            INFO(file << " includes " << include.name);
+            CHECK(linked[room_of(file)].contains(room_of(include.name)));
         }
 }

@@ -1,7 +1,13 @@
+#include <cmath>
+#include <map>
+#include <numbers>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/phantoms/phantom.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
@@ -20,6 +26,58 @@ void check_replay(const std::string& operation, const Surface& surface, const Ou
         again.scene.surface->triangles().begin(), again.scene.surface->triangles().end(),
         outcome.scene.surface->triangles().begin(), outcome.scene.surface->triangles().end()));
     CHECK(again.scene.surface->patches == outcome.scene.surface->patches);
+}
+
+/// A vessel of radius 3 mm along z from 0 to 40 with patches at its ends, and a side branch of
+/// radius 1.5 mm whose tip is at (16, 0, 20).
+Surface side_branched() {
+    const std::vector<PhantomPart> parts = {
+        {.name = "parent",
+         .shape = VesselShape{.points = {Vec3(0, 0, -2), Vec3(0, 0, 20), Vec3(0, 0, 42)},
+                              .radii = {3.0, 3.0, 3.0},
+                              .flat_ends = true}},
+        {.name = "branch",
+         .shape = VesselShape{.points = {Vec3(0, 0, 20), Vec3(16, 0, 20)},
+                              .radii = {1.5, 1.5},
+                              .flat_ends = true},
+         .blend = 0.5}};
+    const PhantomField field(parts);
+    Outcome outcome = run("repair", exact_surface(field, field.bounds(), 0.375), {});
+    for (const double z : {-2.0, 42.0})
+        outcome = run("clip-opening", *outcome.scene.surface,
+                      {{"tip", Vec3(0, 0, z)}, {"distance", 2.0}});
+    return *outcome.scene.surface;
+}
+
+/// How far a wall is from the tube of radius 3 mm around z, away from its ends.
+struct TubeError {
+    double distance = 0.0;  ///< largest of a vertex [mm]
+    double tilt_deg = 0.0;  ///< largest angle of a triangle's normal and the tube's
+};
+
+TubeError tube_error(const Surface& surface) {
+    TubeError error;
+    const auto inside = [](const Vec3& p) { return p.z() > 4.0 && p.z() < 36.0; };
+    const auto& points = surface.points();
+    for (const Vec3& p : points)
+        if (inside(p))
+            error.distance = std::max(error.distance, std::abs(std::hypot(p.x(), p.y()) - 3.0));
+    for (const Triangle& t : surface.triangles()) {
+        const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+        const Vec3 middle = (a + b + c) / 3.0, out(middle.x(), middle.y(), 0.0);
+        if (!inside(middle)) continue;
+        const double cosine = (b - a).cross(c - a).normalized().dot(out.normalized());
+        error.tilt_deg =
+            std::max(error.tilt_deg, std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi);
+    }
+    return error;
+}
+
+/// Triangles of every patch by its name.
+std::map<std::string, std::size_t> patch_sizes(const Surface& surface) {
+    std::map<std::string, std::size_t> sizes;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) ++sizes[surface.patch_of(t).name];
+    return sizes;
 }
 
 }  // namespace
@@ -83,6 +141,40 @@ SCENARIO("clip-opening opens every end, and replays what it decided", "[workbenc
         CHECK_THROWS_AS(run("clip-opening", tube,
                             {{"planes", std::vector<double>{1, 2}}, {"names", std::string("x")}}),
                         UsageError);
+    }
+}
+
+SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {
+    const Surface surface = side_branched();
+    REQUIRE(tube_error(surface).distance > 12.0);
+    const Outcome outcome = run("remove-branch", surface, {{"tip", Vec3(16, 0, 20)}});
+    const Surface& left = *outcome.scene.surface;
+    THEN("the branch is gone, and the wall in its place is the tube's") {
+        CHECK(is_closed_manifold(left));
+        CHECK(connectivity(*left.topology).components == 1);
+        CHECK(connectivity(*left.topology).genus == 0);
+        const TubeError error = tube_error(left);
+        CHECK(error.distance < 0.06);  // 2 % of the radius
+        CHECK(error.tilt_deg < 15.0);
+    }
+    THEN("the openings are as they were") {
+        auto before = patch_sizes(surface), after = patch_sizes(left);
+        CHECK(left.patches == surface.patches);
+        CHECK(before.size() == 3);
+        CHECK(after["inlet"] == before["inlet"]);
+        CHECK(after["outlet_1"] == before["outlet_1"]);
+    }
+    THEN("the report says what went") {
+        const auto& report = *outcome.report;
+        const double tube = 2.0 * std::numbers::pi * 1.5 * 13.0;
+        CHECK(report.at("removed_area_mm2").get<double>() > tube);
+        CHECK(report.at("removed_area_mm2").get<double>() < 1.5 * tube);
+        CHECK(report.at("follows_parent") == true);
+        CHECK(report.at("new_triangles").get<int>() > 50);
+        CHECK(report.at("triangles_after") == left.triangle_count());
+        const auto mouth = report.at("mouth_mm");
+        CHECK((Vec3(mouth[0], mouth[1], mouth[2]) - Vec3(3, 0, 20)).norm() < 0.5);
+        check_replay("remove-branch", surface, outcome);
     }
 }
 

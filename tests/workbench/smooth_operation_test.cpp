@@ -12,6 +12,7 @@
 #include "tests/support/iso_surface.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
+#include "tests/support/skip.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/case/operation.h"
@@ -302,7 +303,7 @@ SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU i
         CHECK(on_gpu.warnings.empty());
         CHECK(distance->largest > 0.0);  // single precision
     } else {
-        WARN("skipped: no OpenGL, the CPU served");
+        skip("no OpenGL, the CPU served");
         REQUIRE(on_gpu.warnings.size() == 1);
         CHECK(on_gpu.scene.surface->points() == plain.scene.surface->points());
     }
@@ -334,7 +335,7 @@ SCENARIO("A GPU finds the context that the CPU finds", "[workbench][smooth][devi
                 farthest, (gpu.scene.surface->points()[v] - cpu.scene.surface->points()[v]).norm());
         CHECK(farthest <= 1e-5 * bounds(surface).diagonal());
         if (gpu.resolved.text("device") == "cpu") {
-            WARN("skipped: no OpenGL, the CPU served");
+            skip("no OpenGL, the CPU served");
             CHECK(*gpu.report == *cpu.report);
             continue;
         }
@@ -366,7 +367,7 @@ SCENARIO("What a GPU smoothed is replayed by tolerance", "[workbench][smooth][de
     const LogEntry gpu =
         session.apply("smooth", {{"iterations", std::int64_t{5}}, {"device", std::string("gpu")}});
     if (gpu.result->device != "gpu") {
-        WARN("skipped: no OpenGL, the CPU served");
+        skip("no OpenGL, the CPU served");
         return;
     }
     CHECK(gpu.result->resolved.text("device") == "gpu");

@@ -130,7 +130,7 @@ public:
     /// Back to the state before the current revision of an edit was made.
     /// \throw UsageError if the current state does not come from one
     void undo_before(EditId id);
-    /// Forward along the children last visited until the edit is made or changed.
+    /// Forward along the children last visited until the edit is made, changed or removed.
     /// \throw UsageError if none of them does
     void redo_to(EditId id);
     /// To any state. \throw UsageError if there is none of this id
