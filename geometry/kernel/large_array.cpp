@@ -9,8 +9,6 @@
 #include <malloc.h>
 #include <sys/mman.h>
 
-#include "geometry/kernel/kept_memory.h"
-
 namespace vesselbench::detail {
 
 namespace {

@@ -25,6 +25,10 @@ struct GiveBack {
 
 }  // namespace detail
 
+/// Gives the memory that large arrays keep for the next ones back to the system. For operations on
+/// whole surfaces, where it would come on top of what other containers take.
+void release_kept_memory() noexcept;
+
 /// A fixed array of plain values for passes over whole surfaces. It is not filled when it is made,
 /// which its first writer does on all threads, and it lies in large pages: on big surfaces, filling
 /// and small pages cost as much as some iterations of a filter.

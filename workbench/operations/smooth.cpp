@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/kept_memory.h"
+#include "geometry/kernel/large_array.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
 #include "gpu/filter_on_device.h"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/kept_memory.h"
+#include "geometry/kernel/large_array.h"
 #include "smoothing/context/cap_rounding.h"
 #include "workbench/operations/context_weights.h"
 
