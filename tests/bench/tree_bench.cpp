@@ -3,7 +3,9 @@
 // answers are other triangles or vertices than ours: at edges and corners, where several are
 // equally near.
 
+#include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -154,16 +156,19 @@ template <class Tree>
 std::pair<Times, Answers> point_search(const Surface& surface, const Positions& queries) {
     std::vector<VertexId> all(surface.vertex_count());
     std::iota(all.begin(), all.end(), VertexId{0});
+    const double reach = 2.0 * mean_edge_length(surface);  // a grid visits all cells within it
     return timed([&] { return std::make_unique<Tree>(surface.points(), all); },
                  [&](const Tree& tree) {
-                     return answers(queries,
-                                    [&](const Vec3& p) { return tree.nearest(p, {}).vertex; });
+                     return answers(queries, [&](const Vec3& p) {
+                         return tree.nearest(p, {.squared = reach * reach}).vertex;
+                     });
                  });
 }
 
 void compare_point_trees(const Surface& surface, const Positions& queries) {
     const auto tree = point_search<PointTree>(surface, queries);
     row("PointTree", tree, tree.second);
+    row("PointGrid", point_search<PointGrid>(surface, queries), tree.second);
     compare_nanoflann(surface, queries, tree.second);
 }
 
