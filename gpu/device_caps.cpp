@@ -63,7 +63,7 @@ void find_parts(const DeviceSurface& surface, const PartBuffers& buffers) {
     dispatch(device, surface.program("part_sums"), count);
     const Program& program = surface.program("part_insides");
     glUseProgram(program.id());
-    glUniform1d(1, detail::spread_cosine());
+    glUniform1d(1, spread_cosine());
     dispatch(device, program, count);
 }
 
@@ -110,14 +110,14 @@ CompressedRows rows_of(const std::vector<LabelledVertex>& vertices) {
 }  // namespace
 
 std::vector<Cap> find_caps(const DeviceSurface& surface, const CapParameters& parameters) {
-    detail::require_cap_parameters(parameters);
+    require_cap_parameters(parameters);
     const PartBuffers buffers(surface);
     find_flat_vertices(surface, std::cos(parameters.flat_angle_deg * std::numbers::pi / 180.0),
                        buffers);
     find_parts(surface, buffers);
     const auto vertices = read_planes(surface, parameters.smallest_faces, buffers);
-    const detail::AreaNormals faces(surface.surface(), detail::AreaNormals::When::Asked);
-    return detail::caps_of_parts(surface.surface(), faces, rows_of(vertices), parameters);
+    const AreaNormals faces(surface.surface(), AreaNormals::When::Asked);
+    return caps_of_parts(surface.surface(), faces, rows_of(vertices), parameters);
 }
 
 }  // namespace vesselbench

@@ -42,7 +42,7 @@ struct DeviceTree {
     Buffer nodes, corners, dipoles;
 
     DeviceTree(const DeviceSurface& surface, const Surface& neighbour) {
-        const detail::DistanceTree tree(neighbour.points(), neighbour.triangles());
+        const DistanceTree tree(neighbour.points(), neighbour.triangles());
         const Device& device = surface.device();
         const Vec3& centre = surface.centre();
         std::vector<DeviceNode> boxes;
@@ -63,7 +63,7 @@ struct DeviceTree {
         corners = make_storage(device, std::span<const Vector4f>(points), "a neighbour's corners");
         std::vector<DeviceDipole> parts(tree.dipoles.size());
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            const detail::Dipole& dipole = tree.dipoles[i];
+            const Dipole& dipole = tree.dipoles[i];
             parts[i].area_normal << dipole.area_normal.cast<float>(),
                 static_cast<float>(dipole.radius);
             parts[i].centre << (dipole.centre - centre).cast<float>(), 1.0F;
@@ -79,8 +79,8 @@ void search(const DeviceSurface& surface, const Surface& neighbour, const Buffer
     bind_storage({&surface.shifts(), &distances, nullptr, &tree.nodes, &tree.corners, &tree.dipoles,
                   &surface.anchors()});
     glUseProgram(program.id());
-    glUniform1i(1, detail::is_closed(neighbour) ? 1 : 0);
-    glUniform1f(2, static_cast<float>(detail::kFarFactor));
+    glUniform1i(1, is_closed(neighbour) ? 1 : 0);
+    glUniform1f(2, static_cast<float>(kFarFactor));
     dispatch(surface.device(), program, surface.vertex_count());
 }
 
@@ -88,7 +88,7 @@ void search(const DeviceSurface& surface, const Surface& neighbour, const Buffer
 
 NeighbourDistances find_neighbour_distances(const DeviceSurface& surface,
                                             std::span<const Surface> neighbours) {
-    detail::require_neighbours(neighbours);
+    require_neighbours(neighbours);
     const Device& device = surface.device();
     const std::size_t count = surface.vertex_count();
     NeighbourDistances found;

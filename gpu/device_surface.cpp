@@ -9,7 +9,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/measure.h"
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
+#include "smoothing/filters/two_rings.h"
 
 namespace vesselbench {
 
@@ -35,7 +36,7 @@ DevicePoint device_point(const Vec3& point, const Vec3& centre) {
 DeviceSurface::DeviceSurface(Device device, Surface surface)
     : device_(std::move(device)), surface_(std::move(surface)) {
     if (surface_.empty()) throw InvalidInput("there is no surface to compute with");
-    detail::require_finite(surface_.points());
+    require_finite(surface_.points());
     centre_ = bounds(surface_).centre();
     std::vector<Vector4f> anchors(vertex_count()), shifts(vertex_count());
     for (std::size_t v = 0; v < anchors.size(); ++v) {
@@ -67,7 +68,7 @@ const DeviceRows& DeviceSurface::triangles_at() const {
 
 const CompressedRows& DeviceSurface::neighbours(int rings) const {
     if (rings == 1) return surface_.topology->rings();
-    if (!two_rings_) two_rings_ = detail::two_rings(*surface_.topology);
+    if (!two_rings_) two_rings_ = two_rings(*surface_.topology);
     return *two_rings_;
 }
 
@@ -89,11 +90,11 @@ const Buffer& DeviceSurface::anchor_umbrellas(int rings) const {
     if (buffer) return *buffer;
     const CompressedRows& rows = neighbours(rings);
     Positions anchors(vertex_count());
-    detail::for_each_vertex(anchors.size(), [&](std::size_t v) {
+    for_each_vertex(anchors.size(), [&](std::size_t v) {
         anchors[v] = device_point(surface_.points()[v], centre_).anchor.cast<double>();
     });
     std::vector<Vector4f> umbrellas(vertex_count());
-    detail::for_each_vertex(umbrellas.size(), [&](std::size_t v) {
+    for_each_vertex(umbrellas.size(), [&](std::size_t v) {
         Vec3 sum = Vec3::Zero();
         for (const VertexId u : rows.row(v)) sum += anchors[u] - anchors[v];
         if (!rows.row(v).empty()) sum /= static_cast<double>(rows.row(v).size());
@@ -108,7 +109,7 @@ const DeviceRows& DeviceSurface::corners() const {
     if (corners_) return *corners_;
     const CompressedRows& rows = surface_.topology->triangles_at();
     std::vector<std::array<VertexId, 2>> others(rows.values.size());
-    detail::for_each_vertex(vertex_count(), [&](std::size_t v) {
+    for_each_vertex(vertex_count(), [&](std::size_t v) {
         for (std::uint32_t i = rows.offsets[v]; i < rows.offsets[v + 1]; ++i) {
             const Triangle& t = surface_.triangles()[rows.values[i]];
             const std::size_t at = corner_of(t, static_cast<VertexId>(v));

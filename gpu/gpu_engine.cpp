@@ -8,6 +8,7 @@
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/gpu_weights.h"
+#include "smoothing/quality/cpu_engine.h"
 
 namespace vesselbench {
 

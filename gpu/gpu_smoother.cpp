@@ -4,8 +4,10 @@
 
 #include <epoxy/gl.h>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
+#include "smoothing/filters/filter_settings.h"
 #include "smoothing/filters/linear_steps.h"
 
 namespace vesselbench {
@@ -32,10 +34,9 @@ enum Uniform {
 /// Shifts at the start, with the vertices' weights, or kFixed.
 std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterSettings& settings) {
     const Positions& points = surface.surface().points();
-    const auto fixed =
-        detail::checked_fixed_vertices(*surface.surface().topology, points, settings);
+    const auto fixed = checked_fixed_vertices(*surface.surface().topology, points, settings);
     std::vector<Vector4f> start(points.size());
-    detail::for_each_vertex(start.size(), [&](std::size_t v) {
+    for_each_vertex(start.size(), [&](std::size_t v) {
         const double weight = settings.weights.empty() ? 1.0 : settings.weights[v];
         start[v] << device_point(points[v], surface.centre()).shift,
             fixed[v] != 0 ? kFixed : static_cast<float>(weight);
@@ -78,44 +79,44 @@ GpuSmoother GpuSmoother::copy() const {
     return other;
 }
 
-void GpuSmoother::plan_linear(const std::vector<detail::LinearStep>& steps) {
+void GpuSmoother::plan_linear(const std::vector<LinearStep>& steps) {
     bool of_positions = true;
-    for (const detail::LinearStep& step : steps) {
+    for (const LinearStep& step : steps) {
         passes_.push_back({.program = &surface_->program("linear_step"),
                            .factors = {step.umbrella, step.source, step.target, step.start},
                            .onto = static_cast<int>(step.onto),
                            .of_positions = of_positions});
-        of_positions = step.onto != detail::LinearStep::Onto::Zero;
+        of_positions = step.onto != LinearStep::Onto::Zero;
     }
 }
 
 void GpuSmoother::plan(const LaplaceParameters& parameters) {
-    plan_linear(detail::linear_steps(parameters));
+    plan_linear(linear_steps(parameters));
 }
 
 void GpuSmoother::plan(const LaplaceHcParameters& parameters) {
-    plan_linear(detail::linear_steps(parameters));
+    plan_linear(linear_steps(parameters));
 }
 
 void GpuSmoother::plan(const TaubinParameters& parameters) {
-    plan_linear(detail::linear_steps(parameters));
+    plan_linear(linear_steps(parameters));
 }
 
 void GpuSmoother::plan(const MeanCurvatureFlowParameters& parameters) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
-    detail::require_one_ring("mean curvature flow", {.rings = rings_});
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
+    require_one_ring("mean curvature flow", {.rings = rings_});
     passes_.push_back({.program = &surface_->program("mean_curvature_flow"),
                        .factors = {parameters.lambda},
                        .by_corners = true});
 }
 
 void GpuSmoother::plan(const AnisotropicParameters& parameters) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
-    detail::require_one_ring("anisotropic smoothing", {.rings = rings_});
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
+    require_one_ring("anisotropic smoothing", {.rings = rings_});
     const Surface& surface = surface_->surface();
     const double feature = parameters.feature_curvature.value_or(
         default_feature_curvature(*surface.topology, surface.points()));
-    detail::require_positive("feature_curvature", feature);
+    require_positive("feature_curvature", feature);
     const Program& smooth = surface_->program("anisotropic");
     glUseProgram(smooth.id());
     glUniform1d(kFeatureCurvature, feature);
@@ -123,11 +124,11 @@ void GpuSmoother::plan(const AnisotropicParameters& parameters) {
 }
 
 void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
     const Surface& surface = surface_->surface();
     const double trigger = parameters.trigger_curvature.value_or(
         default_trigger_curvature(*surface.topology, surface.points()));
-    detail::require_positive("trigger_curvature", trigger);
+    require_positive("trigger_curvature", trigger);
     find_first_iterations(trigger);
     passes_.push_back(
         {.program = &surface_->program("triggered_laplace"), .factors = {parameters.lambda}});
@@ -160,7 +161,7 @@ Buffer GpuSmoother::upload_weights(const DeviceSurface& surface, std::span<const
     if (weights.size() != surface.vertex_count())
         throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
                            std::to_string(surface.vertex_count()) + " vertices");
-    for (const double weight : weights) detail::require_range("weight", weight, 0.0, 1.0);
+    for (const double weight : weights) require_range("weight", weight, 0.0, 1.0);
     const std::vector<float> single(weights.begin(), weights.end());
     return make_storage(surface.device(), std::span<const float>(single), "weights");
 }
@@ -227,7 +228,7 @@ Positions GpuSmoother::positions() const {
     require_context(surface_->device());
     const Positions& start = surface_->surface().points();
     Positions result(count);
-    detail::for_each_vertex(count, [&](std::size_t v) {
+    for_each_vertex(count, [&](std::size_t v) {
         const DevicePoint from = device_point(start[v], surface_->centre());
         const Eigen::Vector3f shift = moved[v].head<3>();
         result[v] =

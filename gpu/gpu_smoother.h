@@ -75,7 +75,7 @@ private:
     void plan(const MeanCurvatureFlowParameters& parameters);
     void plan(const AnisotropicParameters& parameters);
     void plan(const CurvatureTriggeredParameters& parameters);
-    void plan_linear(const std::vector<detail::LinearStep>& steps);
+    void plan_linear(const std::vector<LinearStep>& steps);
     void find_first_iterations(double trigger);
     void run_pass(const Pass& pass, bool last);
     static void set_constraint(const PositionConstraint& constraint);

@@ -8,8 +8,8 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "smoothing/context/staircase_weights.h"
 #include "smoothing/context/staircases.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
@@ -38,7 +38,7 @@ void GpuWeights::restart() {
 }
 
 void GpuWeights::find_orientation_change(const Vec3& stack_axis) {
-    const Vec3 axis = detail::unit_axis(stack_axis);
+    const Vec3 axis = unit_axis(stack_axis);
     const Device& device = surface_->device();
     const std::size_t triangles = surface_->surface().triangle_count();
     const Buffer orientations = make_storage(device, triangles * sizeof(double), "orientations");
@@ -83,7 +83,7 @@ void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,
 void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
     const Search wanted{
         parameters.tau_theta, parameters.tau_max, {parameters.caps.begin(), parameters.caps.end()}};
-    detail::require_staircase_parameters(surface_->vertex_count(), parameters);
+    require_staircase_parameters(surface_->vertex_count(), parameters);
     if (search_ != wanted) {
         find_staircase_distances(parameters);
         search_ = wanted;
@@ -97,7 +97,7 @@ void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
 
 void GpuWeights::multiply_distances(const NeighbourDistances& distances,
                                     const DistanceParameters& parameters) {
-    detail::require_distance_parameters(parameters);
+    require_distance_parameters(parameters);
     if (distances.count != surface_->vertex_count())
         throw InvalidInput("got " + std::to_string(distances.count) + " distances for " +
                            std::to_string(surface_->vertex_count()) + " vertices");

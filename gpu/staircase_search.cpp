@@ -18,8 +18,6 @@ namespace vesselbench {
 
 namespace {
 
-using detail::OpenVertex;
-
 constexpr VertexId kNone = 0xFFFFFFFF;  // gpu/shaders/staircase_search.glsl
 constexpr int kSweeps = 16;             // between two looks at what they have found
 
@@ -105,7 +103,7 @@ private:
     /// Puts the sources into the cells of a grid over the surface.
     void make_cells() {
         const Bounds box = bounds(surface_.surface());
-        const auto layout = detail::cell_layout(box.max - box.min, sources_);
+        const auto layout = cell_layout(box.max - box.min, sources_);
         if (!layout) throw GpuUnavailable("the surface is too large for a grid of cells");
         origin_ = box.min;
         cells_ = *layout;
@@ -162,14 +160,14 @@ private:
     Buffer nearest_, doubts_, found_, cell_offsets_, sources_by_cell_;
     std::uint32_t sources_ = 0;
     Vec3 origin_ = Vec3::Zero();
-    detail::CellLayout cells_;
+    CellLayout cells_;
 };
 
 /// Gives open vertices the distances that the CPU finds.
 void settle(const DeviceSurface& surface, const std::vector<VertexId>& sources, double reach,
             const std::vector<OpenVertex>& open, DeviceDistances& result) {
-    const auto distances = detail::open_distances(*surface.surface().topology,
-                                                  surface.surface().points(), sources, reach, open);
+    const auto distances = open_distances(*surface.surface().topology, surface.surface().points(),
+                                          sources, reach, open);
     std::vector<VertexId> places;
     std::vector<float> values;
     for (std::size_t i = 0; i < open.size(); ++i) {

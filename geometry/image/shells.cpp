@@ -5,38 +5,16 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// Union-find with the smallest member as the name of a set.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-    }
-
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 struct Shells {
     std::vector<std::uint32_t> of_triangle;  ///< #T, numbered by first triangle
@@ -124,7 +102,7 @@ public:
     }
 
     [[nodiscard]] std::uint32_t name_of(TriangleId t) const {
-        return sets_.find(node(t, surface_.triangles()[t][0]));
+        return sets_.root(node(t, surface_.triangles()[t][0]));
     }
 
 private:
@@ -134,7 +112,7 @@ private:
     }
 
     const Surface& surface_;
-    mutable Sets sets_;
+    mutable DisjointSets sets_;
 };
 
 struct Cap {

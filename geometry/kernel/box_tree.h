@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,19 +39,25 @@ public:
 
     /// Calls visit(item) for every item whose leaf passes `wanted(box)`.
     template <class Wanted, class Visit>
-    void traverse(Wanted&& wanted, Visit&& visit) const {
-        if (nodes_.empty()) return;
-        std::vector<std::uint32_t> stack{0};
-        while (!stack.empty()) {
-            const std::uint32_t at = stack.back();
-            stack.pop_back();
+    void traverse(const Wanted& wanted, const Visit& visit) const {
+        traverse_places(wanted, [&](std::uint32_t i) { visit(items_[i]); });
+    }
+
+    /// The same with the item's place in items().
+    template <class Wanted, class Visit>
+    void traverse_places(const Wanted& wanted, const Visit& visit) const {
+        std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items split in halves
+        std::size_t size = 0;
+        if (!nodes_.empty()) stack[size++] = 0;
+        while (size > 0) {
+            const std::uint32_t at = stack[--size];
             const Node& node = nodes_[at];
             if (!wanted(node.box)) continue;
             if (node.right == 0) {
-                for (std::uint32_t i = node.begin; i < node.end; ++i) visit(items_[i]);
+                for (std::uint32_t i = node.begin; i < node.end; ++i) visit(i);
             } else {
-                stack.push_back(node.right);
-                stack.push_back(at + 1);
+                stack[size++] = node.right;
+                stack[size++] = at + 1;
             }
         }
     }

@@ -1,6 +1,6 @@
 #include "geometry/kernel/distance_tree.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 DistanceTree::DistanceTree(const Positions& positions, std::span<const Triangle> triangles)
     : tree(triangle_boxes(positions, triangles)) {
@@ -37,4 +37,4 @@ Dipole DistanceTree::dipole_of(std::size_t at) const {
     return sum;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

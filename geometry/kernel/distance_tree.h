@@ -5,7 +5,7 @@
 
 #include "geometry/kernel/box_tree.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 struct TriangleCorners {
     Vec3 a, b, c;
@@ -36,4 +36,4 @@ private:
     [[nodiscard]] Dipole dipole_of(std::size_t at) const;
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -17,28 +17,6 @@ struct HalfEdge {
     bool operator<(const HalfEdge& other) const {
         return high < other.high || (high == other.high && id < other.id);
     }
-};
-
-/// Disjoint sets with path halving; the lowest member is the root.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-    }
-
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
 };
 
 bool names_vertex_twice(const Triangle& t) {

@@ -8,7 +8,7 @@
 
 #include "geometry/kernel/errors.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -32,4 +32,4 @@ void require_finite(const Positions& positions) {
             throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

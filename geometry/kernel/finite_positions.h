@@ -2,9 +2,9 @@
 
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// \throw InvalidInput that names the first vertex whose position is not finite
 void require_finite(const Positions& positions);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -2,43 +2,24 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 
 namespace vesselbench {
 
-namespace detail {
-
-/// Memory for `bytes`, aligned to 64 bytes or more; in large pages where the system has them and
-/// the array fills some. Some of what was given back is kept and given out again: the system fills
-/// new pages with zeros, which takes as long as an iteration of a filter for every few of them.
-/// \throw std::bad_alloc
-[[nodiscard]] void* large_memory(std::size_t bytes);
-
-/// \param bytes as it was asked for
-void give_back_large_memory(void* memory, std::size_t bytes) noexcept;
-
-struct GiveBack {
-    std::size_t bytes = 0;
-
-    void operator()(void* memory) const { give_back_large_memory(memory, bytes); }
-};
-
-}  // namespace detail
-
-/// A fixed array of plain values for passes over whole surfaces. It is not filled when it is made,
-/// which its first writer does on all threads, and it lies in large pages: on big surfaces, filling
-/// and small pages cost as much as some iterations of a filter.
+/// A fixed array of plain values for passes over whole surfaces, aligned to a cache line. It is not
+/// filled when it is made, as its first writer does that on all threads.
 template <class T>
 class LargeArray {
+    static constexpr std::align_val_t kAlignment{64};
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
 
 public:
     LargeArray() = default;
 
+    /// \throw std::bad_alloc
     explicit LargeArray(std::size_t size)
-        : memory_(static_cast<T*>(detail::large_memory(size * sizeof(T))),
-                  detail::GiveBack{size * sizeof(T)}),
-          size_(size) {}
+        : memory_(static_cast<T*>(::operator new(size * sizeof(T), kAlignment))), size_(size) {}
 
     [[nodiscard]] T* data() const { return memory_.get(); }
 
@@ -47,7 +28,11 @@ public:
     [[nodiscard]] T& operator[](std::size_t i) const { return memory_.get()[i]; }
 
 private:
-    std::unique_ptr<T, detail::GiveBack> memory_;
+    struct Free {
+        void operator()(T* memory) const { ::operator delete(memory, kAlignment); }
+    };
+
+    std::unique_ptr<T, Free> memory_;
     std::size_t size_ = 0;
 };
 

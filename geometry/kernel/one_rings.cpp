@@ -6,8 +6,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "geometry/kernel/corners.h"
 #include "geometry/kernel/large_array.h"
+#include "geometry/kernel/vertex_corners.h"
 
 namespace vesselbench {
 
@@ -33,10 +33,10 @@ struct NextVertices {
     LargeArray<std::uint8_t> counts;  ///< kLanes + 1: there are more
     std::vector<HalfEdge> more;       ///< those beyond kLanes, ascending
 
-    NextVertices(const detail::Corners& corners, std::size_t vertex_count);
+    NextVertices(const VertexCorners& corners, std::size_t vertex_count);
 
     /// Fills the part of the arrays that belongs to a share.
-    void collect(const detail::Corners& corners, const detail::VertexRange& share,
+    void collect(const VertexCorners& corners, const VertexRange& share,
                  std::vector<HalfEdge>& beyond);
 
     [[nodiscard]] std::span<const std::int32_t> some_of(VertexId v) const {
@@ -67,11 +67,11 @@ struct NextVertices {
     }
 };
 
-NextVertices::NextVertices(const detail::Corners& corners, std::size_t vertex_count)
+NextVertices::NextVertices(const VertexCorners& corners, std::size_t vertex_count)
     : none(static_cast<std::int32_t>(vertex_count)),
       values(kLanes * (vertex_count + 1)),
       counts(vertex_count + 1) {
-    const std::vector<detail::VertexRange> ranges = detail::shares(vertex_count);
+    const std::vector<VertexRange> ranges = vertex_shares(vertex_count);
     std::vector<std::vector<HalfEdge>> beyond(ranges.size());
     std::fill_n(values.data() + kLanes * vertex_count, kLanes, none);
     tbb::parallel_for(std::size_t{0}, ranges.size(),
@@ -80,7 +80,7 @@ NextVertices::NextVertices(const detail::Corners& corners, std::size_t vertex_co
     std::ranges::sort(more);
 }
 
-void NextVertices::collect(const detail::Corners& corners, const detail::VertexRange& share,
+void NextVertices::collect(const VertexCorners& corners, const VertexRange& share,
                            std::vector<HalfEdge>& beyond) {
     std::int32_t* const rows = values.data();
     std::uint8_t* const sizes = counts.data();
@@ -163,7 +163,7 @@ struct GeneralRows {
     }
 };
 
-void collect_corners(const detail::Corners& corners, const detail::VertexRange& share,
+void collect_corners(const VertexCorners& corners, const VertexRange& share,
                      const std::vector<std::uint8_t>& irregular, GeneralRows& found) {
     std::vector<std::uint32_t> index(share.last - share.first);
     for (std::uint32_t i = 0; i < found.vertices.size(); ++i)
@@ -200,7 +200,7 @@ std::uint32_t make_row(VertexId v, std::span<std::uint32_t> around, std::uint8_t
 }
 
 /// \param flags 1 at the irregular vertices; there it becomes 1 at those on a boundary
-GeneralRows general_rows(const detail::Corners& corners, const detail::VertexRange& share,
+GeneralRows general_rows(const VertexCorners& corners, const VertexRange& share,
                          std::vector<std::uint8_t>& flags) {
     GeneralRows found;
     for (VertexId v = share.first; v < share.last; ++v)
@@ -241,11 +241,11 @@ void write_long_rows(const NextVertices& next, CompressedRows& rows) {
 }  // namespace
 
 OneRings one_rings(std::span<const Triangle> triangles, std::size_t vertex_count) {
-    const detail::Corners corners(triangles);
+    const VertexCorners corners(triangles);
     const NextVertices next(corners, vertex_count);
     OneRings rings;
     rings.boundary = find_irregular(next, vertex_count);
-    const std::vector<detail::VertexRange> ranges = detail::shares(vertex_count);
+    const std::vector<VertexRange> ranges = vertex_shares(vertex_count);
     std::vector<GeneralRows> general(ranges.size());
     tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
         general[i] = general_rows(corners, ranges[i], rings.boundary);

@@ -16,13 +16,9 @@ namespace {
 /// Relative slack of the box tests [-]: rounding must never lose a triangle that is touched.
 constexpr double kBoxSlack = 1e-12;
 
-using Corners = detail::TriangleCorners;
-using detail::Dipole;
-using detail::kFarFactor;
-
 /// Signed solid angle of a triangle seen from p [sr].
 /// Source: van Oosterom and Strackee, "The solid angle of a plane triangle", 1983.
-double solid_angle(const Vec3& p, const Corners& t) {
+double solid_angle(const Vec3& p, const TriangleCorners& t) {
     const Vec3 a = t.a - p, b = t.b - p, c = t.c - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     const double above = a.dot(b.cross(c));
@@ -32,7 +28,8 @@ double solid_angle(const Vec3& p, const Corners& t) {
 
 /// Distance along the unit direction, or none. Source: Moeller and Trumbore, "Fast, minimum storage
 /// ray/triangle intersection", 1997. Edges count, so that a ray through an edge is not lost.
-std::optional<double> ray_meets(const Vec3& origin, const Vec3& direction, const Corners& t) {
+std::optional<double> ray_meets(const Vec3& origin, const Vec3& direction,
+                                const TriangleCorners& t) {
     const Vec3 ab = t.b - t.a, ac = t.c - t.a;
     const Vec3 h = direction.cross(ac);
     const double determinant = ab.dot(h);
@@ -84,7 +81,7 @@ Vec3 closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
     return a + vb / sum * ab + vc / sum * ac;
 }
 
-struct SurfaceDistance::Data : detail::DistanceTree {
+struct SurfaceDistance::Data : DistanceTree {
     using DistanceTree::DistanceTree;
 
     std::optional<SurfacePoint> closest(const Vec3& p, double reach) const;
@@ -185,26 +182,15 @@ std::vector<SurfaceHit> SurfaceDistance::all_hits(const Vec3& origin, const Vec3
     const Vec3 unit = direction.normalized();
     const Vec3 inverse = unit.cwiseInverse();
     std::vector<SurfaceHit> hits;
-    const auto nodes = data_->tree.nodes();
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const std::uint32_t at = stack.back();
-        stack.pop_back();
-        const BoxTree::Node& node = nodes[at];
-        if (!ray_meets_box(origin, inverse, reach, node.box)) continue;
-        if (node.right != 0) {
-            stack.push_back(node.right);
-            stack.push_back(at + 1);
-            continue;
-        }
-        for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const Corners& t = data_->corners[i];
+    data_->tree.traverse_places(
+        [&](const auto& box) { return ray_meets_box(origin, inverse, reach, box); },
+        [&](std::uint32_t i) {
+            const TriangleCorners& t = data_->corners[i];
             const auto along = ray_meets(origin, unit, t);
-            if (!along || *along > reach) continue;
+            if (!along || *along > reach) return;
             const bool inner = (t.b - t.a).cross(t.c - t.a).dot(unit) > 0.0;
             hits.push_back({origin + *along * unit, data_->tree.items()[i], *along, inner});
-        }
-    }
+        });
     std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
         return a.distance < b.distance || (a.distance == b.distance && a.triangle < b.triangle);
     });
@@ -234,7 +220,7 @@ std::optional<SurfaceHit> SurfaceDistance::first_hit(const Vec3& origin, const V
             continue;
         }
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const Corners& t = data_->corners[i];
+            const TriangleCorners& t = data_->corners[i];
             const auto along = ray_meets(origin, unit, t);
             const TriangleId id = data_->tree.items()[i];
             if (!along || *along > limit) continue;
@@ -259,24 +245,13 @@ double SurfaceDistance::signed_distance(const Vec3& p) const {
 std::vector<TriangleId> SurfaceDistance::triangles_within(const Vec3& centre, double radius) const {
     std::vector<TriangleId> found;
     const double squared = radius * radius;
-    const auto nodes = data_->tree.nodes();
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const std::uint32_t at = stack.back();
-        stack.pop_back();
-        const BoxTree::Node& node = nodes[at];
-        if (node.box.squaredExteriorDistance(centre) > squared) continue;
-        if (node.right != 0) {
-            stack.push_back(node.right);
-            stack.push_back(at + 1);
-            continue;
-        }
-        for (std::uint32_t i = node.begin; i < node.end; ++i) {
-            const Corners& t = data_->corners[i];
+    data_->tree.traverse_places(
+        [&](const auto& box) { return !(box.squaredExteriorDistance(centre) > squared); },
+        [&](std::uint32_t i) {
+            const TriangleCorners& t = data_->corners[i];
             const Vec3 q = closest_point_on_triangle(centre, t.a, t.b, t.c);
             if ((q - centre).squaredNorm() <= squared) found.push_back(data_->tree.items()[i]);
-        }
-    }
+        });
     std::sort(found.begin(), found.end());
     return found;
 }

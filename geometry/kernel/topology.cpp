@@ -9,17 +9,17 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include "geometry/kernel/corners.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/one_rings.h"
+#include "geometry/kernel/vertex_corners.h"
 
 namespace vesselbench {
 
 namespace {
 
 CompressedRows triangles_by_vertex(std::span<const Triangle> triangles, std::size_t vertex_count) {
-    const detail::Corners corners(triangles);
-    const auto shares = detail::shares(vertex_count);
+    const VertexCorners corners(triangles);
+    const auto shares = vertex_shares(vertex_count);
     CompressedRows rows;
     rows.offsets.assign(vertex_count + 1, 0);
     tbb::parallel_for(std::size_t{0}, shares.size(), [&](std::size_t i) {

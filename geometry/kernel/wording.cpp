@@ -19,6 +19,12 @@ std::string counted(std::size_t count, const std::string& noun, const std::strin
     return std::to_string(count) + " " + (count == 1 ? noun : many);
 }
 
+std::string joined(std::span<const std::string> names, const std::string& separator) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
+    return text;
+}
+
 std::string xml_escaped(const std::string& text) {
     std::string result;
     for (const char letter : text)
@@ -31,7 +37,7 @@ std::string xml_escaped(const std::string& text) {
 }
 
 std::string formatted(double value, const char* format) {
-    char text[32];
+    char text[64];
     std::snprintf(text, sizeof text, format, value);
     return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include "geometry/kernel/vec3.h"
@@ -17,6 +18,10 @@ namespace vesselbench {
 /// \param plural where it is not the noun with an s
 [[nodiscard]] std::string counted(std::size_t count, const std::string& noun,
                                   const std::string& plural = "");
+
+/// "a, b, c"
+[[nodiscard]] std::string joined(std::span<const std::string> names,
+                                 const std::string& separator = ", ");
 
 /// The text as it stands in XML and HTML, in attributes too.
 [[nodiscard]] std::string xml_escaped(const std::string& text);

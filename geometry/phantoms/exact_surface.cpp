@@ -1,10 +1,11 @@
+#include "geometry/phantoms/exact_surface.h"
+
 #include <cmath>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 
 #include "geometry/image/flying_edges.h"
-#include "geometry/phantoms/phantom.h"
 
 namespace vesselbench {
 

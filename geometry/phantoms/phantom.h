@@ -5,7 +5,6 @@
 #include "geometry/image/image.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/phantoms/description.h"
-#include "geometry/phantoms/field.h"
 
 namespace vesselbench {
 
@@ -22,15 +21,5 @@ struct Phantom {
 /// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image over
 /// 512 Mi voxels)
 [[nodiscard]] Phantom make_phantom(const PhantomDescription& description);
-
-/// The zero set of a field inside `box` as a closed triangle surface, every vertex moved onto it by
-/// Newton steps along the gradient; outward. Open where the field leaves the box.
-/// \param edge side of the sampling cells [mm]
-[[nodiscard]] Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box,
-                                    double edge);
-
-/// Image and mask only.
-[[nodiscard]] Image phantom_image(const PhantomDescription& description, const PhantomField& field);
-[[nodiscard]] Image phantom_mask(const PhantomDescription& description, const PhantomField& field);
 
 }  // namespace vesselbench

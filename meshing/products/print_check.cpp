@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <queue>
 
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
@@ -61,26 +61,30 @@ std::vector<Candidate> facing_walls(const Surface& surface, const SurfaceDistanc
     return candidates;
 }
 
+// Distances of the few vertices that a search reaches.
+class FewDistances {
+public:
+    double& operator[](VertexId v) {
+        return known_.try_emplace(v, std::numeric_limits<double>::infinity()).first->second;
+    }
+
+private:
+    std::map<VertexId, double> known_;
+};
+
 // True if a way along the edges from `from` to one of the triangle's corners is shorter than
 // `reach`.
 bool near_along_surface(const Surface& surface, VertexId from, const Triangle& target,
                         double reach) {
-    using Entry = std::pair<double, VertexId>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    std::map<VertexId, double> best = {{from, 0.0}};
-    queue.emplace(0.0, from);
-    while (!queue.empty()) {
-        const auto [way, v] = queue.top();
-        queue.pop();
-        if (way > best[v]) continue;
-        if (std::find(target.begin(), target.end(), v) != target.end()) return true;
-        for (const VertexId u : surface.topology->rings().row(v)) {
-            const double longer = way + (surface.points()[u] - surface.points()[v]).norm();
-            if (longer > reach) continue;
-            const auto [it, fresh] = best.try_emplace(u, longer);
-            if (!fresh && it->second <= longer) continue;
-            it->second = longer;
-            queue.emplace(longer, u);
+    FewDistances distances;
+    ShortestPaths paths(distances);
+    paths.lower(from, 0.0);
+    while (const auto at = paths.next()) {
+        if (std::ranges::find(target, at->vertex) != target.end()) return true;
+        for (const VertexId u : surface.topology->rings().row(at->vertex)) {
+            const double way =
+                at->distance + (surface.points()[u] - surface.points()[at->vertex]).norm();
+            if (way <= reach) paths.lower(u, way);
         }
     }
     return false;

@@ -24,7 +24,7 @@ constexpr int kMostAttempts = 6;  // at a result without new crossings
 void require_sound(const Surface& surface, const DecimateParameters& parameters,
                    std::span<const double> weights) {
     if (surface.empty()) throw InvalidInput("there is no surface to decimate");
-    detail::require_finite(surface.points());
+    require_finite(surface.points());
     if (!parameters.triangles && !parameters.max_error)
         throw InvalidInput("decimation needs a number of triangles or a largest error to stop at");
     if (parameters.triangles && *parameters.triangles == 0)

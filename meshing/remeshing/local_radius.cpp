@@ -1,3 +1,5 @@
+#include "meshing/remeshing/local_radius.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
-#include "meshing/remeshing/sizing_field.h"
 #include "meshing/remeshing/vertex_fields.h"
 
 namespace vesselbench {

@@ -9,6 +9,8 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/repair.h"
 #include "meshing/remeshing/carried_attributes.h"
+#include "meshing/remeshing/improve_worst.h"
+#include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/remesher.h"
 #include "meshing/remeshing/sizing_field.h"
 #include "meshing/remeshing/triangle_shape.h"
@@ -49,15 +51,14 @@ Surface finished(Remesher& remesher, const Progress& progress) {
         remesher.flip_edges(Remesher::FlipRule::Angle);
         remesher.relax(Remesher::RelaxRule::Shape);
     }
-    const int polish_rounds =
-        std::clamp(static_cast<int>(kPolishBudget /
-                                    std::max<std::size_t>(remesher.mesh().triangle_count(), 1)),
-                   kFewestPolishRounds, kMostPolishRounds);
+    const int polish_rounds = std::clamp(
+        static_cast<int>(kPolishBudget / std::max<std::size_t>(remesher.mesh.triangle_count(), 1)),
+        kFewestPolishRounds, kMostPolishRounds);
     for (int round = 0; round < polish_rounds; ++round) {
         progress.report(0.5 + 0.5 * round / polish_rounds, "improving triangles");
-        remesher.polish();
+        polish(remesher);
     }
-    remesher.improve_worst(kQuality);
+    improve_worst(remesher, kQuality);
     remesher.keep_volume();
     return remesher.result();
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <limits>
 #include <sstream>
 
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/surface_distance.h"
 #include "meshing/remeshing/vertex_fields.h"
 
@@ -121,22 +122,13 @@ double usual_radius(const Surface& surface, const std::vector<double>& radii) {
 }
 
 void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes) {
-    using Entry = std::pair<double, VertexId>;  // the smallest size first
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (VertexId v = 0; v < sizes.size(); ++v) queue.emplace(sizes[v], v);
+    ShortestPaths paths(sizes);  // a size is a distance that grows with the slope
+    for (VertexId v = 0; v < sizes.size(); ++v) paths.start(v);
     const CompressedRows& rings = surface.topology->rings();
     const Positions& points = surface.points();
-    while (!queue.empty()) {
-        const auto [size, v] = queue.top();
-        queue.pop();
-        if (size > sizes[v]) continue;
-        for (const VertexId u : rings.row(v)) {
-            const double allowed = size + slope * (points[u] - points[v]).norm();
-            if (sizes[u] <= allowed) continue;
-            sizes[u] = allowed;
-            queue.emplace(allowed, u);
-        }
-    }
+    while (const auto at = paths.next())
+        for (const VertexId u : rings.row(at->vertex))
+            paths.lower(u, at->distance + slope * (points[u] - points[at->vertex]).norm());
 }
 
 std::vector<double> sizing_field(const Surface& surface, const std::vector<double>& radii,

@@ -4,7 +4,6 @@
 
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
-#include "geometry/vessel/centerlines/centerline_graph.h"
 
 namespace vesselbench {
 
@@ -17,14 +16,6 @@ struct SizingParameters {
     double turn = 0.7;       ///< an edge spans at most this angle of the curved wall [rad]
     double gap_edges = 1.0;  ///< edges that fit into the gap to the opposite wall outside [-]
 };
-
-/// Local vessel radius at every vertex [mm], #V: from the centerlines where there are some (the
-/// radius at the point of the lines whose inscribed sphere is nearest), from rays across the lumen
-/// otherwise. A bulge does not count: a blind branch is capped by the radius of the vessel that it
-/// leaves, everything by the largest opening's radius, if there are openings. On caps: the rim's.
-/// \param lines may be null
-[[nodiscard]] std::vector<double> local_radii(const Surface& surface, const CenterlineGraph* lines,
-                                              const Progress& progress = {});
 
 /// The radius that half of the wall's area stays below [mm]. \throw InvalidInput without a wall
 [[nodiscard]] double usual_radius(const Surface& surface, const std::vector<double>& radii);

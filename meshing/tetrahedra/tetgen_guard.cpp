@@ -1,3 +1,5 @@
+#include "meshing/tetrahedra/tetgen_guard.h"
+
 // TetGen 1.5 reports every error through the weak function terminatetetgen(), which frees the mesh
 // and then throws, so that unwinding frees it a second time (SIGSEGV). This strong definition takes
 // its place at link time and only throws; the mesh's own destructor frees the memory once. The file

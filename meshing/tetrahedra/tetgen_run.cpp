@@ -5,9 +5,9 @@
 
 #include <tetgen.h>
 
-namespace vesselbench {
+#include "meshing/tetrahedra/tetgen_guard.h"
 
-bool tetgen_guard_is_linked();
+namespace vesselbench {
 
 namespace {
 

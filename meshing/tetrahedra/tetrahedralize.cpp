@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -37,9 +37,7 @@ struct Rung {
 };
 
 std::vector<Rung> ladder(double quality) {
-    char q[32];
-    std::snprintf(q, sizeof q, "q%.3g", quality);
-    const std::string bound = q;
+    const std::string bound = formatted(quality, "q%.3g");
     return {{"pY" + bound + "/10", true, "the usual settings"},
             {"pY" + bound + "/0O1", true, "no bound on dihedral angles"},
             {"pY" + bound + "/10T1e-11", true, "finer tolerance for coplanar facets"},
@@ -78,20 +76,11 @@ std::vector<std::size_t> patch_counts(const PatchLabels& labels, std::size_t pat
 
 // Cells that hang together through faces; more than one group means that the region fell apart.
 std::size_t region_count(const VolumeMesh& mesh) {
-    std::vector<std::uint32_t> parent(mesh.tetrahedra.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t c) {
-        while (parent[c] != c) c = parent[c] = parent[parent[c]];
-        return c;
-    };
-    std::size_t regions = parent.size();
-    for (const MeshFace& face : mesh_faces(mesh)) {
-        if (face.neighbour == MeshFace::kOutside) continue;
-        const auto a = root(face.owner), b = root(face.neighbour);
-        if (a == b) continue;
-        parent[std::max(a, b)] = std::min(a, b);
-        --regions;
-    }
+    DisjointSets sets(mesh.tetrahedra.size());
+    std::size_t regions = mesh.tetrahedra.size();
+    for (const MeshFace& face : mesh_faces(mesh))
+        if (face.neighbour != MeshFace::kOutside && sets.join(face.owner, face.neighbour))
+            --regions;
     return regions;
 }
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/wording.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
@@ -21,7 +21,7 @@ constexpr double kSameSide = 0.5;
 
 const Surface& checked(const Surface& surface) {
     if (surface.empty()) throw InvalidInput("the surface has no triangle to brush on");
-    detail::require_finite(surface.points());
+    require_finite(surface.points());
     return surface;
 }
 
@@ -37,10 +37,10 @@ void check(const Dab& dab, BrushKind kind) {
     if (!dab.anchor.point.allFinite()) throw InvalidInput("the dab's point is not finite");
     if (!dab.anchor.normal.allFinite() || dab.anchor.normal.norm() == 0.0)
         throw InvalidInput("the dab's normal has no direction");
-    detail::require_positive("local radius", dab.anchor.radius);
-    detail::require_positive("radius", dab.radius);
-    detail::require_range("strength", dab.strength, kind == BrushKind::Smooth ? 0.0 : -1.0, 1.0);
-    detail::require_range("falloff", dab.falloff, 0.0, 1.0);
+    require_positive("local radius", dab.anchor.radius);
+    require_positive("radius", dab.radius);
+    require_range("strength", dab.strength, kind == BrushKind::Smooth ? 0.0 : -1.0, 1.0);
+    require_range("falloff", dab.falloff, 0.0, 1.0);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ BrushStroke::BrushStroke(Surface surface, BrushSettings settings,
       neighbourhood_(*start_.topology),
       fixed_(kept_vertices(start_)),
       now_(start_.points()) {
-    detail::require_range("passes", settings_.passes, 1, 100);
+    require_range("passes", settings_.passes, 1, 100);
     if (settings_.kind != BrushKind::Weight) return;
     if (settings_.attribute.empty()) throw InvalidInput("attribute needs a name");
     const auto known = start_.attributes.find(settings_.attribute);

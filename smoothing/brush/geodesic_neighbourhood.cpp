@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
@@ -103,7 +103,7 @@ void GeodesicNeighbourhood::spread(const Positions& positions, VertexId v) {
 std::span<const GeodesicNeighbour> GeodesicNeighbourhood::within(const Positions& positions,
                                                                  TriangleId triangle,
                                                                  const Vec3& point, double radius) {
-    detail::require_positive("radius", radius);
+    require_positive("radius", radius);
     if (positions.size() != topology_.vertex_count())
         throw InvalidInput("got " + std::to_string(positions.size()) + " positions for " +
                            std::to_string(topology_.vertex_count()) + " vertices");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -130,4 +130,4 @@ bool CapBorder::encloses_cap(const AreaNumbers& areas, std::span<const TriangleI
     return static_cast<double>(dropping) >= kNearlyAll * static_cast<double>(area.border.size());
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -7,7 +7,7 @@
 #include "geometry/kernel/surface.h"
 #include "smoothing/context/flat_areas.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Tells caps from other flat areas by what the surface does beyond their border. One object looks
 /// at one area after the other and keeps its arrays.
@@ -44,4 +44,4 @@ private:
     std::vector<std::uint32_t> seen_;  ///< #V: the area that has looked at the vertex last
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -6,8 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/box_tree.h"
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
 
 namespace vesselbench {
 
@@ -118,7 +119,7 @@ void round_cap(const Surface& surface, const Cap& cap, double height, Positions&
     std::set_difference(cap.vertices.begin(), cap.vertices.end(), cap.rim.begin(), cap.rim.end(),
                         std::back_inserter(inner));
     std::vector<Vec3> inward(inner.size());  // from the rim
-    detail::for_each_vertex(inner.size(), [&](std::size_t i) {
+    for_each_vertex(inner.size(), [&](std::size_t i) {
         const Vec3& p = surface.points()[inner[i]];
         inward[i] = p - nearest.to(p);
     });
@@ -140,7 +141,7 @@ void round_cap(const Surface& surface, const Cap& cap, double height, Positions&
 }  // namespace
 
 Positions rounded_caps(const Surface& surface, const std::vector<Cap>& caps, double height) {
-    detail::require_range("height", height, std::numeric_limits<double>::min(), 2.0);
+    require_range("height", height, std::numeric_limits<double>::min(), 2.0);
     if (surface.empty()) return surface.positions ? surface.points() : Positions{};
     Positions rounded = surface.points();
     for (const Cap& cap : caps) round_cap(surface, cap, height, rounded);

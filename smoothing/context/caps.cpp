@@ -8,16 +8,14 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "smoothing/context/cap_border.h"
 #include "smoothing/context/flat_areas.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
 namespace {
-
-using detail::AreaNormals;
 
 /// A cap of ascending triangles.
 Cap make_cap(const Surface& surface, std::vector<TriangleId> triangles, const Vec3& normal,
@@ -49,7 +47,7 @@ std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
     std::vector<Cap> found;
     for (auto& patch : triangles) {
         if (patch.empty()) continue;
-        const Vec3 normal = detail::mean_normal(faces, patch);
+        const Vec3 normal = mean_normal(faces, patch);
         found.push_back(make_cap(surface, std::move(patch), normal, true));
     }
     return found;
@@ -58,14 +56,13 @@ std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
 /// The flat areas that are caps by what is around them.
 std::vector<Cap> flat_caps(const Surface& surface, const AreaNormals& faces,
                            const CompressedRows& parts, const CapParameters& parameters) {
-    auto [numbers, areas] = detail::find_flat_areas(surface, faces, parts, parameters);
+    auto [numbers, areas] = find_flat_areas(surface, faces, parts, parameters);
     std::vector<std::optional<Cap>> caps(areas.size());
-    tbb::enumerable_thread_specific<detail::CapBorder> borders(
-        [&] { return detail::CapBorder(surface); });
+    tbb::enumerable_thread_specific<CapBorder> borders([&] { return CapBorder(surface); });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), 4), [&](const auto& range) {
-        detail::CapBorder& border = borders.local();
+        CapBorder& border = borders.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const Vec3 normal = detail::mean_normal(faces, areas[i]);
+            const Vec3 normal = mean_normal(faces, areas[i]);
             if (!border.encloses_cap(numbers, areas[i], normal)) continue;
             std::sort(areas[i].begin(), areas[i].end());
             caps[i] = make_cap(surface, std::move(areas[i]), normal, false);
@@ -79,16 +76,15 @@ std::vector<Cap> flat_caps(const Surface& surface, const AreaNormals& faces,
 
 }  // namespace
 
-void detail::require_cap_parameters(const CapParameters& parameters) {
+void require_cap_parameters(const CapParameters& parameters) {
     require_range("flat_angle_deg", parameters.flat_angle_deg, 0.0, 45.0);
     if (parameters.smallest_faces < 1)
         throw InvalidInput("smallest_faces = " + std::to_string(parameters.smallest_faces) +
                            " must be 1 or more");
 }
 
-std::vector<Cap> detail::caps_of_parts(const Surface& surface, const AreaNormals& faces,
-                                       const CompressedRows& parts,
-                                       const CapParameters& parameters) {
+std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
+                               const CompressedRows& parts, const CapParameters& parameters) {
     std::vector<Cap> caps = patch_caps(surface, faces);
     if (!parts.values.empty())
         for (Cap& cap : flat_caps(surface, faces, parts, parameters))
@@ -100,11 +96,10 @@ std::vector<Cap> detail::caps_of_parts(const Surface& surface, const AreaNormals
 }
 
 std::vector<Cap> find_caps(const Surface& surface, const CapParameters& parameters) {
-    detail::require_cap_parameters(parameters);
+    require_cap_parameters(parameters);
     if (surface.empty()) return {};
     const AreaNormals faces(surface, AreaNormals::When::Ahead);
-    return detail::caps_of_parts(surface, faces, detail::plane_parts(surface, faces, parameters),
-                                 parameters);
+    return caps_of_parts(surface, faces, plane_parts(surface, faces, parameters), parameters);
 }
 
 std::vector<std::uint8_t> cap_vertices(const std::vector<Cap>& caps, std::size_t vertex_count) {

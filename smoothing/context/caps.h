@@ -7,6 +7,8 @@
 
 namespace vesselbench {
 
+class AreaNormals;
+
 /// A flat end of the surface: an opening, or where the segmentation cut the structure off.
 struct Cap {
     std::vector<TriangleId> triangles;  ///< ascending
@@ -37,6 +39,15 @@ struct CapParameters {
 /// \throw InvalidInput if a parameter is out of range
 [[nodiscard]] std::vector<Cap> find_caps(const Surface& surface,
                                          const CapParameters& parameters = {});
+
+/// What find_caps makes of plane parts, whoever has found them: their areas that are caps by what
+/// is around them, and the patches other than the wall.
+[[nodiscard]] std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
+                                             const CompressedRows& parts,
+                                             const CapParameters& parameters);
+
+/// \throw InvalidInput if a parameter is out of range
+void require_cap_parameters(const CapParameters& parameters);
 
 /// 1 at the vertices of the caps, #V.
 [[nodiscard]] std::vector<std::uint8_t> cap_vertices(const std::vector<Cap>& caps,

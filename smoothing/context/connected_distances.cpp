@@ -10,12 +10,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/parallel.h"
 #include "smoothing/context/distance_search.h"
 #include "smoothing/context/point_grid.h"
 #include "smoothing/context/point_tree.h"
-#include "smoothing/filters/filter_support.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -200,7 +200,7 @@ void find_distances(DistanceSearch& search, const Places& places) {
     const std::vector<VertexId> open = find_nearest(search, places);
     if (open.empty()) return;
     hand_on(search, open);
-    settle(search, all_doubts(search, places, open));
+    settle_doubts(search, all_doubts(search, places, open));
 }
 
 /// Where a search begins: the sources know themselves.
@@ -257,10 +257,11 @@ std::vector<double> open_distances(const Topology& topology, const Positions& po
         search.nearest[vertex] = known;
         if (known != kNone) search.squared[vertex] = search.squared_distance(vertex, known);
     }
-    with_places(search,
-                [&](const auto& places) { settle(search, all_doubts(search, places, vertices)); });
+    with_places(search, [&](const auto& places) {
+        settle_doubts(search, all_doubts(search, places, vertices));
+    });
     for (const VertexId v : vertices) distances.push_back(std::sqrt(search.squared[v]));
     return distances;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

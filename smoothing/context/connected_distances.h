@@ -7,7 +7,7 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Distance of every vertex to the nearest source [mm] that can be reached along edges whose
 /// vertices all lie within `reach` [mm] of that source; infinite if there is none. Exact, the same
@@ -35,4 +35,4 @@ struct OpenVertex {
                                                  const std::vector<VertexId>& sources, double reach,
                                                  std::span<const OpenVertex> open);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

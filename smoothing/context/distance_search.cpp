@@ -7,7 +7,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -52,7 +52,7 @@ void flood(DistanceSearch& search, std::span<const Doubt> doubts, FloodMarks& ma
 
 }  // namespace
 
-void settle(DistanceSearch& search, const std::vector<Doubt>& doubts) {
+void settle_doubts(DistanceSearch& search, const std::vector<Doubt>& doubts) {
     std::vector<std::span<const Doubt>> groups;
     for (std::size_t i = 0, end = 0; i < doubts.size(); i = end) {
         while (end < doubts.size() && doubts[end].source == doubts[i].source) ++end;
@@ -66,4 +66,4 @@ void settle(DistanceSearch& search, const std::vector<Doubt>& doubts) {
                       });
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -7,7 +7,7 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Squared distances to the nearest known source, on the way to the exact ones.
 struct DistanceSearch {
@@ -34,6 +34,6 @@ struct Doubt {
 /// One flood for every source that is in doubt: gives the vertices in doubt the distances of those
 /// sources that do reach them, where these are smaller than what they have.
 /// \param doubts ascending
-void settle(DistanceSearch& search, const std::vector<Doubt>& doubts);
+void settle_doubts(DistanceSearch& search, const std::vector<Doubt>& doubts);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -35,8 +35,6 @@ struct DistanceParameters {
 [[nodiscard]] std::vector<double> distance_weights(std::span<const double> distances,
                                                    const DistanceParameters& parameters = {});
 
-namespace detail {
-
 /// \throw InvalidInput if there is no neighbour, or one without triangles
 void require_neighbours(std::span<const Surface> neighbours);
 
@@ -45,7 +43,5 @@ void require_neighbours(std::span<const Surface> neighbours);
 
 /// \throw InvalidInput if a parameter is out of range
 void require_distance_parameters(const DistanceParameters& parameters);
-
-}  // namespace detail
 
 }  // namespace vesselbench

@@ -8,9 +8,9 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -270,4 +270,4 @@ FlatAreas find_flat_areas(const Surface& surface, const AreaNormals& faces,
     return found;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -7,7 +7,7 @@
 #include "geometry/kernel/surface.h"
 #include "smoothing/context/caps.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Normal of a triangle.
 struct FaceNormal {
@@ -65,13 +65,4 @@ struct FlatAreas {
                                         const CompressedRows& parts,
                                         const CapParameters& parameters);
 
-/// What find_caps makes of plane parts, whoever has found them: their areas that are caps by what
-/// is around them, and the patches other than the wall.
-[[nodiscard]] std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
-                                             const CompressedRows& parts,
-                                             const CapParameters& parameters);
-
-/// \throw InvalidInput if a parameter is out of range
-void require_cap_parameters(const CapParameters& parameters);
-
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "smoothing/filters/filter_support.h"
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-namespace vesselbench::detail {
+#include "geometry/kernel/parallel.h"
+
+namespace vesselbench {
 
 namespace {
 
@@ -33,7 +36,7 @@ std::uint32_t bin_of(const Vec3& axis, int bins) {
 
 }  // namespace
 
-Vec3 folded(const Vec3& axis) {
+Vec3 folded_axis(const Vec3& axis) {
     return axis[largest_component(axis)] < 0.0 ? Vec3(-axis) : axis;
 }
 
@@ -58,7 +61,7 @@ void GaussMap::fill_bins(std::span<const Vec3> normals) {
             direction_.push_back(Vec3::Zero());
         }
         ++count_[at];
-        direction_[at] += folded(normals[i]);
+        direction_[at] += folded_axis(normals[i]);
     }
     for (Vec3& direction : direction_) direction.normalize();
 }
@@ -92,4 +95,4 @@ std::vector<std::uint64_t> GaussMap::densities() const {
     return density;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

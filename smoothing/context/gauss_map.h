@@ -6,7 +6,7 @@
 
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Unit face normals as axes (n and -n are one) on a half sphere, gathered in bins whose width is a
 /// third of the radius within which they are counted: linear in the number of normals.
@@ -68,6 +68,6 @@ private:
 };
 
 /// The same axis with its largest component positive; of equal ones the first.
-[[nodiscard]] Vec3 folded(const Vec3& axis);
+[[nodiscard]] Vec3 folded_axis(const Vec3& axis);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

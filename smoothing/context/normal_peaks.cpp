@@ -6,10 +6,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "smoothing/context/gauss_map.h"
-#include "smoothing/filters/filter_support.h"
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-namespace vesselbench::detail {
+#include "smoothing/context/gauss_map.h"
+
+namespace vesselbench {
 
 namespace {
 
@@ -143,7 +145,7 @@ NormalPeak peak_near(const FaceNormals& faces, const Vec3& start) {
     // fewer.
     peak.excess = std::max(0.0, peak.faces - ring * kPeakWidth / (kRingTo - kRingFrom));
     peak.area = median(std::move(areas));
-    peak.axis = folded(peak.axis);
+    peak.axis = folded_axis(peak.axis);
     return peak;
 }
 
@@ -200,4 +202,4 @@ std::optional<VoxelLattice> voxel_lattice(const FaceNormals& faces,
     return best && best->share >= kShareOnLattice ? best : std::nullopt;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -5,7 +5,7 @@
 
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Faces that count: unit normals, and areas [mm^2].
 struct FaceNormals {
@@ -40,4 +40,4 @@ struct VoxelLattice {
 [[nodiscard]] std::optional<VoxelLattice> voxel_lattice(const FaceNormals& faces,
                                                         const std::vector<NormalPeak>& peaks);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -65,4 +65,4 @@ PointGrid::PointGrid(const Positions& positions, std::span<const VertexId> chose
     }
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

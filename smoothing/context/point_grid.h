@@ -12,7 +12,7 @@
 #include "geometry/kernel/vec3.h"
 #include "smoothing/context/point_tree.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Equal cells over a box.
 struct CellLayout {
@@ -112,4 +112,4 @@ private:
     std::vector<VertexId> vertices_;      ///< the same
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

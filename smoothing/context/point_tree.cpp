@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 PointTree::PointTree(const Positions& positions, std::span<const VertexId> chosen) {
     std::vector<BoxTree::Box> boxes;
@@ -42,4 +42,4 @@ PointTree::Found PointTree::nearest(const Vec3& p, Found known) const {
     return known;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -10,7 +9,7 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Some vertices of a surface, to be found by place. Where two lie equally near, either is found.
 class PointTree {
@@ -29,23 +28,12 @@ public:
     /// Calls visit(Found) for every vertex nearer to p than the square root of `squared`.
     template <class Visit>
     void visit_nearer(const Vec3& p, double squared, const Visit& visit) const {
-        std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items split in halves
-        std::size_t size = 0;
-        stack[size++] = 0;
-        while (size > 0) {
-            const std::uint32_t at = stack[--size];
-            const BoxTree::Node& node = tree_.nodes()[at];
-            if (!(node.box.squaredExteriorDistance(p) < squared)) continue;
-            if (node.right == 0) {
-                for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                    const double d = (p - points_[i]).squaredNorm();
-                    if (d < squared) visit(Found{vertices_[i], d});
-                }
-            } else {
-                stack[size++] = node.right;
-                stack[size++] = at + 1;
-            }
-        }
+        tree_.traverse_places(
+            [&](const auto& box) { return box.squaredExteriorDistance(p) < squared; },
+            [&](std::uint32_t i) {
+                const double d = (p - points_[i]).squaredNorm();
+                if (d < squared) visit(Found{vertices_[i], d});
+            });
     }
 
 private:
@@ -54,4 +42,4 @@ private:
     std::vector<VertexId> vertices_;  ///< the same
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

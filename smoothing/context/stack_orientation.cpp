@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/parallel.h"
 #include "smoothing/context/gauss_map.h"
 #include "smoothing/context/normal_peaks.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
 namespace {
-
-using detail::FaceNormals;
-using detail::GaussMap;
-using detail::NormalPeak;
 
 constexpr double kCertain = 2.0 / 3.0;      // confidence from which on the axis is certain
 constexpr double kFewestFaces = 20.0;       // that make a peak certain
@@ -27,8 +24,8 @@ FaceNormals face_normals(const Topology& topology, const Positions& positions,
                          const std::vector<std::uint8_t>& counts) {
     const auto triangles = topology.triangles();
     std::vector<Vec3> scaled(triangles.size());
-    detail::for_each_vertex(
-        triangles.size(), [&](std::size_t t) { scaled[t] = area_normal(positions, triangles[t]); });
+    for_each_vertex(triangles.size(),
+                    [&](std::size_t t) { scaled[t] = area_normal(positions, triangles[t]); });
     FaceNormals faces;
     for (std::size_t t = 0; t < scaled.size(); ++t) {
         const double length = scaled[t].norm();
@@ -106,7 +103,7 @@ double peak_confidence(const std::vector<NormalPeak>& peaks, std::size_t faces) 
 }
 
 /// 2/3 where the longest voxel edge is just enough longer than the next.
-double lattice_confidence(const detail::VoxelLattice& lattice) {
+double lattice_confidence(const VoxelLattice& lattice) {
     return std::clamp(kCertain * (1.0 - lattice.second_edge) / (1.0 - kLongestSecondEdge), 0.0,
                       lattice.share);
 }
@@ -114,8 +111,8 @@ double lattice_confidence(const detail::VoxelLattice& lattice) {
 StackOrientation estimate(const FaceNormals& faces, const StackOrientationParameters& parameters) {
     StackOrientation found;
     if (faces.normals.empty()) return found;
-    const std::vector<NormalPeak> peaks = detail::highest_peaks(faces);
-    if (const auto lattice = detail::voxel_lattice(faces, peaks)) {
+    const std::vector<NormalPeak> peaks = highest_peaks(faces);
+    if (const auto lattice = voxel_lattice(faces, peaks)) {
         found.direction = lattice->long_axis;
         found.confidence = lattice_confidence(*lattice);
     } else {
@@ -124,16 +121,16 @@ StackOrientation estimate(const FaceNormals& faces, const StackOrientationParame
     }
     found.certain = found.confidence >= kCertain;
     if (!found.certain)
-        found.direction = detail::peak_near(faces, flattest_cluster(faces, parameters)).axis;
-    found.direction = detail::folded(found.direction);
+        found.direction = peak_near(faces, flattest_cluster(faces, parameters)).axis;
+    found.direction = folded_axis(found.direction);
     found.flat_share = flat_share(faces, found.direction, parameters.theta_limit);
     return found;
 }
 
 void require_usable(const StackOrientationParameters& parameters) {
-    detail::require_range("radius", parameters.radius, 0.02, 0.5);
-    detail::require_positive("theta_limit", parameters.theta_limit);
-    detail::require_range("theta_limit", parameters.theta_limit, 0.0, 1.0);
+    require_range("radius", parameters.radius, 0.02, 0.5);
+    require_positive("theta_limit", parameters.theta_limit);
+    require_range("theta_limit", parameters.theta_limit, 0.0, 1.0);
 }
 
 }  // namespace

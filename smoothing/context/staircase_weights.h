@@ -51,11 +51,7 @@ struct StaircaseParameters {
 [[nodiscard]] std::vector<double> weights_of_distances(std::vector<double> distances,
                                                        const StaircaseParameters& parameters);
 
-namespace detail {
-
 /// \throw InvalidInput if a parameter is out of range, or the cap flags are not #V
 void require_staircase_parameters(std::size_t vertex_count, const StaircaseParameters& parameters);
-
-}  // namespace detail
 
 }  // namespace vesselbench

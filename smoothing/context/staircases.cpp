@@ -6,8 +6,8 @@
 #include <string>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/parallel.h"
 #include "geometry/kernel/surface.h"
-#include "smoothing/filters/filter_support.h"
 
 namespace vesselbench {
 
@@ -18,13 +18,13 @@ constexpr double kDegenerate = -1.0;
 /// Eq. 5.3; kDegenerate where a face has no normal.
 std::vector<double> raw_orientations(const Topology& topology, const Positions& positions,
                                      const Vec3& stack_axis) {
-    const Vec3 axis = detail::unit_axis(stack_axis);
+    const Vec3 axis = unit_axis(stack_axis);
     if (positions.size() != topology.vertex_count())
         throw InvalidInput("got " + std::to_string(positions.size()) + " positions for " +
                            std::to_string(topology.vertex_count()) + " vertices");
     const auto triangles = topology.triangles();
     std::vector<double> theta(triangles.size());
-    detail::for_each_vertex(triangles.size(), [&](std::size_t t) {
+    for_each_vertex(triangles.size(), [&](std::size_t t) {
         const Vec3 normal = area_normal(positions, triangles[t]);
         const double length = normal.norm();
         const bool valid = length > 0.0 && std::isfinite(length);
@@ -35,7 +35,7 @@ std::vector<double> raw_orientations(const Topology& topology, const Positions& 
 
 }  // namespace
 
-Vec3 detail::unit_axis(const Vec3& stack_axis) {
+Vec3 unit_axis(const Vec3& stack_axis) {
     const double length = stack_axis.norm();
     if (!(length > 0.0) || !std::isfinite(length))
         throw InvalidInput("stack_axis needs a direction: three finite numbers, not all of them 0");
@@ -54,7 +54,7 @@ std::vector<double> orientation_change(const Topology& topology, const Positions
     const std::vector<double> theta = raw_orientations(topology, positions, stack_axis);
     const CompressedRows& rows = topology.triangles_at();
     std::vector<double> change(positions.size());
-    detail::for_each_vertex(change.size(), [&](std::size_t v) {
+    for_each_vertex(change.size(), [&](std::size_t v) {
         constexpr double kNone = std::numeric_limits<double>::infinity();
         double smallest = kNone, largest = -kNone;
         for (const TriangleId t : rows.row(v)) {

@@ -25,11 +25,7 @@ namespace vesselbench {
                                                      const Positions& positions,
                                                      const Vec3& stack_axis);
 
-namespace detail {
-
 /// \throw InvalidInput if the axis has no direction
 [[nodiscard]] Vec3 unit_axis(const Vec3& stack_axis);
-
-}  // namespace detail
 
 }  // namespace vesselbench

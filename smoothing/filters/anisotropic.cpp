@@ -4,14 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/parallel.h"
 #include "smoothing/filters/cotangents.h"
-#include "smoothing/filters/filter_support.h"
+#include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/vertex_mover.h"
 
 namespace vesselbench {
 
 namespace {
 
-double flow_share(const detail::VertexCurvature& curvature, double feature) {
+double flow_share(const VertexCurvature& curvature, double feature) {
     const double mean = curvature.mean;
     const double spread = std::sqrt(std::max(0.0, mean * mean - curvature.gauss));
     const double one = mean + spread, two = mean - spread;
@@ -35,22 +38,22 @@ double default_feature_curvature(const Topology& topology, const Positions& posi
 Positions anisotropic(const Topology& topology, const Positions& positions,
                       const AnisotropicParameters& parameters, const FilterSettings& settings,
                       const Progress& progress) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
-    detail::require_one_ring("anisotropic smoothing", settings);
-    const detail::VertexMover mover(topology, positions, settings);
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
+    require_one_ring("anisotropic smoothing", settings);
+    const VertexMover mover(topology, positions, settings);
     const double feature = parameters.feature_curvature.value_or(
-        default_feature_curvature(topology, detail::start_of(positions, settings)));
-    detail::require_positive("feature_curvature", feature);
+        default_feature_curvature(topology, start_of(positions, settings)));
+    require_positive("feature_curvature", feature);
     Positions now = positions, next = positions;
-    detail::Cotangents cotangents;
+    Cotangents cotangents;
     for (int iteration = 0; iteration < settings.iterations; ++iteration) {
         progress.report(static_cast<double>(iteration) / settings.iterations, "smoothing");
-        detail::find_cotangents(topology, now, cotangents);
-        const auto curvatures = detail::vertex_curvatures(topology, now);
-        detail::for_each_vertex(now.size(), [&](std::size_t v) {
+        find_cotangents(topology, now, cotangents);
+        const auto curvatures = vertex_curvatures(topology, now);
+        for_each_vertex(now.size(), [&](std::size_t v) {
             if (mover.stays(v)) return;
             const Vec3 umbrella =
-                detail::cotangent_umbrella(topology, now, cotangents, static_cast<VertexId>(v));
+                cotangent_umbrella(topology, now, cotangents, static_cast<VertexId>(v));
             const double share = parameters.lambda * flow_share(curvatures[v], feature);
             next[v] = mover.moved(v, now[v], share * umbrella);
         });

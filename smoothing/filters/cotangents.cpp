@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "geometry/kernel/edges.h"
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<VertexCurvature> vertex_curvatures(const Topology& topology,
     return curvatures;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

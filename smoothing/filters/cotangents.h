@@ -6,7 +6,7 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Cotangents of the angles at the corners of every triangle, clamped to [0, 20]: an obtuse angle's
 /// negative weight makes the flow unstable. #T
@@ -33,4 +33,4 @@ struct VertexCurvature {
 [[nodiscard]] std::vector<VertexCurvature> vertex_curvatures(const Topology& topology,
                                                              const Positions& positions);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

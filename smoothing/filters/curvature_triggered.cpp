@@ -5,9 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/parallel.h"
 #include "smoothing/filters/anisotropic.h"
 #include "smoothing/filters/cotangents.h"
-#include "smoothing/filters/filter_support.h"
+#include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/two_rings.h"
+#include "smoothing/filters/vertex_mover.h"
 
 namespace vesselbench {
 
@@ -18,9 +22,9 @@ constexpr int kNever = std::numeric_limits<int>::max();
 /// The iteration from which each vertex may move: 0 where the curvature asks for it, one more with
 /// every ring of vertices that move.
 std::vector<int> first_iterations(const Topology& topology, const CompressedRows& neighbours,
-                                  const Positions& positions, const detail::VertexMover& mover,
+                                  const Positions& positions, const VertexMover& mover,
                                   double trigger) {
-    const auto curvatures = detail::vertex_curvatures(topology, positions);
+    const auto curvatures = vertex_curvatures(topology, positions);
     std::vector<int> first(positions.size(), kNever);
     std::vector<VertexId> queue;
     for (VertexId v = 0; v < positions.size(); ++v)
@@ -54,21 +58,20 @@ double default_trigger_curvature(const Topology& topology, const Positions& posi
 Positions curvature_triggered(const Topology& topology, const Positions& positions,
                               const CurvatureTriggeredParameters& parameters,
                               const FilterSettings& settings, const Progress& progress) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
-    const detail::VertexMover mover(topology, positions, settings);
-    const Positions& start = detail::start_of(positions, settings);
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
+    const VertexMover mover(topology, positions, settings);
+    const Positions& start = start_of(positions, settings);
     const int done = settings.earlier ? settings.earlier->iterations : 0;
     const double trigger =
         parameters.trigger_curvature.value_or(default_trigger_curvature(topology, start));
-    detail::require_positive("trigger_curvature", trigger);
-    const CompressedRows wide =
-        settings.rings == 1 ? CompressedRows{} : detail::two_rings(topology);
+    require_positive("trigger_curvature", trigger);
+    const CompressedRows wide = settings.rings == 1 ? CompressedRows{} : two_rings(topology);
     const CompressedRows& neighbours = settings.rings == 1 ? topology.rings() : wide;
     const auto first = first_iterations(topology, neighbours, start, mover, trigger);
     Positions now = positions, next = positions;
     for (int iteration = 0; iteration < settings.iterations; ++iteration) {
         progress.report(static_cast<double>(iteration) / settings.iterations, "smoothing");
-        detail::for_each_vertex(now.size(), [&](std::size_t v) {
+        for_each_vertex(now.size(), [&](std::size_t v) {
             if (first[v] > done + iteration) return;
             const Vec3 displacement = parameters.lambda * umbrella(neighbours, now, v);
             next[v] = mover.moved(v, now[v], displacement);

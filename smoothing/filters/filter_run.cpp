@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
 #include "smoothing/filters/linear_filter.h"
 #include "smoothing/filters/linear_steps.h"
 
@@ -10,15 +10,15 @@ namespace vesselbench {
 
 namespace {
 
-using Steps = std::vector<detail::LinearStep>;
+using Steps = std::vector<LinearStep>;
 
 /// What an iteration does, of a linear filter; else nothing.
 struct StepsOf {
-    Steps operator()(const LaplaceParameters& p) const { return detail::linear_steps(p); }
+    Steps operator()(const LaplaceParameters& p) const { return linear_steps(p); }
 
-    Steps operator()(const LaplaceHcParameters& p) const { return detail::linear_steps(p); }
+    Steps operator()(const LaplaceHcParameters& p) const { return linear_steps(p); }
 
-    Steps operator()(const TaubinParameters& p) const { return detail::linear_steps(p); }
+    Steps operator()(const TaubinParameters& p) const { return linear_steps(p); }
 
     template <class Other>
     Steps operator()(const Other&) const {
@@ -43,18 +43,18 @@ class FilterRun::Ground : public FilterGround {
 public:
     explicit Ground(FilterGround ground) : FilterGround(std::move(ground)) {}
 
-    std::shared_ptr<const detail::NeighbourBlocks> blocks;
+    std::shared_ptr<const NeighbourBlocks> blocks;
 };
 
 std::shared_ptr<const FilterRun::Ground> FilterRun::prepare(FilterGround ground) {
     auto prepared = std::make_shared<Ground>(std::move(ground));
-    prepared->blocks = detail::blocks_for(*prepared->topology, settings_for(*prepared, nullptr));
+    prepared->blocks = blocks_for(*prepared->topology, settings_for(*prepared, nullptr));
     return prepared;
 }
 
 struct FilterRun::Linear {
     FilterSettings settings;  ///< before the run, which refers to them
-    detail::LinearRun run;
+    LinearRun run;
 
     Linear(const Ground& ground, const Steps& steps, const FilterSettings& all)
         : settings(all), run(*ground.topology, *ground.start, steps, settings, ground.blocks) {}
@@ -98,13 +98,13 @@ void FilterRun::advance(int iterations, const Progress& progress) {
 
 void FilterRun::pack_now() {
     packs_.resize(now_.size());
-    detail::for_each_vertex(now_.size(), [&](std::size_t place) {
+    for_each_vertex(now_.size(), [&](std::size_t place) {
         const Vec3& p = now_[ground_->blocks->vertex_at(place)];
         packs_[place] = {{p.x(), p.y(), p.z(), 0.0}};
     });
 }
 
-std::span<const detail::PackRow> FilterRun::packs() {
+std::span<const PackRow> FilterRun::packs() {
     return linear_ ? linear_->run.packs() : packs_;
 }
 

@@ -49,7 +49,7 @@ public:
 
     /// The positions by place, four numbers each, until the run goes on. The vertex at every place
     /// is order_of its ground. Vertices that stay may have -0 for 0 here.
-    [[nodiscard]] std::span<const detail::PackRow> packs();
+    [[nodiscard]] std::span<const PackRow> packs();
 
     [[nodiscard]] static const FilterGround& ground_of(const Ground& ground);
 
@@ -63,9 +63,9 @@ private:
     std::shared_ptr<const Ground> ground_;
     FilterParameters parameters_;
     std::shared_ptr<const std::vector<double>> weights_;
-    std::unique_ptr<Linear> linear_;      ///< of linear filters, else null
-    Positions now_;                       ///< of other filters
-    std::vector<detail::PackRow> packs_;  ///< of other filters
+    std::unique_ptr<Linear> linear_;  ///< of linear filters, else null
+    Positions now_;                   ///< of other filters
+    std::vector<PackRow> packs_;      ///< of other filters
     int iterations_ = 0;
 };
 

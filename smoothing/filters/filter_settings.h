@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "geometry/kernel/topology.h"
 #include "smoothing/filters/position_constraint.h"
 
 namespace vesselbench {
@@ -30,5 +32,21 @@ struct FilterSettings {
     /// what one run of all iterations does, bit for bit. None: a run of its own.
     std::optional<EarlierRun> earlier = {};
 };
+
+/// \throw InvalidInput if the settings ask for more than one ring
+void require_one_ring(const char* filter, const FilterSettings& settings);
+
+/// 1 where a filter leaves a vertex alone: the fixed ones and, with keep_boundary, those on the
+/// boundary of an open surface; #V.
+/// \throw InvalidInput if the settings do not fit the topology, or a position is not finite
+[[nodiscard]] std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
+                                                               const Positions& positions,
+                                                               const FilterSettings& settings);
+
+/// Positions before the first iteration: those given, or where the earlier run began.
+[[nodiscard]] inline const Positions& start_of(const Positions& positions,
+                                               const FilterSettings& settings) {
+    return settings.earlier ? *settings.earlier->start : positions;
+}
 
 }  // namespace vesselbench

@@ -8,8 +8,7 @@ namespace vesselbench {
 Positions laplace_hc(const Topology& topology, const Positions& positions,
                      const LaplaceHcParameters& parameters, const FilterSettings& settings,
                      const Progress& progress) {
-    return detail::run_linear_filter(topology, positions, detail::linear_steps(parameters),
-                                     settings, progress);
+    return run_linear_filter(topology, positions, linear_steps(parameters), settings, progress);
 }
 
 bool amplifies(const LaplaceHcParameters& parameters) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "smoothing/filters/filter_support.h"
+#include "geometry/kernel/parallel.h"
+#include "smoothing/filters/filter_settings.h"
 #include "smoothing/filters/sweep_schedule.h"
+#include "smoothing/filters/two_rings.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -109,7 +111,7 @@ void LinearRun::advance(int iterations, const Progress& progress, Positions* mov
     const std::size_t more = steps_.size() * static_cast<std::size_t>(iterations);
     // What comes before the first step and after the last one belongs to the sweep, too: so it
     // passes through the memory no extra time.
-    sweep(
+    sweep_blocks(
         *blocks_, before + more, bytes_at_place(),
         [&](std::size_t number, std::size_t block) {
             if (number < before) return bring_in(block);
@@ -159,4 +161,4 @@ Positions run_linear_filter(const Topology& topology, const Positions& positions
     return moved;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

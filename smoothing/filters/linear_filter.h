@@ -12,7 +12,7 @@
 #include "smoothing/filters/linear_step.h"
 #include "smoothing/filters/neighbour_blocks.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// A filter on its way whose iterations are one or two linear steps. The first step of an iteration
 /// reads positions and writes them, or what the second needs; the second one's target are the
@@ -71,4 +71,4 @@ private:
                                           std::span<const LinearStep> steps,
                                           const FilterSettings& settings, const Progress& progress);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -4,7 +4,7 @@
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -68,4 +68,4 @@ void take_linear_step(const LinearStep& step, const StepArrays& arrays,
         any_cpu::take_step(step, arrays, blocks, block);
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

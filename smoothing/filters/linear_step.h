@@ -4,7 +4,7 @@
 
 #include "smoothing/filters/neighbour_blocks.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// A position that fills one wide register: x, y, z and 0.
 using Pack = double __attribute__((vector_size(32), may_alias));
@@ -42,4 +42,4 @@ struct StepArrays {
 void take_linear_step(const LinearStep& step, const StepArrays& arrays,
                       const NeighbourBlocks& blocks, std::size_t block);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
-#include "smoothing/filters/filter_support.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::vector<LinearStep> linear_steps(const TaubinParameters& parameters) {
     return {shrink, inflate};
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

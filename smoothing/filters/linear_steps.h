@@ -7,7 +7,7 @@
 #include "smoothing/filters/linear_step.h"
 #include "smoothing/filters/taubin.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// One iteration of a filter as linear steps, for any device.
 /// \throw InvalidInput if a parameter is out of its range
@@ -15,4 +15,4 @@ namespace vesselbench::detail {
 [[nodiscard]] std::vector<LinearStep> linear_steps(const LaplaceHcParameters& parameters);
 [[nodiscard]] std::vector<LinearStep> linear_steps(const TaubinParameters& parameters);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

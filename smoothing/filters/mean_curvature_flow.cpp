@@ -2,26 +2,29 @@
 
 #include <utility>
 
+#include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/parallel.h"
 #include "smoothing/filters/cotangents.h"
-#include "smoothing/filters/filter_support.h"
+#include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/vertex_mover.h"
 
 namespace vesselbench {
 
 Positions mean_curvature_flow(const Topology& topology, const Positions& positions,
                               const MeanCurvatureFlowParameters& parameters,
                               const FilterSettings& settings, const Progress& progress) {
-    detail::require_range("lambda", parameters.lambda, 0.0, 1.0);
-    detail::require_one_ring("mean curvature flow", settings);
-    const detail::VertexMover mover(topology, positions, settings);
+    require_range("lambda", parameters.lambda, 0.0, 1.0);
+    require_one_ring("mean curvature flow", settings);
+    const VertexMover mover(topology, positions, settings);
     Positions now = positions, next = positions;
-    detail::Cotangents cotangents;
+    Cotangents cotangents;
     for (int iteration = 0; iteration < settings.iterations; ++iteration) {
         progress.report(static_cast<double>(iteration) / settings.iterations, "smoothing");
-        detail::find_cotangents(topology, now, cotangents);
-        detail::for_each_vertex(now.size(), [&](std::size_t v) {
+        find_cotangents(topology, now, cotangents);
+        for_each_vertex(now.size(), [&](std::size_t v) {
             if (mover.stays(v)) return;
             const Vec3 umbrella =
-                detail::cotangent_umbrella(topology, now, cotangents, static_cast<VertexId>(v));
+                cotangent_umbrella(topology, now, cotangents, static_cast<VertexId>(v));
             next[v] = mover.moved(v, now[v], parameters.lambda * umbrella);
         });
         std::swap(now, next);

@@ -7,7 +7,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::size_t NeighbourBlocks::fill_neighbours(const CompressedRows& rows,
     return band;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

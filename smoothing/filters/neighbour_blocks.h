@@ -9,7 +9,7 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Vertices of one block that have the same number of neighbours.
 struct BlockGroup {
@@ -76,4 +76,4 @@ private:
     std::vector<std::uint32_t> neighbour_offsets_;  ///< #blocks + 1
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

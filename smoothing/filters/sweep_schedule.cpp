@@ -5,7 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -43,8 +43,8 @@ void run_seam(std::size_t seam, std::size_t first_step, std::size_t steps, std::
 
 }  // namespace
 
-void sweep(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
-           const Run& run, const Progress& progress) {
+void sweep_blocks(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
+                  const Run& run, const Progress& progress) {
     const std::size_t count = blocks.block_count();
     const std::size_t reach = std::max<std::size_t>(1, blocks.reach());
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
@@ -67,4 +67,4 @@ void sweep(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_a
     }
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

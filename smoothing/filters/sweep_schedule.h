@@ -6,7 +6,7 @@
 #include "geometry/kernel/progress.h"
 #include "smoothing/filters/neighbour_blocks.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Runs `steps` steps over all blocks, where a step of a block needs the step before of all blocks
 /// within the reach. Several steps go over the same part of the surface while it is in the cache,
@@ -17,8 +17,8 @@ namespace vesselbench::detail {
 /// time skewing", 2002.
 /// \param bytes_at_place that a step reads and writes
 /// \param run step (from 0) and block
-void sweep(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
-           const std::function<void(std::size_t step, std::size_t block)>& run,
-           const Progress& progress);
+void sweep_blocks(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
+                  const std::function<void(std::size_t step, std::size_t block)>& run,
+                  const Progress& progress);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -10,8 +10,7 @@ namespace vesselbench {
 Positions taubin(const Topology& topology, const Positions& positions,
                  const TaubinParameters& parameters, const FilterSettings& settings,
                  const Progress& progress) {
-    return detail::run_linear_filter(topology, positions, detail::linear_steps(parameters),
-                                     settings, progress);
+    return run_linear_filter(topology, positions, linear_steps(parameters), settings, progress);
 }
 
 bool amplifies(const TaubinParameters& parameters) {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// All ways to take one element of each row; the last row changes first.
 template <class Element>
@@ -23,4 +23,4 @@ template <class Element>
     return all;
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

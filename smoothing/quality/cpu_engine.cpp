@@ -1,7 +1,7 @@
+#include "smoothing/quality/cpu_engine.h"
+
 #include <algorithm>
 #include <utility>
-
-#include "smoothing/quality/smoothing_engine.h"
 
 namespace vesselbench {
 
@@ -88,12 +88,6 @@ private:
 };
 
 }  // namespace
-
-SharedWeights weights_of(const SmoothingChoice& choice) {
-    if (!choice.staircase) return choice.weights;
-    const auto& [tau_theta, tau_max, beta_min] = choice.staircase->values;
-    return choice.staircase->on_cpu(tau_theta, tau_max, beta_min);
-}
 
 std::shared_ptr<const SmoothingEngine> make_cpu_engine(FilterGround ground, bool planes) {
     return std::make_shared<CpuEngine>(std::move(ground), planes);

@@ -75,7 +75,7 @@ std::vector<ParameterSet> PatternSearch::neighbourhood(const Place& centre,
         }
     }
     std::vector<ParameterSet> sets;
-    for (const Place& place : detail::combinations(rows)) sets.push_back(values_at(place));
+    for (const Place& place : combinations(rows)) sets.push_back(values_at(place));
     return sets;
 }
 

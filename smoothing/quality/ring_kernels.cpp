@@ -13,7 +13,7 @@
 #define ALWAYS_INLINED __attribute__((always_inline))
 #define ALWAYS_INLINE inline ALWAYS_INLINED
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -167,4 +167,4 @@ double six_volumes(const PackRow* positions, std::span<const Triangle> triangles
                   : any_cpu::sum_six_volumes(positions, triangles, origin);
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

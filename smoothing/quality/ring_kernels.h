@@ -8,7 +8,7 @@
 #include "geometry/kernel/topology.h"
 #include "smoothing/filters/linear_step.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// The neighbours of every vertex in the order around it: n triangles (v, u[k], u[k + 1]) have
 /// n + 1 entries, the first one again at the end of a closed ring.
@@ -67,4 +67,4 @@ struct CurvatureSums {
 [[nodiscard]] double six_volumes(const PackRow* positions, std::span<const Triangle> triangles,
                                  const PackRow& origin);
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

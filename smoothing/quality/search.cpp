@@ -68,7 +68,7 @@ std::vector<ParameterSet> ParameterSearch::grid(bool coarse) const {
     std::vector<std::vector<double>> rows;
     for (const SearchParameter& parameter : space_.parameters)
         rows.push_back(chosen_values(parameter, coarse));
-    return detail::combinations(rows);
+    return combinations(rows);
 }
 
 Suggestion ParameterSearch::exhaustive(bool coarse, const Progress& progress) {

@@ -124,10 +124,4 @@ public:
     [[nodiscard]] virtual std::size_t run_bytes() const = 0;
 };
 
-/// The engine of smoothing/ and SurfaceMeter. The same bits on any number of threads.
-/// \param planes measures error_thesis too
-/// \throw InvalidInput if the ground does not fit together
-[[nodiscard]] std::shared_ptr<const SmoothingEngine> make_cpu_engine(FilterGround ground,
-                                                                     bool planes = false);
-
 }  // namespace vesselbench

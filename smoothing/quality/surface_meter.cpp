@@ -12,15 +12,11 @@
 #include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
-#include "smoothing/filters/filter_support.h"
 #include "smoothing/quality/ring_kernels.h"
 
 namespace vesselbench {
 
 namespace {
-
-using detail::PackRow;
-using detail::RingState;
 
 constexpr std::size_t kChunk =
     512;  // places that are summed by themselves: small, but not too many
@@ -39,7 +35,7 @@ Surface in_order(std::shared_ptr<const Topology> topology,
         throw InvalidInput("got " + std::to_string(original->size()) +
                            " positions and an order of " + std::to_string(order.size()) + " for " +
                            std::to_string(count) + " vertices");
-    detail::require_finite(*original);
+    require_finite(*original);
     Surface surface{.topology = std::move(topology), .positions = std::move(original)};
     if (order.empty()) return surface;
     std::vector<VertexId> place(count);
@@ -60,7 +56,7 @@ Surface in_order(std::shared_ptr<const Topology> topology,
 struct SurfaceMeter::Data {
     Surface surface;
     std::vector<PackRow> original;
-    detail::Fans fans;
+    Fans fans;
     bool planes = false;
     std::vector<std::uint32_t> lanes;   ///< all places; those of a chunk by the size of their fans
     std::vector<std::uint32_t> sample;  ///< every kSampleStep-th of them
@@ -90,7 +86,7 @@ struct SurfaceMeter::Data {
 };
 
 SurfaceMeter::Data::Data(Surface s, bool with_planes)
-    : surface(std::move(s)), fans(detail::make_fans(*surface.topology)), planes(with_planes) {
+    : surface(std::move(s)), fans(make_fans(*surface.topology)), planes(with_planes) {
     const std::size_t count = surface.vertex_count();
     const Vec3 middle = bounds(surface).centre();
     origin = {{middle.x(), middle.y(), middle.z(), 0.0}};
@@ -141,10 +137,10 @@ void SurfaceMeter::Data::add_errors(Packs moved, std::span<const std::uint32_t> 
     ChunkErrors found;
     for (std::size_t i = 0; i < count; ++i) found.references[i] = references[places[i]];
     const auto search = [&](ChunkErrors& errors, const std::uint32_t* at, std::size_t many) {
-        detail::find_ring_distances(
-            fans, {original.data(), moved.data(), at, errors.references.data(), many},
-            {errors.distances.data(), planes ? errors.planes.data() : nullptr,
-             errors.states.data()});
+        find_ring_distances(fans,
+                            {original.data(), moved.data(), at, errors.references.data(), many},
+                            {errors.distances.data(), planes ? errors.planes.data() : nullptr,
+                             errors.states.data()});
     };
     search(found, places.data(), count);
     // What drifts to another reference is searched again, four at once, in a queue of its own.
@@ -201,8 +197,8 @@ void SurfaceMeter::Data::add_irregular(Packs moved, std::uint32_t place,
 
 void SurfaceMeter::Data::add_curvatures(Packs moved, std::span<const std::uint32_t> places,
                                         QualityMeasures& sums) const {
-    const detail::CurvatureSums found = detail::curvature_sums(
-        fans, moved.data(), places.data(), places.size(), interior.data(), origin);
+    const CurvatureSums found =
+        curvature_sums(fans, moved.data(), places.data(), places.size(), interior.data(), origin);
     sums.curvature += found.curvature;
     sums.curvature_abs += found.curvature_abs;
     sums.volume += found.volume;
@@ -217,7 +213,7 @@ double SurfaceMeter::Data::triangle_volume(Packs moved) const {
     std::vector<double> parts((triangles.size() + kTriangles - 1) / kTriangles);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
         const std::size_t first = part * kTriangles;
-        parts[part] = detail::six_volumes(
+        parts[part] = six_volumes(
             moved.data(), triangles.subspan(first, std::min(kTriangles, triangles.size() - first)),
             origin);
     });

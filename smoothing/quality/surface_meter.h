@@ -21,7 +21,7 @@ namespace vesselbench {
 class SurfaceMeter {
 public:
     /// Positions in memory: 4 numbers each, so that a vertex fills one register.
-    using Packs = std::span<const detail::PackRow>;
+    using Packs = std::span<const PackRow>;
 
     /// \param planes measures error_thesis too
     /// \param order the vertex at every place, where states are not in the order of the vertices;

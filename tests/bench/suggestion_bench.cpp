@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 
 #include "smoothing/filters/laplace.h"
+#include "smoothing/quality/cpu_engine.h"
 #include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/stopwatch.h"

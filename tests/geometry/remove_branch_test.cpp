@@ -7,7 +7,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_distance.h"
-#include "geometry/phantoms/phantom.h"
+#include "geometry/phantoms/exact_surface.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/openings.h"

@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "smoothing/context/caps.h"
 #include "smoothing/context/staircases.h"
+#include "smoothing/quality/cpu_engine.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"

@@ -21,7 +21,7 @@ namespace {
 /// The CPU's measures of a state, its error against `original`.
 DeviceMeasures on_cpu(const Surface& original, const Positions& moved) {
     const SurfaceMeter meter(original.topology, original.positions, true);
-    std::vector<detail::PackRow> packs(moved.size());
+    std::vector<PackRow> packs(moved.size());
     for (std::size_t v = 0; v < packs.size(); ++v)
         packs[v] = {{moved[v].x(), moved[v].y(), moved[v].z(), 0.0}};
     auto references = meter.own_references();

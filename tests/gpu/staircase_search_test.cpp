@@ -125,18 +125,18 @@ SCENARIO("Vertices that a search left open get the distances of one that leaves 
     const Topology& topology = *surface.topology;
     std::vector<VertexId> sources;
     for (VertexId v = 0; v < surface.vertex_count(); v += 9) sources.push_back(v);
-    const auto wanted = detail::connected_distances(topology, surface.points(), sources, 1.5);
-    std::vector<detail::OpenVertex> open;
+    const auto wanted = connected_distances(topology, surface.points(), sources, 1.5);
+    std::vector<OpenVertex> open;
     for (VertexId v = 1; v < surface.vertex_count(); v += 9) open.push_back({.vertex = v});
-    const auto all = detail::open_distances(topology, surface.points(), sources, 1.5, open);
+    const auto all = open_distances(topology, surface.points(), sources, 1.5, open);
     for (std::size_t i = 0; i < open.size(); ++i) CHECK(all[i] == wanted[open[i].vertex]);
     for (auto& vertex : open) vertex.known = sources.back();  // everything is within that reach
-    const auto far = detail::connected_distances(topology, surface.points(), sources, 100.0);
-    const auto bounded = detail::open_distances(topology, surface.points(), sources, 100.0, open);
+    const auto far = connected_distances(topology, surface.points(), sources, 100.0);
+    const auto bounded = open_distances(topology, surface.points(), sources, 100.0, open);
     for (std::size_t i = 0; i < open.size(); ++i)
         if (open[i].vertex >= surface.vertex_count() / 2)  // the part of the last source
             CHECK(bounded[i] == far[open[i].vertex]);
-    CHECK(detail::open_distances(topology, surface.points(), {}, 1.5, open) ==
+    CHECK(open_distances(topology, surface.points(), {}, 1.5, open) ==
           std::vector<double>(open.size(), std::numeric_limits<double>::infinity()));
 }
 

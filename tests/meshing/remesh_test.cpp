@@ -157,7 +157,7 @@ SCENARIO("A coarse source is not cut into slivers of slivers", "[meshing][remesh
     Remesher remesher(bar, std::vector<double>(bar.vertex_count(), kEdge), bar);
     remesher.split_long_edges();
     const double wanted = area(bar) / (std::sqrt(3.0) / 4.0 * kEdge * kEdge);
-    CHECK(static_cast<double>(remesher.mesh().triangle_count()) < 12.0 * wanted);
+    CHECK(static_cast<double>(remesher.mesh.triangle_count()) < 12.0 * wanted);
 }
 
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {

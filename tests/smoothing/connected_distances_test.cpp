@@ -51,7 +51,7 @@ std::vector<VertexId> some_vertices(std::size_t count, double share) {
 
 std::vector<double> distances(const Surface& s, const std::vector<VertexId>& sources,
                               double reach) {
-    return detail::connected_distances(*s.topology, s.points(), sources, reach);
+    return connected_distances(*s.topology, s.points(), sources, reach);
 }
 
 /// A sphere with another one inside, 0.6 mm below it, and spikes that no straight walk climbs.

@@ -98,7 +98,7 @@ SCENARIO("Mean curvature flow leaves a plane where it is", "[smoothing][mean-cur
             return largest;
         };
         THEN("cotangent weights of acute triangles do not slide its vertices; uniform ones do") {
-            const auto curvatures = detail::vertex_curvatures(*plane.topology, plane.points());
+            const auto curvatures = vertex_curvatures(*plane.topology, plane.points());
             for (const auto& curvature : curvatures) {
                 CHECK(std::abs(curvature.mean) < 1e-10);
                 CHECK(std::abs(curvature.gauss) < 1e-10);
@@ -123,14 +123,14 @@ SCENARIO("Mean curvature flow shrinks a sphere and keeps it a sphere",
     CHECK(largest < 5.0);
     CHECK(largest - smallest < 0.05);
     GIVEN("both curvatures of the sphere") {
-        for (const auto& curvature : detail::vertex_curvatures(*sphere.topology, sphere.points())) {
+        for (const auto& curvature : vertex_curvatures(*sphere.topology, sphere.points())) {
             CHECK(curvature.mean == Approx(0.2).epsilon(0.01));
             CHECK(curvature.gauss == Approx(0.04).epsilon(0.03));
         }
     }
     GIVEN("the mean curvature that measure states") {
         const auto expected = mean_curvature(sphere).values;
-        const auto own = detail::vertex_curvatures(*sphere.topology, sphere.points());
+        const auto own = vertex_curvatures(*sphere.topology, sphere.points());
         for (std::size_t v = 0; v < own.size(); ++v)
             CHECK(own[v].mean == Approx(expected[v]).epsilon(1e-9));
     }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/image/extract_surface.h"
+#include "geometry/phantoms/imaging.h"
 #include "geometry/phantoms/random.h"
 
 namespace vesselbench::test {

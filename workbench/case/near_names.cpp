@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/kernel/wording.h"
+
 namespace vesselbench {
 
 namespace {
@@ -48,12 +50,6 @@ std::string did_you_mean(const std::string& name, std::span<const std::string> n
     const std::vector<std::string> near = near_names(name, names);
     if (near.empty()) return "";
     return "; did you mean '" + joined(near, "' or '") + "'?";
-}
-
-std::string joined(std::span<const std::string> names, const std::string& separator) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
-    return text;
 }
 
 }  // namespace vesselbench

@@ -14,8 +14,4 @@ namespace vesselbench {
 /// "; did you mean 'a' or 'b'?", or nothing when no name is near.
 [[nodiscard]] std::string did_you_mean(const std::string& name, std::span<const std::string> names);
 
-/// "a, b, c"
-[[nodiscard]] std::string joined(std::span<const std::string> names,
-                                 const std::string& separator = ", ");
-
 }  // namespace vesselbench

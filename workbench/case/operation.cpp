@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 
 namespace vesselbench {

@@ -8,6 +8,7 @@
 
 #include "geometry/formats/centerline_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/foreign_surface.h"
@@ -52,9 +53,7 @@ Json graph_json(const CenterlineGraph& graph) {
 }
 
 std::string short_number(const Json& number) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.4g", number.get<double>());
-    return buffer;
+    return formatted(number.get<double>(), "%.4g");
 }
 
 std::string node_name(const CenterlineGraph& graph, std::size_t node) {

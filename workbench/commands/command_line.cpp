@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/foreign_surface.h"
@@ -17,13 +18,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string numbers(const Json& list) {
-    std::string text;
-    char buffer[32];
-    for (const Json& number : list) {
-        std::snprintf(buffer, sizeof buffer, "%.4g", number.get<double>());
-        text += (text.empty() ? "" : ", ") + std::string(buffer);
-    }
-    return text;
+    std::vector<std::string> texts;
+    for (const Json& number : list) texts.push_back(formatted(number.get<double>(), "%.4g"));
+    return joined(texts);
 }
 
 void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& prefix,

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
-#include "workbench/case/near_names.h"
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"

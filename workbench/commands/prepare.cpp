@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"

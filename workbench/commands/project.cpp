@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <sstream>
 
@@ -35,9 +34,7 @@ std::string short_text(const Json& value) {
         return text;
     }
     if (!value.is_number_float()) return value.dump();
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.5g", value.get<double>());
-    return buffer;
+    return formatted(value.get<double>(), "%.5g");
 }
 
 /// A single value, or a point.

@@ -6,6 +6,7 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "meshing/products/glb.h"
 #include "meshing/products/gmsh.h"
 #include "meshing/products/openfoam_case.h"

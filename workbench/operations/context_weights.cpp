@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "smoothing/context/stack_orientation.h"
-#include "workbench/case/near_names.h"
 #include "workbench/case/point_json.h"
 
 namespace vesselbench {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/kept_memory.h"
+#include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
 #include "gpu/filter_on_device.h"
@@ -86,7 +86,7 @@ Positions filtered(const Scene& scene, const FilterParameters& filter, Outcome& 
         outcome.resolved = asked;
         report = Json();
         context = smoothing_context(scene, finder, outcome.resolved, report);
-        release_kept_memory();
+        release_freed_memory();
         if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
         return {context.start,
                 {.iterations = static_cast<int>(asked.integer("iterations")),
@@ -114,7 +114,7 @@ Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progres
         outcome.warnings.push_back(warning);
     Json report;
     Positions moved = filtered(scene, filter, outcome, report, progress);
-    release_kept_memory();
+    release_freed_memory();
     // No filter may make the surface pass through itself.
     warn_of_crossings(take_back_crossings(surface, moved, progress), "filter",
                       "use fewer iterations, or repair", outcome);

@@ -7,6 +7,7 @@
 
 #include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/phantoms/builtin.h"
 

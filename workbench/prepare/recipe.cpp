@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/near_names.h"

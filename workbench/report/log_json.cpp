@@ -1,10 +1,10 @@
 #include "workbench/report/log_json.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
 
 namespace vesselbench {
@@ -15,12 +15,6 @@ using Json = nlohmann::ordered_json;
 
 Json or_null(const std::optional<double>& number) {
     return number ? Json(*number) : Json();
-}
-
-std::string formatted(const char* format, double number) {
-    char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, number);
-    return buffer;
 }
 
 void add_part(std::string& text, const std::string& part) {
@@ -53,12 +47,12 @@ std::string change_text(const SurfaceChange& change) {
     std::string text;
     if (change.volume_before && change.volume_after && *change.volume_before > 0) {
         const double percent = 100.0 * (*change.volume_after / *change.volume_before - 1.0);
-        if (std::abs(percent) >= 0.005) add_part(text, formatted("volume %+.2f %%", percent));
+        if (std::abs(percent) >= 0.005) add_part(text, formatted(percent, "volume %+.2f %%"));
     } else if (change.volume_after && !change.volume_before) {
-        add_part(text, formatted("volume %.1f mm3", *change.volume_after));
+        add_part(text, formatted(*change.volume_after, "volume %.1f mm3"));
     }
     if (change.largest_deviation && *change.largest_deviation >= 0.0005)
-        add_part(text, formatted("moved up to %.3f mm", *change.largest_deviation));
+        add_part(text, formatted(*change.largest_deviation, "moved up to %.3f mm"));
     if (change.triangles_before != change.triangles_after)
         add_part(
             text,

@@ -1,7 +1,6 @@
 #include "workbench/report/report_html.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -26,12 +25,10 @@ border:1px solid #e6ebf0}figcaption{color:#5a6875;font-size:.9rem}.good{color:#1
 )";
 
 std::string number_text(double number) {
-    char buffer[64];
     const double size = std::abs(number);
     const char* format = size == 0 || (size >= 0.001 && size < 1e6) ? "%.4g" : "%.3g";
     if (size >= 1000 && size < 1e9) format = "%.0f";
-    std::snprintf(buffer, sizeof buffer, format, number);
-    return buffer;
+    return formatted(number, format);
 }
 
 /// One value as a reader wants it.

@@ -8,8 +8,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/sizing_field.h"
-#include "workbench/case/near_names.h"
 #include "workbench/worker/run_operation.h"
 
 namespace vesselbench {

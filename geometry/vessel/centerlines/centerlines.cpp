@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/lumen_grid.h"
@@ -139,19 +140,11 @@ void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors) {
 
 /// Loops of a skeleton: edges - nodes + components.
 int loop_count(const Skeleton& skeleton) {
-    std::vector<std::size_t> parent(skeleton.nodes.size());
-    for (std::size_t n = 0; n < parent.size(); ++n) parent[n] = n;
-    const auto find = [&](std::size_t n) {
-        while (parent[n] != n) n = parent[n];
-        return n;
-    };
+    DisjointSets sets(skeleton.nodes.size());
     int loops = 0;
-    for (const SkeletonBranch& b : skeleton.branches) {
-        const std::size_t a = find(b.from);
-        const std::size_t c = find(b.to);
-        loops += a == c ? 1 : 0;
-        parent[a] = c;
-    }
+    for (const SkeletonBranch& b : skeleton.branches)
+        loops +=
+            sets.join(static_cast<std::uint32_t>(b.from), static_cast<std::uint32_t>(b.to)) ? 0 : 1;
     return loops;
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
@@ -359,21 +359,13 @@ std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from) {
     const auto offsets = grid.neighbour_offsets();
     const auto lengths = grid.neighbour_lengths();
     std::vector<float> distance(grid.lumen.size(), std::numeric_limits<float>::infinity());
-    using Item = std::pair<float, VoxelId>;
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-    distance[from] = 0.0F;
-    queue.emplace(0.0F, from);
-    while (!queue.empty()) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[v]) continue;
+    ShortestPaths paths(distance);
+    paths.lower(from, 0.0F);
+    while (const auto at = paths.next())
         for (std::size_t n = 0; n < 26; ++n) {
-            const auto w = static_cast<VoxelId>(static_cast<int>(v) + offsets[n]);
-            if (!grid.lumen[w] || d + lengths[n] >= distance[w]) continue;
-            distance[w] = d + lengths[n];
-            queue.emplace(distance[w], w);
+            const auto w = static_cast<VoxelId>(static_cast<int>(at->vertex) + offsets[n]);
+            if (grid.lumen[w]) paths.lower(w, at->distance + lengths[n]);
         }
-    }
     return distance;
 }
 

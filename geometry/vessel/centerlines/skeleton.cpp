@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/vessel/centerlines/thinning.h"
 
 namespace vesselbench {
@@ -206,37 +207,25 @@ std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geode
     std::sort(order.begin(), order.end(), [&](VoxelId a, VoxelId b) {
         return geodesic[a] != geodesic[b] ? geodesic[a] > geodesic[b] : a < b;
     });
-    // Union of the region above the falling level; every set is named by its summit.
-    constexpr VoxelId kNone = std::numeric_limits<VoxelId>::max();
-    std::vector<VoxelId> parent(grid.lumen.size(), kNone);
-    const auto find = [&](VoxelId v) {
-        while (parent[v] != v) {
-            parent[v] = parent[parent[v]];
-            v = parent[v];
-        }
-        return v;
-    };
+    // Union of the region above the falling level, by rank: the root of every set is its summit.
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> rank(grid.lumen.size(), kNone);
+    DisjointSets sets(order.size());
     std::vector<VoxelId> found;
-    const auto higher = [&](VoxelId a, VoxelId b) {
-        return geodesic[a] != geodesic[b] ? geodesic[a] > geodesic[b] : a < b;
-    };
     const auto offsets = grid.neighbour_offsets();
-    for (const VoxelId v : order) {
-        parent[v] = v;
+    for (std::uint32_t r = 0; r < order.size(); ++r) {
+        const VoxelId v = order[r];
+        rank[v] = r;
         for (const int o : offsets) {
-            const auto w = static_cast<VoxelId>(static_cast<int>(v) + o);
-            if (parent[w] == kNone) continue;
-            VoxelId keep = find(v);
-            VoxelId lose = find(w);
-            if (keep == lose) continue;
-            if (higher(lose, keep)) std::swap(keep, lose);
-            if (geodesic[lose] - geodesic[v] >= height) found.push_back(lose);
-            parent[lose] = keep;
+            const std::uint32_t beside = rank[static_cast<VoxelId>(static_cast<int>(v) + o)];
+            if (beside == kNone) continue;
+            const VoxelId lower = order[std::max(sets.root(r), sets.root(beside))];
+            if (sets.join(r, beside) && geodesic[lower] - geodesic[v] >= height)
+                found.push_back(lower);
         }
     }
-    for (const VoxelId v : order) {
-        if (find(v) == v) found.push_back(v);
-    }
+    for (std::uint32_t r = 0; r < order.size(); ++r)
+        if (sets.root(r) == r) found.push_back(order[r]);
     std::sort(found.begin(), found.end());
     return found;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/centerlines/flat_closures.h"
 
@@ -86,18 +87,13 @@ std::vector<DirectedEdge> directed_edges(std::span<const Triangle> triangles) {
 }
 
 std::size_t component_count(std::size_t vertex_count, std::span<const Triangle> triangles) {
-    std::vector<VertexId> parent(vertex_count);
-    for (VertexId v = 0; v < vertex_count; ++v) parent[v] = v;
-    const auto find = [&](VertexId v) {
-        while (parent[v] != v) v = parent[v] = parent[parent[v]];
-        return v;
-    };
+    DisjointSets sets(vertex_count);
     for (const Triangle& t : triangles) {
-        parent[find(t[1])] = find(t[0]);
-        parent[find(t[2])] = find(t[0]);
+        sets.join(t[0], t[1]);
+        sets.join(t[0], t[2]);
     }
     std::set<VertexId> roots;
-    for (const Triangle& t : triangles) roots.insert(find(t[0]));
+    for (const Triangle& t : triangles) roots.insert(sets.root(t[0]));
     return roots.size();
 }
 

@@ -42,9 +42,7 @@ struct End {
 };
 
 std::string degrees_text(double angle) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f degrees", angle);
-    return text;
+    return formatted(angle, "%.0f degrees");
 }
 
 std::vector<End> visible_ends(const Surface& surface) {

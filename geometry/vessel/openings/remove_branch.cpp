@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/hole_filling.h"
 #include "geometry/vessel/openings/surface_parts.h"
@@ -101,18 +100,13 @@ public:
     std::vector<std::uint8_t> widened(const std::vector<VertexId>& vertices, double margin) const {
         const Positions& x = surface_.points();
         std::vector<double> distance(x.size(), std::numeric_limits<double>::infinity());
-        using Entry = std::pair<double, VertexId>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-        for (const VertexId v : vertices) open.emplace(distance[v] = 0.0, v);
-        while (!open.empty()) {
-            const auto [d, v] = open.top();
-            open.pop();
-            if (d > distance[v]) continue;
-            for (const VertexId u : surface_.topology->rings().row(v)) {
-                const double to = d + (x[u] - x[v]).norm();
-                if (to <= margin && to < distance[u]) open.emplace(distance[u] = to, u);
+        ShortestPaths paths(distance);
+        for (const VertexId v : vertices) paths.lower(v, 0.0);
+        while (const auto at = paths.next())
+            for (const VertexId u : surface_.topology->rings().row(at->vertex)) {
+                const double to = at->distance + (x[u] - x[at->vertex]).norm();
+                if (to <= margin) paths.lower(u, to);
             }
-        }
         std::vector<std::uint8_t> chosen(x.size(), 0);
         for (VertexId v = 0; v < x.size(); ++v) chosen[v] = distance[v] <= margin ? 1 : 0;
         return chosen;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -173,34 +174,24 @@ bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marke
 class Fans {
 public:
     Fans(const RepairMesh& mesh, const Mates& mates)
-        : mesh_(mesh), next_(3 * mesh.triangles.size()) {
-        for (std::uint32_t c = 0; c < next_.size(); ++c) next_[c] = c;
+        : mesh_(mesh), sets_(3 * mesh.triangles.size()) {
         for (std::uint32_t h = 0; h < mates.size(); ++h) {
             if (mates[h] == kNone || mates[h] < h) continue;
             const Triangle& t = mesh.triangles[h / 3];
             for (const VertexId v : {t[h % 3], t[(h % 3 + 1) % 3]})
-                join(corner(h / 3, v), corner(mates[h] / 3, v));
+                sets_.join(corner(h / 3, v), corner(mates[h] / 3, v));
         }
     }
 
-    std::uint32_t root(std::uint32_t c) {
-        while (next_[c] != c) c = next_[c] = next_[next_[c]];
-        return c;
-    }
+    std::uint32_t root(std::uint32_t c) { return sets_.root(c); }
 
 private:
     [[nodiscard]] std::uint32_t corner(TriangleId triangle, VertexId v) const {
         return 3 * triangle + corner_of(mesh_.triangles[triangle], v);
     }
 
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        next_[std::max(a, b)] = std::min(a, b);
-    }
-
     const RepairMesh& mesh_;
-    std::vector<std::uint32_t> next_;
+    DisjointSets sets_;
 };
 
 /// Gives every fan but the first its own copy of the vertex.

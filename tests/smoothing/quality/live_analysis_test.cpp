@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "smoothing/quality/cpu_engine.h"
 #include "smoothing/quality/smoothing_space.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"

@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include "geometry/kernel/errors.h"
+#include "smoothing/quality/cpu_engine.h"
 #include "smoothing/quality/smoothing_space.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"

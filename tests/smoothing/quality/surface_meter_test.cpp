@@ -17,8 +17,8 @@ using namespace vesselbench::test;
 
 namespace {
 
-std::vector<detail::PackRow> packed(const Positions& positions) {
-    std::vector<detail::PackRow> packs;
+std::vector<PackRow> packed(const Positions& positions) {
+    std::vector<PackRow> packs;
     for (const Vec3& p : positions) packs.push_back({{p.x(), p.y(), p.z(), 0.0}});
     return packs;
 }

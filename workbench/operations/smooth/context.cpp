@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/kept_memory.h"
+#include "geometry/kernel/freed_memory.h"
 #include "smoothing/context/cap_rounding.h"
 #include "workbench/operations/context_weights.h"
 
@@ -108,7 +108,7 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Ar
     SmoothingContext context;
     context.constraint = constraint_part(scene, arguments);
     static_cast<void>(surface.topology->rings());  // what making them has taken is not needed again
-    release_kept_memory();
+    release_freed_memory();
     const std::vector<Cap> caps = caps_of(finder, arguments);
     std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
     const bool round = arguments.text("caps") == "round";

@@ -1,11 +1,11 @@
-#include "geometry/kernel/corners.h"
+#include "geometry/kernel/vertex_corners.h"
 
 #include <cstdint>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -36,7 +36,7 @@ VertexRange range_of(std::span<const Triangle> triangles) {
 
 }  // namespace
 
-std::vector<VertexRange> shares(std::size_t vertex_count) {
+std::vector<VertexRange> vertex_shares(std::size_t vertex_count) {
     const auto count =
         static_cast<std::size_t>(std::clamp(tbb::this_task_arena::max_concurrency(), 1, 64));
     std::vector<VertexRange> ranges(count);
@@ -46,7 +46,7 @@ std::vector<VertexRange> shares(std::size_t vertex_count) {
     return ranges;
 }
 
-Corners::Corners(std::span<const Triangle> triangles)
+VertexCorners::VertexCorners(std::span<const Triangle> triangles)
     : triangles_(triangles), ranges_((triangles.size() + kPart - 1) / kPart) {
     tbb::parallel_for(std::size_t{0}, ranges_.size(), [&](std::size_t i) {
         const std::size_t first = i * kPart;
@@ -54,4 +54,4 @@ Corners::Corners(std::span<const Triangle> triangles)
     });
 }
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

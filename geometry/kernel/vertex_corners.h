@@ -6,7 +6,7 @@
 
 #include "geometry/kernel/triangles.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 /// Vertices [first, last).
 struct VertexRange {
@@ -16,14 +16,14 @@ struct VertexRange {
 };
 
 /// As many ranges of vertices as there are threads.
-[[nodiscard]] std::vector<VertexRange> shares(std::size_t vertex_count);
+[[nodiscard]] std::vector<VertexRange> vertex_shares(std::size_t vertex_count);
 
 /// The corners of triangles, to be visited by vertex: each thread looks at its share of the
 /// vertices. Which vertices some thousand triangles come from is kept: those of a surface that was
 /// made front by front come from few, so that a thread passes over most that are not its own.
-class Corners {
+class VertexCorners {
 public:
-    explicit Corners(std::span<const Triangle> triangles);
+    explicit VertexCorners(std::span<const Triangle> triangles);
 
     /// Calls visit(v, next, previous, triangle) for the corners at the wanted vertices, in the
     /// order of the triangles; before each some thousand of these, prepare(the vertex behind the
@@ -68,4 +68,4 @@ private:
     std::vector<VertexRange> ranges_;
 };
 
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

@@ -1,13 +1,12 @@
-#include "smoothing/filters/filter_support.h"
+#include "smoothing/filters/filter_settings.h"
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
+#include <string>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
 
-namespace vesselbench::detail {
+namespace vesselbench {
 
 namespace {
 
@@ -39,20 +38,6 @@ void require_fitting(const Topology& topology, const Positions& positions,
 
 }  // namespace
 
-void require_range(const char* name, double value, double minimum, double maximum) {
-    if (value >= minimum && value <= maximum) return;
-    std::ostringstream text;
-    text << name << " = " << value << " is not in [" << minimum << ", " << maximum << "]";
-    throw InvalidInput(text.str());
-}
-
-void require_positive(const char* name, double value) {
-    if (value > 0.0 && std::isfinite(value)) return;
-    std::ostringstream text;
-    text << name << " = " << value << " must be positive and finite";
-    throw InvalidInput(text.str());
-}
-
 void require_one_ring(const char* filter, const FilterSettings& settings) {
     if (settings.rings > 1)
         throw InvalidInput("rings = " + std::to_string(settings.rings) + ": " + filter +
@@ -72,35 +57,4 @@ std::vector<std::uint8_t> checked_fixed_vertices(const Topology& topology,
     return fixed;
 }
 
-VertexMover::VertexMover(const Topology& topology, const Positions& positions,
-                         const FilterSettings& settings)
-    : start_(start_of(positions, settings)),
-      settings_(settings),
-      fixed_(checked_fixed_vertices(topology, positions, settings)) {}
-
-Vec3 VertexMover::moved(std::size_t v, const Vec3& now, const Vec3& displacement) const {
-    const double weight = settings_.weights.empty() ? 1.0 : settings_.weights[v];
-    const Vec3 wanted = now + weight * displacement;
-    return settings_.constraint ? settings_.constraint->clamped(start_[v], wanted) : wanted;
-}
-
-CompressedRows two_rings(const Topology& topology) {
-    const CompressedRows& rings = topology.rings();
-    CompressedRows wide;
-    wide.offsets.assign(1, 0);
-    wide.offsets.reserve(topology.vertex_count() + 1);
-    std::vector<VertexId> around;
-    for (VertexId v = 0; v < topology.vertex_count(); ++v) {
-        around.assign(rings.row(v).begin(), rings.row(v).end());
-        for (const VertexId u : rings.row(v))
-            around.insert(around.end(), rings.row(u).begin(), rings.row(u).end());
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
-        for (const VertexId u : around)
-            if (u != v) wide.values.push_back(u);
-        wide.offsets.push_back(static_cast<std::uint32_t>(wide.values.size()));
-    }
-    return wide;
-}
-
-}  // namespace vesselbench::detail
+}  // namespace vesselbench

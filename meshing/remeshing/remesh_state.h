@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "meshing/remeshing/edit_mesh.h"
+#include "meshing/remeshing/remesh_target.h"
+
+namespace vesselbench {
+
+/// A surface under remeshing: its mesh, what it has to lie on, and for each vertex the wanted edge
+/// length and a hint for the next search; with the edits of single vertices and edges that every
+/// pass is made of, and the conditions under which they keep the surface.
+struct RemeshState {
+    using HalfEdge = EditMesh::HalfEdge;
+
+    /// Longer edges, in wanted lengths, are split; no edit makes one.
+    static constexpr double kLong = 4.0 / 3.0;
+
+    struct VertexKind {
+        int features = 0;            ///< feature edges at the vertex: 0 inside a patch, 2 on a rim
+        std::uint32_t p = 0, q = 0;  ///< the patches it lies in; on rims both
+    };
+
+    /// \param source what the result has to lie on
+    /// \param source_sizes wanted edge length at each vertex of the source [mm], #V
+    /// \param start the mesh to begin with: the source, or one near it with the same patches
+    /// \throw InvalidInput that names the place if the start is not an oriented manifold
+    RemeshState(const Surface& source, const std::vector<double>& source_sizes,
+                const Surface& start);
+
+    [[nodiscard]] VertexKind kind_of(VertexId v) const;
+
+    /// True for the vertex that closes a hole of the surface: it is no part of the result.
+    [[nodiscard]] bool is_hub(VertexId v) const;
+
+    /// The place on the source, on the patch or rim of the vertex, that is closest to x.
+    [[nodiscard]] TargetPlace place_for(VertexId v, const VertexKind& kind, const Vec3& x) const;
+
+    [[nodiscard]] double wanted(VertexId a, VertexId b) const {
+        return 0.5 * (sizes[a] + sizes[b]);
+    }
+
+    [[nodiscard]] double length(HalfEdge h) const {
+        return (mesh.points[mesh.origin(h)] - mesh.points[mesh.target(h)]).norm();
+    }
+
+    /// Unit mean normal of the triangles at v, by area.
+    [[nodiscard]] Vec3 normal_at(VertexId v) const;
+
+    /// True if collapsing h keeps rims, makes no edge longer than `limit` wanted lengths and folds
+    /// nothing over. Edges that are too long already may stay so.
+    [[nodiscard]] bool may_collapse(HalfEdge h, double limit);
+
+    [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
+    [[nodiscard]] bool move_keeps_shape(VertexId v, const Vec3& x) const;
+    void move(VertexId v, const TargetPlace& place);
+
+    /// The remeshed surface with the source's patches; attributes are not set.
+    [[nodiscard]] Surface result() const;
+
+    RemeshTarget target;
+    EditMesh mesh;
+    std::vector<Patch> patches;
+    std::vector<double> sizes;      ///< wanted edge length by vertex [mm]
+    std::vector<TriangleId> hints;  ///< by vertex: the source's triangle where searches begin
+};
+
+}  // namespace vesselbench
