@@ -196,7 +196,8 @@ Operation clip_opening_operation() {
               .type = Text,
               .help = "belongs to planes: kind:name of each opening, separated by commas"}},
         .run = &clip_opening,
-        .thesis = "4.2.7"};
+        .thesis = "4.2.7",
+        .recipe = {.cuts_ends = true}};
 }
 
 }  // namespace vesselbench

@@ -261,7 +261,8 @@ Operation extract_surface_operation() {
             .summary = "make a surface from the image by threshold, labels or both",
             .parameters = std::move(parameters),
             .run = &run_extraction,
-            .thesis = "3.2.1-3.2.3"};
+            .thesis = "3.2.1-3.2.3",
+            .recipe = {.makes_source = true}};
 }
 
 }  // namespace vesselbench

@@ -1,12 +1,15 @@
 #include "meshing/remeshing/remesh.h"
 
+#include <cmath>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "meshing/remeshing/sizing_field.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -82,6 +85,27 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool all) {
+    const double radius = usual_radius(surface, local_radii(surface, nullptr));
+    SearchedParameter edge{.name = "edge", .values = {}, .coarse = 3};
+    for (const double factor :  // 45 ... 9 triangles around, as the operation's 0.28 makes 22
+         {0.14, 0.17, 0.2, 0.24, 0.28, 0.33, 0.4, 0.5, 0.6, 0.7}) {
+        const double length = three_digits(factor * radius);
+        const double triangle = std::sqrt(3.0) / 4.0 * length * length;
+        if (area(surface) / triangle <= kMostSearchedTriangles) edge.values.push_back(length);
+    }
+    if (edge.values.empty())
+        throw InvalidInput(
+            "remesh: the vessel is so thin for its area that every edge length in question makes "
+            "more than 4 million triangles");
+    if (!all) {
+        edge.values.insert(edge.values.begin(), 0.0);
+        edge.idle = 0.0;  // the surface's triangles may be better than any
+        return {edge};
+    }
+    return {edge, {.name = "gradation", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
+}
+
 }  // namespace
 
 Operation remesh_operation() {
@@ -128,7 +152,11 @@ Operation remesh_operation() {
               .minimum = 1.05,
               .maximum = 3.0}},
         .run = &run,
-        .thesis = "3.3.2, 4.2.9"};
+        .thesis = "3.3.2, 4.2.9",
+        .search = {.by = OperationSearch::By::Runs,
+                   .parameters = &searched_parameters,
+                   .rivals = {"min_edge", "max_edge"},
+                   .counts_triangles = true}};
 }
 
 }  // namespace vesselbench

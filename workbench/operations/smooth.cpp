@@ -154,7 +154,9 @@ Operation smooth_operation() {
             .summary = "smooth the surface, aware of staircases, neighbours and caps",
             .parameters = parameter_table(),
             .run = &smooth,
-            .thesis = "3.3.4, 5"};
+            .thesis = "3.3.4, 5",
+            .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
+            .search = {.by = OperationSearch::By::Filter}};
 }
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #include "workbench/operations/table.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,12 @@ const Operation& find_operation(const std::string& name) {
     }
     throw UsageError("there is no operation '" + name + "'" + did_you_mean(name, names) +
                      " ('vesselbench operations' lists them all)");
+}
+
+const Operation& loading_operation(InputKind kind) {
+    return *std::ranges::find_if(operation_table(), [&](const Operation& operation) {
+        return operation.recipe.loads == kind;
+    });
 }
 
 }  // namespace vesselbench

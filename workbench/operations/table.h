@@ -13,6 +13,9 @@ namespace vesselbench {
 /// \throw UsageError that lists the near names if there is none of this name
 [[nodiscard]] const Operation& find_operation(const std::string& name);
 
+/// The operation that loads such an input.
+[[nodiscard]] const Operation& loading_operation(InputKind kind);
+
 // One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
 // ...; the brushes share brush.cpp). An operation is registered by its line here and its line in
 // table.cpp.

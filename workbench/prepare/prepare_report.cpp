@@ -9,6 +9,7 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "meshing/tetrahedra/quality.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/measure_json.h"
 #include "workbench/report/report_pictures.h"
@@ -89,11 +90,16 @@ std::vector<LogEntry> edits_of(const Session& session, const std::string& varian
     return edits;
 }
 
-std::optional<EditId> last_edit(const std::vector<LogEntry>& edits,
-                                std::initializer_list<const char*> operations) {
+/// What the edit's operation is to a recipe.
+const RecipePart& part_of(const LogEntry& entry) {
+    return find_operation(entry.edit.operation).recipe;
+}
+
+/// \param part that the edit's operation plays
+std::optional<EditId> last_edit(const std::vector<LogEntry>& edits, bool RecipePart::*part) {
     std::optional<EditId> last;
     for (const LogEntry& entry : edits)
-        if (std::ranges::count(operations, entry.edit.operation) > 0) last = entry.edit.edit.id;
+        if (part_of(entry).*part) last = entry.edit.edit.id;
     return last;
 }
 
@@ -199,8 +205,8 @@ void add_steps(Json& report, const std::vector<LogEntry>& edits) {
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
             report["warnings"].push_back(entry.edit.operation + ": " + warning);
-        if (entry.edit.operation == "print-check")
-            report["print"] = Json::parse(entry.result->report, nullptr, false);
+        if (const std::string& section = part_of(entry).report_section; !section.empty())
+            report[section] = Json::parse(entry.result->report, nullptr, false);
     }
 }
 
@@ -220,11 +226,11 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                      {"mask", prepared.input.mask.filename().string()}}},
                    {"warnings", prepared.warnings}};
     add_steps(report, edits);
-    const auto source_edit = last_edit(edits, {"load-surface", "extract-surface"});
+    const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
     add_quality(report, source, surface);
-    const auto clip = last_edit(edits, {"clip-opening"});
+    const auto clip = last_edit(edits, &RecipePart::cuts_ends);
     const std::vector<std::uint8_t> comparable = comparable_vertices(
         surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
     if (source.surface) {
