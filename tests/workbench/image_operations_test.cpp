@@ -21,7 +21,7 @@ namespace {
 Outcome run(const std::string& name, const Scene& scene, const Arguments& arguments) {
     Progress progress;
     const Operation& operation = find_operation(name);
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
+    return run_here(operation, scene, checked_arguments(operation, arguments), progress);
 }
 
 std::string written(const Image& image, const std::string& name) {
