@@ -14,9 +14,10 @@ struct RecipePart {
     /// A recipe for such an input begins with it; the parameter `file` names the input. One
     /// operation of the table for each kind.
     std::optional<InputKind> loads = std::nullopt;
-    bool makes_source = false;   ///< leaves the surface that results are compared with
-    bool proves_source = false;  ///< where it fails, the input is bad, not the recipe
-    bool cuts_ends = false;      ///< the source has no counterpart beyond the openings it makes
+    bool makes_source = false;       ///< leaves the surface that results are compared with
+    bool proves_source = false;      ///< where it fails, the input is bad, not the recipe
+    bool cuts_ends = false;          ///< the source has no counterpart beyond the openings it makes
+    bool makes_volume_mesh = false;  ///< its report has the mesh's `quality`
     /// What to try where it changes the volume noticeably: "fewer iterations keep it". Empty: it
     /// may change the volume.
     std::string volume_remedy = {};

@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "meshing/remeshing/sizing_field.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -30,15 +31,15 @@ RemeshParameters parameters_from(const Arguments& arguments) {
 }
 
 Report report_from(const RemeshReport& figures) {
+    const Spread skewness{.mean = figures.wall_skewness_mean, .max = figures.wall_skewness_max};
+    const Spread ratio{.min = figures.wall_radius_ratio_min,
+                       .mean = figures.wall_radius_ratio_mean};
     return std::make_shared<nlohmann::ordered_json>(
         nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
                                {"edge_mm", figures.edge},
                                {"triangles_before", figures.triangles_before},
                                {"triangles_after", figures.triangles_after},
-                               {"wall_equiangle_skewness_mean", figures.wall_skewness_mean},
-                               {"wall_equiangle_skewness_max", figures.wall_skewness_max},
-                               {"wall_radius_ratio_mean", figures.wall_radius_ratio_mean},
-                               {"wall_radius_ratio_min", figures.wall_radius_ratio_min},
+                               {"wall", triangle_shape_json(skewness, ratio)},
                                {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
 }
 
