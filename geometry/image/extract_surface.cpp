@@ -38,13 +38,32 @@ void check(const Image& image, const std::optional<Image>& mask) {
                            size_text(image) + ": give the mask of this image");
 }
 
+/// Intensities as the surface is extracted from them, and what they were made for.
+struct Intensities {
+    bool inside_below = false;
+    Cleaning cleaning;
+    std::optional<double> resample;
+    Image up;                        ///< turned so that the inside lies above
+    Image ready;                     ///< cleaned and resampled
+    std::optional<double> contrast;  ///< of the diffusion, if there was one
+};
+
+/// An image, and what was found and made of it so far.
+struct ImageSource {
+    Image image;
+    std::optional<Image> mask;
+    ImageJudgement judgement;
+    std::optional<double> bright;  ///< bright_threshold
+    std::optional<Intensities> intensities;
+};
+
 /// Fills in the method, the side and (for level sets) the threshold.
-void decide_method(const Image& image, bool with_mask, const ExtractionParameters& parameters,
+void decide_method(ImageSource& source, const ExtractionParameters& parameters,
                    Extraction& result) {
-    const ImageJudgement judgement = judge(image);
+    const ImageJudgement& judgement = source.judgement;
     if (parameters.method) {
         result.method = *parameters.method;
-    } else if (with_mask) {
+    } else if (source.mask) {
         result.method = ExtractionMethod::Masked;
         result.reasons.emplace_back("there is a mask: intensities inside the dilated mask");
     } else if (!parameters.threshold && judgement.kind == ImageKind::Labels) {
@@ -62,19 +81,19 @@ void decide_method(const Image& image, bool with_mask, const ExtractionParameter
     if (parameters.threshold)
         result.threshold = *parameters.threshold;
     else if (result.method == ExtractionMethod::Threshold && !level_set) {
-        result.threshold = bright_threshold(image);
+        if (!source.bright) source.bright = bright_threshold(source.image);
+        result.threshold = *source.bright;
         result.reasons.push_back("threshold " + text_of(result.threshold) +
                                  ": Otsu's on the brightest voxels");
     }
 }
 
-Image cleaned_intensities(const Image& image, const Cleaning& cleaning, Extraction& result,
-                          const Progress& progress) {
+Image cleaned_intensities(const Image& image, const Cleaning& cleaning,
+                          std::optional<double>& contrast, const Progress& progress) {
     Image clean = image;
     if (cleaning.diffusion > 0) {
-        result.contrast = cleaning.diffusion_contrast.value_or(edge_contrast(image));
-        clean = diffuse(clean, {.iterations = cleaning.diffusion, .contrast = result.contrast},
-                        progress);
+        contrast = cleaning.diffusion_contrast.value_or(edge_contrast(image));
+        clean = diffuse(clean, {.iterations = cleaning.diffusion, .contrast = contrast}, progress);
     }
     clean = gaussian(clean, cleaning.gaussian);
     return closed(opened(clean, cleaning.opening), cleaning.closing);
@@ -120,30 +139,44 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     return field;
 }
 
-Field threshold_field(const Image& image, const ExtractionParameters& parameters,
-                      Extraction& result, const Progress& progress) {
-    const Image up = inside_up(image, result.inside_below);
-    const double iso = result.inside_below ? -result.threshold : result.threshold;
-    if (parameters.cleaning.any()) result.before = voxel_topology(up, iso);
-    Field field{cleaned_intensities(up, parameters.cleaning, result, progress), iso};
-    if (parameters.resample) field.image = resample_intensities(field.image, *parameters.resample);
-    return field;
+/// Cleaned and resampled, once for the same parameters.
+const Intensities& prepared(ImageSource& source, const ExtractionParameters& parameters,
+                            bool inside_below, const Progress& progress) {
+    const auto& last = source.intensities;
+    if (last && last->inside_below == inside_below && last->cleaning == parameters.cleaning &&
+        last->resample == parameters.resample)
+        return *last;
+    Intensities made{.inside_below = inside_below,
+                     .cleaning = parameters.cleaning,
+                     .resample = parameters.resample,
+                     .up = inside_up(source.image, inside_below)};
+    made.ready = cleaned_intensities(made.up, made.cleaning, made.contrast, progress);
+    if (made.resample) made.ready = resample_intensities(made.ready, *made.resample);
+    return source.intensities.emplace(std::move(made));
 }
 
-Field masked_field(const Image& image, const Image& mask, const ExtractionParameters& parameters,
-                   Extraction& result, const Progress& progress) {
-    const Image inside = mask_of_labels(mask, parameters.labels);
+Field threshold_field(ImageSource& source, const ExtractionParameters& parameters,
+                      Extraction& result, const Progress& progress) {
+    const double iso = result.inside_below ? -result.threshold : result.threshold;
+    const Intensities& made = prepared(source, parameters, result.inside_below, progress);
+    result.contrast = made.contrast;
+    if (parameters.cleaning.any()) result.before = voxel_topology(made.up, iso);
+    return {made.ready, iso};
+}
+
+Field masked_field(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
+                   const Progress& progress) {
+    const Image inside = mask_of_labels(*source.mask, parameters.labels);
     if (!parameters.threshold) {
-        result.threshold = masked_threshold(image, inside);
+        result.threshold = masked_threshold(source.image, inside);
         result.reasons.push_back("threshold " + text_of(result.threshold) +
                                  ": midway between the medians inside the mask and around it");
     }
-    Field field = threshold_field(image, parameters, result, progress);
+    Field field = threshold_field(source, parameters, result, progress);
     Image grown = dilated(inside, parameters.dilation);
     if (result.before)
         result.before = voxel_topology(
-            masked_intensities(inside_up(image, result.inside_below), grown, field.iso, false),
-            field.iso);
+            masked_intensities(source.intensities->up, grown, field.iso, false), field.iso);
     if (parameters.resample) grown = resample_mask(grown, *parameters.resample);
     field.image = masked_intensities(field.image, grown, field.iso, false);
     return field;
@@ -175,42 +208,25 @@ void check_share(const Field& field, const Extraction& result) {
                            "); give another threshold");
 }
 
-}  // namespace
-
-std::string to_string(ExtractionMethod method) {
-    switch (method) {
-        case ExtractionMethod::Labels:
-            return "labels";
-        case ExtractionMethod::Masked:
-            return "masked";
-        default:
-            return "threshold";
-    }
+/// What the parameters ask for, with decisions and reasons.
+Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
+               const Progress& progress) {
+    decide_method(source, parameters, result);
+    if (result.method == ExtractionMethod::Masked && !source.mask)
+        throw InvalidInput("method=masked needs a mask: load the image with mask=");
+    if (result.method == ExtractionMethod::Masked)
+        return masked_field(source, parameters, result, progress);
+    if (result.method == ExtractionMethod::Threshold)
+        return threshold_field(source, parameters, result, progress);
+    // With both, the labels are the mask's: the image holds intensities.
+    Field field = label_field(source.mask ? *source.mask : source.image, parameters, result);
+    result.threshold = kMaskIso;
+    result.inside_below = false;
+    return field;
 }
 
-Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
-                           const ExtractionParameters& parameters, const Progress& progress) {
-    check(image, mask);
-    progress.report(0.0, "judging the image");
-    Extraction result;
-    decide_method(image, mask.has_value(), parameters, result);
-    if (result.method == ExtractionMethod::Masked && !mask)
-        throw InvalidInput("method=masked needs a mask: load the image with mask=");
-    const Progress cleaning = progress.part(0.1, 0.6);
-    Field field;
-    if (result.method == ExtractionMethod::Labels) {
-        // With both, the labels are the mask's: the image holds intensities.
-        field = label_field(mask ? *mask : image, parameters, result);
-        result.threshold = kMaskIso;
-        result.inside_below = false;
-    } else if (result.method == ExtractionMethod::Masked) {
-        field = masked_field(image, *mask, parameters, result, cleaning);
-    } else {
-        field = threshold_field(image, parameters, result, cleaning);
-    }
-    check_share(field, result);
-    if (parameters.cleaning.any()) result.after = voxel_topology(field.image, field.iso);
-    progress.report(0.6, "extracting the surface");
+void choose_body(const Field& field, const ExtractionParameters& parameters, Extraction& result,
+                 const Progress& progress) {
     const Surface all = iso_surface(field.image, field.iso);
     progress.report(0.8, "choosing the body");
     constexpr double kSeedTolerance = 2.0;  // voxels
@@ -224,7 +240,48 @@ Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
     result.bodies = choice.bodies;
     result.hollows = choice.hollows;
     result.largest_dropped = choice.largest_dropped;
+}
+
+}  // namespace
+
+std::string to_string(ExtractionMethod method) {
+    switch (method) {
+        case ExtractionMethod::Labels:
+            return "labels";
+        case ExtractionMethod::Masked:
+            return "masked";
+        default:
+            return "threshold";
+    }
+}
+
+struct SurfaceExtractor::Source : ImageSource {};
+
+SurfaceExtractor::SurfaceExtractor(Image image, std::optional<Image> mask) {
+    check(image, mask);
+    ImageJudgement judgement = judge(image);
+    source_ = std::make_unique<Source>(
+        Source{{std::move(image), std::move(mask), std::move(judgement), {}, {}}});
+}
+
+SurfaceExtractor::~SurfaceExtractor() = default;
+SurfaceExtractor::SurfaceExtractor(SurfaceExtractor&&) noexcept = default;
+
+Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
+                                     const Progress& progress) {
+    progress.report(0.0, "judging the image");
+    Extraction result;
+    const Field field = field_of(*source_, parameters, result, progress.part(0.1, 0.6));
+    check_share(field, result);
+    if (parameters.cleaning.any()) result.after = voxel_topology(field.image, field.iso);
+    progress.report(0.6, "extracting the surface");
+    choose_body(field, parameters, result, progress);
     return result;
+}
+
+Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
+                           const ExtractionParameters& parameters, const Progress& progress) {
+    return SurfaceExtractor(image, mask).extract(parameters, progress);
 }
 
 }  // namespace vesselbench

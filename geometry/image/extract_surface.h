@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ struct Cleaning {
     [[nodiscard]] bool any() const {
         return diffusion > 0 || gaussian > 0.0 || opening > 0 || closing > 0;
     }
+
+    bool operator==(const Cleaning&) const = default;
 };
 
 /// Which bodies of the iso-surface are kept.
@@ -77,5 +80,23 @@ struct Extraction {
 [[nodiscard]] Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
                                          const ExtractionParameters& parameters,
                                          const Progress& progress = {});
+
+/// The same for one image with changing parameters, as a sliding iso-value asks for: the judged,
+/// cleaned and resampled image is kept while the parameters it depends on stay. Not thread-safe.
+class SurfaceExtractor {
+public:
+    /// \throw InvalidInput as extract_surface
+    SurfaceExtractor(Image image, std::optional<Image> mask);
+    ~SurfaceExtractor();
+    SurfaceExtractor(SurfaceExtractor&&) noexcept;
+
+    /// \throw as extract_surface
+    [[nodiscard]] Extraction extract(const ExtractionParameters& parameters,
+                                     const Progress& progress = {});
+
+private:
+    struct Source;
+    std::unique_ptr<Source> source_;
+};
 
 }  // namespace vesselbench

@@ -348,7 +348,7 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     write_text(folder / "0/p", writer.pressure());
     write_text(folder / "constant/transportProperties", writer.transport());
     write_text(folder / "constant/turbulenceProperties", turbulence());
-    const double angle = volume_quality(mesh).largest_non_orthogonality;
+    const double angle = largest_non_orthogonality(mesh, writer.faces);
     write_text(folder / "system/fvSchemes", schemes(angle));
     write_text(folder / "system/fvSolution", solution(parameters, angle));
     write_text(folder / "system/decomposeParDict", writer.decomposition());

@@ -103,6 +103,20 @@ double aspect_ratio(const VolumeMesh& mesh, const Tetrahedron& tet, double volum
     return std::max(flat, stretched);
 }
 
+Vec3 cell_centre(const VolumeMesh& mesh, const Tetrahedron& tet) {
+    const auto& p = mesh.points;
+    return (p[tet[0]] + p[tet[1]] + p[tet[2]] + p[tet[3]]) / 4.0;
+}
+
+/// Of the angle between a face's normal and the line between the cells' centres.
+double non_orthogonality_cosine(const Vec3& line, const Vec3& normal) {
+    return line.dot(normal) / (line.norm() * normal.norm() + 1e-300);
+}
+
+double degrees_of(double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
+}
+
 void add_cells(const VolumeMesh& mesh, VolumeQuality& quality, std::vector<CellShape>& shapes) {
     double edges = 0.0;
     quality.smallest_cell = mesh.tetrahedra.empty() ? 0.0 : 1e300;
@@ -111,7 +125,7 @@ void add_cells(const VolumeMesh& mesh, VolumeQuality& quality, std::vector<CellS
         const Vec3 &a = mesh.points[tet[0]], &b = mesh.points[tet[1]], &c = mesh.points[tet[2]],
                    &d = mesh.points[tet[3]];
         const double volume = (b - a).cross(c - a).dot(d - a) / 6.0;
-        shapes.push_back({(a + b + c + d) / 4.0, volume});
+        shapes.push_back({cell_centre(mesh, tet), volume});
         edges += (a - b).norm() + (a - c).norm() + (a - d).norm() + (b - c).norm() +
                  (b - d).norm() + (c - d).norm();
         const auto angles = dihedral_angles(a, b, c, d);
@@ -175,8 +189,8 @@ void add_faces(const VolumeMesh& mesh, const std::vector<CellShape>& shapes,
         }
         const CellShape& neighbour = shapes[face.neighbour];
         const Vec3 line = neighbour.centre - owner.centre;
-        const double cosine = line.dot(normal) / (line.norm() * normal.norm() + 1e-300);
-        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
+        const double cosine = non_orthogonality_cosine(line, normal);
+        const double angle = degrees_of(cosine);
         const double ratio = std::max(owner.volume, neighbour.volume) /
                              std::max(1e-300, std::min(owner.volume, neighbour.volume));
         ++quality.inner_faces;
@@ -190,11 +204,23 @@ void add_faces(const VolumeMesh& mesh, const std::vector<CellShape>& shapes,
     }
     const auto inner = static_cast<double>(std::max<std::size_t>(1, quality.inner_faces));
     // As checkMesh: the angle of the mean cosine.
-    quality.mean_non_orthogonality = std::acos(std::clamp(cosines / inner, -1.0, 1.0)) * kDegrees;
+    quality.mean_non_orthogonality = degrees_of(cosines / inner);
     quality.mean_volume_ratio = ratios / inner;
 }
 
 }  // namespace
+
+double largest_non_orthogonality(const VolumeMesh& mesh, std::span<const MeshFace> faces) {
+    double largest = 0.0;
+    for (const MeshFace& face : faces) {
+        if (face.neighbour == MeshFace::kOutside) continue;
+        const Vec3 line = cell_centre(mesh, mesh.tetrahedra[face.neighbour]) -
+                          cell_centre(mesh, mesh.tetrahedra[face.owner]);
+        const Vec3 normal = area_normal(mesh.points, face.corners);
+        largest = std::max(largest, degrees_of(non_orthogonality_cosine(line, normal)));
+    }
+    return largest;
+}
 
 std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const std::array<Vec3, 4> out = {

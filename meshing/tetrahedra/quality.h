@@ -47,6 +47,11 @@ struct VolumeQuality {
 
 [[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh);
 
+/// Its largest_non_orthogonality alone [deg], where the faces are known already.
+/// \param faces of mesh_faces
+[[nodiscard]] double largest_non_orthogonality(const VolumeMesh& mesh,
+                                               std::span<const MeshFace> faces);
+
 /// The six inner angles between the faces of a tetrahedron [deg].
 [[nodiscard]] std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& c,
                                                     const Vec3& d);

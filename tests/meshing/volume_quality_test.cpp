@@ -95,6 +95,9 @@ SCENARIO("improvement moves inner vertices to better places", "[meshing][optimis
         THEN("the smallest angle grows, the volume and the boundary stay") {
             const auto before = volume_quality(poor), after = volume_quality(better);
             CHECK(after.smallest_dihedral > 2.0 * before.smallest_dihedral);
+            CHECK(before.largest_non_orthogonality > 1.0);
+            CHECK(largest_non_orthogonality(poor, mesh_faces(poor)) ==
+                  before.largest_non_orthogonality);
             CHECK(after.volume == Approx(1.0).epsilon(1e-12));
             CHECK(after.smallest_cell > 0.0);
             for (std::size_t v = 0; v < 8; ++v) CHECK(better.points[v] == poor.points[v]);

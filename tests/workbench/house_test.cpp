@@ -76,7 +76,7 @@ const Names kDeclareWithoutSource = {
     "workbench/prepare/builtin_recipes.h",
     "workbench/commands/commands.h",
     "geometry/phantoms/phantom.h",
-    "geometry/kernel/kept_memory.h",
+    "geometry/kernel/freed_memory.h",
     "smoothing/quality/smoothing_engine.h",
 };
 

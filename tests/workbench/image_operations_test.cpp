@@ -21,7 +21,7 @@ namespace {
 Outcome run(const std::string& name, const Scene& scene, const Arguments& arguments) {
     Progress progress;
     const Operation& operation = find_operation(name);
-    return operation.run(scene, checked_arguments(operation, arguments), progress);
+    return run_here(operation, scene, checked_arguments(operation, arguments), progress);
 }
 
 std::string written(const Image& image, const std::string& name) {
@@ -167,7 +167,7 @@ SCENARIO("crop cuts image, mask and surface alike", "[workbench][images]") {
         THEN("mask and image stay on one grid, the surface is open") {
             CHECK(same_grid(*outcome.scene.image, *outcome.scene.mask));
             CHECK(outcome.scene.image->voxel_count() < ball.voxel_count());
-            CHECK(outcome.report->at("open_boundaries") == 1);
+            CHECK(outcome.report->at("boundary_loops") == 1);
         }
     }
     THEN("box or ball, not both and not neither") {

@@ -1,17 +1,23 @@
 #include "workbench/case/operation.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/support/shapes.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/near_names.h"
 #include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;
+using vesselbench::test::icosphere;
 
 namespace {
 
@@ -102,6 +108,14 @@ SCENARIO("Checked arguments have their defaults and no unknown names", "[workben
                       Contains("did you mean 'length'") && Contains("rounds"));
     CHECK_THROWS_AS(checked_arguments(operation, {{"name", std::string("a")}, {"flip", 1.0}}),
                     UsageError);
+    WHEN("arguments are added to others") {
+        const Arguments more = checked_changes(operation, {{"length", std::string("2")}});
+        THEN("they are checked, and nothing is filled in") {
+            CHECK(more == Arguments{{"length", 2.0}});
+            CHECK_THROWS_AS(checked_changes(operation, {{"length", 21.0}}), UsageError);
+            CHECK_THROWS_AS(checked_changes(operation, {{"width", 1.0}}), UsageError);
+        }
+    }
 }
 
 SCENARIO("Arguments survive JSON", "[workbench][operation]") {
@@ -137,7 +151,8 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
         last = operation.usual_step;
         CHECK(std::ranges::count(operation.allowed, operation.usual_step) == 1);
         CHECK_FALSE(operation.summary.empty());
-        REQUIRE(operation.run != nullptr);
+        // The batch form is a function of its own, or the live form from start to outcome.
+        CHECK((operation.run == nullptr) != (operation.start == nullptr));
         std::set<std::string> parameters;
         for (const Parameter& p : operation.parameters) {
             INFO(p.name);
@@ -147,4 +162,47 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
             if (p.default_value) CHECK_NOTHROW(parse_value(p, to_text(*p.default_value)));
         }
     }
+}
+
+SCENARIO("Operations declare what others ask of them", "[workbench][operation]") {
+    for (const InputKind kind : {InputKind::Surface, InputKind::Image}) {
+        const auto loads = [&](const Operation& o) { return o.recipe.loads == kind; };
+        REQUIRE(std::ranges::count_if(operation_table(), loads) == 1);
+        CHECK_NOTHROW(find_parameter(loading_operation(kind), "file"));
+    }
+    for (const Operation& operation : operation_table()) {
+        INFO(operation.name);
+        const OperationSearch& search = operation.search;
+        CHECK((search.by == OperationSearch::By::Runs) == (search.parameters != nullptr));
+        if (search.by == OperationSearch::By::Filter)
+            CHECK_NOTHROW(find_parameter(operation, "filter"));
+        if (search.parameters == nullptr) continue;
+        for (const bool all : {false, true})
+            for (const SearchedParameter& searched : search.parameters(icosphere(5.0, 3), all)) {
+                INFO(searched.name);
+                CHECK_NOTHROW(find_parameter(operation, searched.name));
+                CHECK(std::ranges::is_sorted(searched.values));
+            }
+        for (const std::string& rival : search.rivals)
+            CHECK_NOTHROW(find_parameter(operation, rival));
+    }
+}
+
+SCENARIO("Nobody but the operations asks for an operation by its name", "[workbench][operation]") {
+    namespace fs = std::filesystem;
+    const fs::path workbench = fs::path(VESSELBENCH_SOURCE_DIR) / "workbench";
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(workbench)) {
+        const fs::path& file = entry.path();
+        if (file.extension() != ".cpp" && file.extension() != ".h") continue;
+        if (file.parent_path().string().starts_with((workbench / "operations").string())) continue;
+        ++files;
+        std::ifstream stream(file);
+        const std::string text((std::istreambuf_iterator<char>(stream)), {});
+        INFO(file);
+        for (const Operation& operation : operation_table())
+            for (const std::string before : {"== ", "!= ", "find_operation("})
+                CHECK(text.find(before + '"' + operation.name + '"') == std::string::npos);
+    }
+    CHECK(files > 50);
 }

@@ -78,6 +78,8 @@ SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     CHECK(report["openings"].size() == 2);
     CHECK(report["openings"][0]["kind"] == "inlet");
     CHECK(report["volume_mesh"]["cells"].get<int>() > 1000);
+    CHECK(report["volume_mesh"] == report["steps"].back()["report"]["quality"]);
+    CHECK(report["volume_mesh"]["smallest_dihedral_deg"].get<double>() > 5.0);
     CHECK(report["distance_to_exact"]["mean_mm"].get<double>() < 0.1);
     CHECK(report["flow"]["inlets"][0]["reynolds"].get<double>() ==
           Approx(4 * 1000 * 1.2e-6 / (3.14159265 * 4e-3 * 4e-3)).epsilon(0.05));

@@ -228,7 +228,7 @@ WorkerOptions test_worker() {
 Outcome run(const std::string& operation, const Scene& scene, const Arguments& arguments) {
     Progress progress;
     const Operation& found = find_operation(operation);
-    return found.run(scene, checked_arguments(found, arguments), progress);
+    return run_here(found, scene, checked_arguments(found, arguments), progress);
 }
 
 Outcome run(const std::string& operation, const Surface& surface, const Arguments& arguments) {

@@ -61,12 +61,7 @@ Arguments arguments_from_json(const Operation& operation, const nlohmann::ordere
         throw UsageError("the arguments of " + operation.name + " are not a JSON object");
     Arguments given;
     for (const auto& [name, json] : object.items()) given.set(name, plain_value(name, json));
-    Operation lenient = operation;
-    for (Parameter& parameter : lenient.parameters) {
-        parameter.default_value.reset();
-        parameter.required = false;
-    }
-    return checked_arguments(lenient, given);
+    return checked_changes(operation, given);
 }
 
 }  // namespace vesselbench

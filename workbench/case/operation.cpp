@@ -13,6 +13,9 @@ namespace vesselbench {
 
 namespace {
 
+/// Share of a live form's batch run that its scene takes; figures take the rest.
+constexpr double kLiveShare = 0.8;
+
 std::string allowed_range(const Parameter& parameter) {
     const std::string unit =
         parameter.unit.empty() || parameter.unit == "-" ? "" : " " + parameter.unit;
@@ -161,6 +164,27 @@ Value checked(const Parameter& parameter, const Value& value) {
     return *typed;
 }
 
+/// \param whole fills in defaults, and misses what is required
+Arguments checked_values(const Operation& operation, const Arguments& given, bool whole) {
+    for (const auto& [name, value] : given.values())
+        static_cast<void>(find_parameter(operation, name));
+    Arguments result;
+    for (const Parameter& parameter : operation.parameters) {
+        const auto found = given.values().find(parameter.name);
+        try {
+            if (found != given.values().end())
+                result.set(parameter.name, checked(parameter, found->second));
+            else if (whole && parameter.default_value)
+                result.set(parameter.name, checked(parameter, *parameter.default_value));
+            else if (whole && parameter.required)
+                throw UsageError("parameter '" + parameter.name + "' is needed: " + parameter.help);
+        } catch (const UsageError& error) {
+            throw UsageError(operation.name + ": " + error.what());
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string to_string(Step step) {
@@ -193,23 +217,18 @@ Value parse_value(const Parameter& parameter, const std::string& text) {
 }
 
 Arguments checked_arguments(const Operation& operation, const Arguments& given) {
-    for (const auto& [name, value] : given.values())
-        static_cast<void>(find_parameter(operation, name));
-    Arguments result;
-    for (const Parameter& parameter : operation.parameters) {
-        const auto found = given.values().find(parameter.name);
-        try {
-            if (found != given.values().end())
-                result.set(parameter.name, checked(parameter, found->second));
-            else if (parameter.default_value)
-                result.set(parameter.name, checked(parameter, *parameter.default_value));
-            else if (parameter.required)
-                throw UsageError("parameter '" + parameter.name + "' is needed: " + parameter.help);
-        } catch (const UsageError& error) {
-            throw UsageError(operation.name + ": " + error.what());
-        }
-    }
-    return result;
+    return checked_values(operation, given, true);
+}
+
+Arguments checked_changes(const Operation& operation, const Arguments& more) {
+    return checked_values(operation, more, false);
+}
+
+Outcome run_here(const Operation& operation, const Scene& scene, const Arguments& checked,
+                 Progress& progress) {
+    if (operation.run != nullptr) return operation.run(scene, checked, progress);
+    Progress starting = progress.part(0.0, kLiveShare), figures = progress.part(kLiveShare, 1.0);
+    return operation.start(scene, checked, starting)->outcome(figures);
 }
 
 std::vector<std::string> arguments_without_effect(const Operation& operation,

@@ -11,6 +11,8 @@
 
 #include "geometry/kernel/progress.h"
 #include "workbench/case/arguments.h"
+#include "workbench/case/operation_search.h"
+#include "workbench/case/recipe_part.h"
 #include "workbench/case/scene.h"
 
 namespace vesselbench {
@@ -84,13 +86,18 @@ public:
     virtual ~Stepper() = default;
 
     /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \throw as the operation's batch form; the scene then stays as it was
+    /// \param more as checked_changes() returns them
+    /// \throw as the operation's batch form; everything then stays as it was
     virtual void add(const Arguments& more, Progress& progress) = 0;
 
     /// The scene after everything added so far.
     [[nodiscard]] virtual const Scene& scene() const = 0;
 
-    /// What the batch form returns for everything added so far, figures included.
+    /// The arguments after everything added so far, with what the operation decided filled in.
+    [[nodiscard]] virtual const Arguments& resolved() const = 0;
+
+    /// What the batch form returns for everything added so far, figures included. More may be
+    /// added afterwards.
     [[nodiscard]] virtual Outcome outcome(Progress& progress) = 0;
 };
 
@@ -105,14 +112,21 @@ struct Operation {
     std::vector<Step> allowed;  ///< all the steps it may stand in, the usual one included
     std::string summary;        ///< one line
     std::vector<Parameter> parameters;
-    OperationFunction run = nullptr;
-    /// The same scene without the figures, where these cost as much again; null: run.
-    OperationFunction run_bare = nullptr;
-    StepperFunction start = nullptr;  ///< the live form; null: the operation has none
+    OperationFunction run = nullptr;  ///< the batch form; null: start to outcome
+    /// The live form, whose scene() comes without the figures of outcome(); null: it has none.
+    StepperFunction start = nullptr;
     bool isolated =
-        false;           ///< run in a worker process: it reads foreign files, or may crash or hang
-    std::string thesis;  ///< section numbers, "4.2.7"; may be empty
+        false;  ///< run in a worker process: it reads foreign files, or may crash or hang
+    std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
+    RecipePart recipe = {};
+    OperationSearch search = {};
 };
+
+/// Runs an operation's batch form in this process. \param checked as checked_arguments() returns
+/// them
+/// \throw what the operation throws
+[[nodiscard]] Outcome run_here(const Operation& operation, const Scene& scene,
+                               const Arguments& checked, Progress& progress);
 
 /// \throw UsageError that lists the near names and all names if the operation has none of this name
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
@@ -125,6 +139,11 @@ struct Operation {
 /// stay absent.
 /// \throw UsageError that names the operation, the parameter, the value and what is allowed
 [[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
+
+/// The same checks for arguments that are added to others: no default is filled in, and what is
+/// required may be absent.
+/// \throw UsageError as checked_arguments
+[[nodiscard]] Arguments checked_changes(const Operation& operation, const Arguments& more);
 
 /// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
 /// \param resolved what the operation was run with in the end

@@ -6,10 +6,10 @@
 
 #include "geometry/kernel/reference_comparison.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/foreign_surface.h"
-#include "workbench/report/measure_json.h"
 
 namespace vesselbench {
 

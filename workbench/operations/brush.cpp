@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -21,30 +22,6 @@ using nlohmann::ordered_json;
 /// A negative strength deflates and takes weight away; there is no negative smoothing.
 constexpr double kWeakest = -1.0, kSmoothWeakest = 0.0;
 
-/// Runs the stroke of the arguments.
-/// \param outcome gets the resolved arguments, warnings, and the number of dabs in its report
-BrushStroke painted(const DabUse& use, const Surface& surface, const BrushSettings& settings,
-                    Outcome& outcome, const Progress& progress) {
-    const auto places = std::make_shared<const SurfaceDistance>(surface);
-    const auto dabs = resolved_dabs(use, surface, *places, outcome);
-    BrushStroke stroke(surface, settings, places);
-    std::size_t empty = 0;  // that changed no vertex
-    for (std::size_t i = 0; i < dabs.size(); ++i) {
-        progress.report(static_cast<double>(i) / static_cast<double>(dabs.size()), "brushing");
-        try {
-            if (stroke.add(dabs[i]).empty()) ++empty;
-        } catch (const AlgorithmFailure& failure) {
-            throw AlgorithmFailure(dab_name(use.operation, i, dabs[i]) + ": " + failure.what());
-        }
-    }
-    if (empty > 0)
-        outcome.warnings.push_back(
-            counted(empty, "dab") +
-            " changed nothing: strength 0, a radius below the triangles' size, or a cap");
-    outcome.report = std::make_shared<ordered_json>(ordered_json{{"dabs", dabs.size()}});
-    return stroke;
-}
-
 /// By how much a surface grew whose boundary, if any, stayed [mm^3].
 double volume_change(const Surface& before, const Surface& after) {
     const Vec3 origin = before.points().front();
@@ -57,8 +34,8 @@ double volume_change(const Surface& before, const Surface& after) {
     return sum / 6.0;
 }
 
-/// \param outcome its report is completed
-void add_changes(const Surface& before, const Surface& after, Outcome& outcome) {
+/// What the dabs moved.
+ordered_json movement(const Surface& before, const Surface& after) {
     std::size_t count = 0;
     double largest = 0.0;
     for (std::size_t v = 0; v < before.vertex_count(); ++v) {
@@ -66,36 +43,29 @@ void add_changes(const Surface& before, const Surface& after, Outcome& outcome) 
         ++count;
         largest = std::max(largest, (after.points()[v] - before.points()[v]).norm());
     }
-    ordered_json report = *outcome.report;
-    report["vertices_moved"] = count;
-    report["largest_displacement_mm"] = largest;
-    report["volume_change_mm3"] = volume_change(before, after);
-    outcome.report = std::make_shared<ordered_json>(std::move(report));
+    return {{"vertices_moved", count},
+            {"largest_displacement_mm", largest},
+            {"volume_change_mm3", volume_change(before, after)}};
 }
 
-Outcome moved(const DabUse& use, const Scene& scene, const Arguments& arguments,
-              const BrushSettings& settings, const Progress& progress) {
-    const Surface& surface = surface_of(scene);
-    Outcome outcome;
-    outcome.resolved = arguments;
-    BrushStroke stroke = painted(use, surface, settings, outcome, progress.part(0.0, 0.7));
-    warn_of_crossings(stroke.keep_walls_apart(progress.part(0.7, 1.0)), "brush",
-                      "undo, and brush with less strength", outcome);
-    Surface after = stroke.surface();
-    add_changes(surface, after, outcome);
-    outcome.scene = with_surface(scene, std::move(after));
-    return outcome;
-}
-
-Outcome brush_smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const BrushSettings settings{.kind = BrushKind::Smooth,
-                                 .passes = static_cast<int>(arguments.integer("passes"))};
-    return moved({"brush-smooth", kSmoothWeakest}, scene, arguments, settings, progress);
-}
-
-Outcome brush_inflate(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    return moved({"brush-inflate", kWeakest}, scene, arguments, {.kind = BrushKind::Inflate},
-                 progress);
+/// What the dabs painted.
+ordered_json painting(const Surface& before, const Surface& surface, const std::string& name) {
+    const auto& after = *surface.attributes.at(name);
+    const auto known = before.attributes.find(name);
+    const auto old = [&](std::size_t v) {
+        return known == before.attributes.end() ? 0.0 : (*known->second)[v];
+    };
+    std::size_t changed = 0, above = 0;
+    double largest = 0.0;
+    for (std::size_t v = 0; v < after.size(); ++v) {
+        changed += after[v] != old(v) ? 1 : 0;
+        above += after[v] > 0.0 ? 1 : 0;
+        largest = std::max(largest, std::abs(after[v] - old(v)));
+    }
+    return {{"attribute", name},
+            {"vertices_changed", changed},
+            {"largest_change", largest},
+            {"vertices_above_0", above}};
 }
 
 /// Letters, digits and underscores: a name that every file format takes.
@@ -110,36 +80,145 @@ void check_attribute(const std::string& name) {
                          "digit first");
 }
 
-Outcome brush_weight(const Scene& scene, const Arguments& arguments, Progress& progress) {
+/// A stroke that dabs are added to. The walls that it would push through each other are kept apart
+/// at its end, by outcome(): scene() is the stroke as it is brushed.
+class LiveBrush final : public Stepper {
+public:
+    LiveBrush(DabUse use, const BrushSettings& settings, const Scene& scene,
+              const Arguments& arguments)
+        : use_(std::move(use)),
+          settings_(settings),
+          before_(scene),
+          places_(std::make_shared<const SurfaceDistance>(surface_of(scene))),
+          stroke_(std::make_unique<Stroke>(
+              Stroke{.brush = {surface_of(scene), settings, places_}, .resolved = arguments})) {}
+
+    void add(const Arguments& more, Progress& progress) override {
+        for (const auto& [name, value] : more.values())
+            if (!is_dab_argument(name))
+                throw UsageError(use_.operation + ": " + name +
+                                 " stays through a stroke; start another one");
+        Outcome read;
+        read.resolved = more;
+        const auto dabs = resolved_dabs(use_, surface_of(before_), *places_, read);
+        if (dabs.size() == 1)
+            brush(*stroke_, dabs, progress);  // which leaves the stroke as it was if it throws
+        else {
+            auto longer = std::make_unique<Stroke>(*stroke_);
+            brush(*longer, dabs, progress);
+            stroke_ = std::move(longer);
+        }
+        append_dabs(stroke_->resolved, read.resolved, stroke_->dabs == dabs.size());
+        stroke_->warnings.insert(stroke_->warnings.end(), read.warnings.begin(),
+                                 read.warnings.end());
+        scene_.reset();
+    }
+
+    [[nodiscard]] const Scene& scene() const override {
+        if (stroke_->dabs == 0) return before_;
+        if (!scene_) scene_ = scene_with(stroke_->brush.surface());
+        return *scene_;
+    }
+
+    [[nodiscard]] const Arguments& resolved() const override { return stroke_->resolved; }
+
+    [[nodiscard]] Outcome outcome(Progress& progress) override {
+        if (stroke_->dabs == 0) throw_without_dabs(use_);
+        Outcome outcome;
+        outcome.resolved = stroke_->resolved;
+        outcome.warnings = stroke_->warnings;
+        if (stroke_->empty > 0)
+            outcome.warnings.push_back(
+                counted(stroke_->empty, "dab") +
+                " changed nothing: strength 0, a radius below the triangles' size, or a cap");
+        BrushStroke ended = stroke_->brush;
+        if (settings_.kind != BrushKind::Weight)
+            warn_of_crossings(ended.keep_walls_apart(progress), "brush",
+                              "undo, and brush with less strength", outcome);
+        outcome.scene = scene_with(ended.surface());
+        ordered_json report = {{"dabs", stroke_->dabs}};
+        const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
+        report.update(settings_.kind == BrushKind::Weight
+                          ? painting(before, after, settings_.attribute)
+                          : movement(before, after));
+        outcome.report = std::make_shared<ordered_json>(std::move(report));
+        return outcome;
+    }
+
+private:
+    /// A stroke and what is said of it.
+    struct Stroke {
+        BrushStroke brush;
+        Arguments resolved;
+        std::vector<std::string> warnings = {};
+        std::size_t dabs = 0;
+        std::size_t empty = 0;  ///< dabs that changed no vertex
+    };
+
+    void brush(Stroke& stroke, const std::vector<Dab>& dabs, const Progress& progress) const {
+        for (std::size_t i = 0; i < dabs.size(); ++i) {
+            progress.report(static_cast<double>(i) / static_cast<double>(dabs.size()), "brushing");
+            try {
+                if (stroke.brush.add(dabs[i]).empty()) ++stroke.empty;
+            } catch (const AlgorithmFailure& failure) {
+                throw AlgorithmFailure(dab_name(use_.operation, stroke.dabs, dabs[i]) + ": " +
+                                       failure.what());
+            }
+            ++stroke.dabs;
+        }
+    }
+
+    [[nodiscard]] Scene scene_with(Surface surface) const {
+        if (settings_.kind != BrushKind::Weight) return with_surface(before_, std::move(surface));
+        Scene scene = before_;  // its volume mesh still fits
+        scene.surface = std::move(surface);
+        return scene;
+    }
+
+    DabUse use_;
+    BrushSettings settings_;
+    Scene before_;
+    std::shared_ptr<const SurfaceDistance> places_;
+    std::unique_ptr<Stroke> stroke_;
+    mutable std::optional<Scene> scene_;  ///< made when it is asked for
+};
+
+/// The arguments that say where to brush, or the others.
+Arguments dab_part(const Arguments& arguments, bool dabs) {
+    Arguments part;
+    for (const auto& [name, value] : arguments.values())
+        if (is_dab_argument(name) == dabs) part.set(name, value);
+    return part;
+}
+
+std::unique_ptr<Stepper> live_brush(const DabUse& use, const BrushSettings& settings,
+                                    const Scene& scene, const Arguments& arguments,
+                                    Progress& progress) {
+    auto live = std::make_unique<LiveBrush>(use, settings, scene, dab_part(arguments, false));
+    if (const Arguments dabs = dab_part(arguments, true); !dabs.values().empty())
+        live->add(dabs, progress);
+    return live;
+}
+
+std::unique_ptr<Stepper> live_smooth(const Scene& scene, const Arguments& arguments,
+                                     Progress& progress) {
+    const BrushSettings settings{.kind = BrushKind::Smooth,
+                                 .passes = static_cast<int>(arguments.integer("passes"))};
+    return live_brush({"brush-smooth", kSmoothWeakest}, settings, scene, arguments, progress);
+}
+
+std::unique_ptr<Stepper> live_inflate(const Scene& scene, const Arguments& arguments,
+                                      Progress& progress) {
+    return live_brush({"brush-inflate", kWeakest}, {.kind = BrushKind::Inflate}, scene, arguments,
+                      progress);
+}
+
+std::unique_ptr<Stepper> live_weight(const Scene& scene, const Arguments& arguments,
+                                     Progress& progress) {
     const std::string& name = arguments.text("attribute");
     check_attribute(name);
-    const Surface& before = surface_of(scene);
-    Outcome outcome;
-    outcome.resolved = arguments;
-    Surface surface = painted({"brush-weight", kWeakest}, before,
-                              {.kind = BrushKind::Weight, .attribute = name}, outcome, progress)
-                          .surface();
-    const auto& after = *surface.attributes.at(name);
-    const auto known = before.attributes.find(name);
-    const auto old = [&](std::size_t v) {
-        return known == before.attributes.end() ? 0.0 : (*known->second)[v];
-    };
-    std::size_t changed = 0, above = 0;
-    double largest = 0.0;
-    for (std::size_t v = 0; v < after.size(); ++v) {
-        changed += after[v] != old(v) ? 1 : 0;
-        above += after[v] > 0.0 ? 1 : 0;
-        largest = std::max(largest, std::abs(after[v] - old(v)));
-    }
-    ordered_json report = *outcome.report;
-    report["attribute"] = name;
-    report["vertices_changed"] = changed;
-    report["largest_change"] = largest;
-    report["vertices_above_0"] = above;
-    outcome.report = std::make_shared<ordered_json>(std::move(report));
-    outcome.scene = scene;
-    outcome.scene.surface = std::move(surface);
-    return outcome;
+    return live_brush({"brush-weight", kWeakest}, {.kind = BrushKind::Weight, .attribute = name},
+                      scene, arguments, progress);
 }
 
 /// What all brushes have in common.
@@ -166,7 +245,7 @@ Operation brush_smooth_operation() {
                                     .help = "Laplace passes a dab; more is smoother",
                                     .minimum = 1,
                                     .maximum = 100});
-    operation.run = &brush_smooth;
+    operation.start = &live_smooth;
     return operation;
 }
 
@@ -175,7 +254,7 @@ Operation brush_inflate_operation() {
         brush({"brush-inflate", kWeakest},
               "lift or lower the wall under a brush; caps, rims and open boundaries stay",
               "the middle moves out by a tenth of the brush's radius at 1, in at -1");
-    operation.run = &brush_inflate;
+    operation.start = &live_inflate;
     return operation;
 }
 
@@ -188,7 +267,7 @@ Operation brush_weight_operation() {
                                     .default_value = "painted_weight",
                                     .help = "name of the vertex attribute to paint; made where it "
                                             "is absent"});
-    operation.run = &brush_weight;
+    operation.start = &live_weight;
     return operation;
 }
 

@@ -1,4 +1,6 @@
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +11,7 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -30,19 +33,40 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: planes and names belong together");
 }
 
-OpeningPlan decide(const Surface& surface, const Arguments& arguments, Progress& progress) {
+/// A surface's centerlines, found when they are asked for and then kept.
+class KnownCenterlines {
+public:
+    explicit KnownCenterlines(Surface surface) : surface_(std::move(surface)) {}
+
+    /// Of all vessel ends; if none of them is at the tip, a line to it as well.
+    const CenterlineGraph& with_tip(const std::optional<Vec3>& tip, const Progress& progress) {
+        if (!automatic_) automatic_ = compute_centerlines(surface_, {}, progress.part(0.0, 0.7));
+        if (!tip || is_tip(*automatic_, *tip)) return *automatic_;
+        // A stub or a sac that the automatic search leaves out.
+        if (!own_ || tip_ != *tip)
+            own_ = compute_centerlines(surface_, {.ends = {*tip}}, progress.part(0.7, 0.9));
+        tip_ = *tip;
+        return *own_;
+    }
+
+private:
+    static bool is_tip(const CenterlineGraph& graph, const Vec3& point) {
+        const auto tip = nearest_tip(graph, point);
+        return tip && (graph.nodes[*tip].position - point).norm() <= 2.0 * tip_radius(graph, *tip);
+    }
+
+    Surface surface_;
+    std::optional<CenterlineGraph> automatic_;
+    std::optional<CenterlineGraph> own_;  ///< with the line to tip_
+    Vec3 tip_ = Vec3::Zero();
+};
+
+OpeningPlan decide(const Surface& surface, const Arguments& arguments, KnownCenterlines& lines,
+                   const Progress& progress) {
     const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                      .distance = arguments.optional_real("distance"),
                                      .radii = arguments.optional_real("radii")};
-    CenterlineGraph graph = compute_centerlines(surface, {}, progress.part(0.0, 0.7));
-    if (options.tip) {
-        // A stub or a sac that the automatic search leaves out.
-        const auto tip = nearest_tip(graph, *options.tip);
-        if (!tip ||
-            (graph.nodes[*tip].position - *options.tip).norm() > 2.0 * tip_radius(graph, *tip))
-            graph = compute_centerlines(surface, {.ends = {*options.tip}}, progress.part(0.7, 0.9));
-    }
-    OpeningPlan plan = plan_openings(surface, graph, options);
+    OpeningPlan plan = plan_openings(surface, lines.with_tip(options.tip, progress), options);
     const auto kind = arguments.optional_text("kind");
     const auto name = arguments.optional_text("name");
     if (kind || name)
@@ -124,11 +148,12 @@ void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
     }
 }
 
-Outcome clip_opening(const Scene& scene, const Arguments& arguments, Progress& progress) {
+Outcome clipped_by(const Arguments& arguments, const Scene& scene, KnownCenterlines& lines,
+                   const Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
     OpeningPlan plan =
-        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
+        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, lines, progress);
     progress.report(0.9, "cutting");
     std::vector<std::size_t> left_out;
     Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out);
@@ -146,6 +171,30 @@ Outcome clip_opening(const Scene& scene, const Arguments& arguments, Progress& p
     outcome.scene = with_surface(scene, std::move(clipped));
     return outcome;
 }
+
+class LiveClipping final : public ReplacingStepper {
+public:
+    LiveClipping(const Scene& scene, const Arguments& arguments, Progress& progress)
+        : ReplacingStepper(arguments),
+          before_(scene),
+          lines_(surface_of(scene)),
+          made_(clipped_by(arguments, before_, lines_, progress)) {}
+
+    [[nodiscard]] const Scene& scene() const override { return made_.scene; }
+
+    [[nodiscard]] const Arguments& resolved() const override { return made_.resolved; }
+
+    [[nodiscard]] Outcome outcome(Progress&) override { return made_; }
+
+private:
+    void use(const Arguments& arguments, Progress& progress) override {
+        made_ = clipped_by(arguments, before_, lines_, progress);
+    }
+
+    Scene before_;
+    KnownCenterlines lines_;
+    Outcome made_;
+};
 
 }  // namespace
 
@@ -195,8 +244,9 @@ Operation clip_opening_operation() {
              {.name = "names",
               .type = Text,
               .help = "belongs to planes: kind:name of each opening, separated by commas"}},
-        .run = &clip_opening,
-        .thesis = "4.2.7"};
+        .start = &started<LiveClipping>,
+        .thesis = "4.2.7",
+        .recipe = {.cuts_ends = true}};
 }
 
 }  // namespace vesselbench

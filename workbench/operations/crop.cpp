@@ -67,10 +67,10 @@ Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress)
         Surface part = cropped(*scene.surface, region);
         const LargestPiece piece = largest_piece(part);
         if (arguments.text("component") == "largest") part = piece.surface;
-        report["surface_pieces"] = piece.pieces;
+        report["components"] = piece.pieces;
         report["triangles_before"] = scene.surface->triangle_count();
-        report["triangles"] = part.triangle_count();
-        report["open_boundaries"] = part.topology->boundary_loops().size();
+        report["triangles_after"] = part.triangle_count();
+        report["boundary_loops"] = part.topology->boundary_loops().size();
         outcome.scene = with_surface(outcome.scene, std::move(part));
     }
     outcome.report = std::make_shared<nlohmann::ordered_json>(std::move(report));

@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
 #include "workbench/operations/context_weights.h"
+#include "workbench/operations/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -155,10 +156,10 @@ void warn_of_loss(const Json& report, Outcome& outcome) {
 /// What the arguments make of the scene, before figures are added.
 struct Run {
     Outcome outcome;
-    Json report;
+    Json report;  ///< on the context
     DecimateParameters target;
     std::vector<double> weights;
-    Decimated decimated;
+    DecimateReport decimated;
 };
 
 Run decimated_by(const Scene& scene, const Arguments& arguments, const Progress& progress) {
@@ -168,28 +169,50 @@ Run decimated_by(const Scene& scene, const Arguments& arguments, const Progress&
     run.target = target_from(before, run.outcome.resolved);
     progress.report(0.0, "looking at the context");
     run.weights = weights_from(scene, run.outcome.resolved, run.report);
-    run.decimated = decimate(before, run.target, run.weights, progress.part(0.2, 1.0));
-    run.outcome.scene = with_surface(scene, run.decimated.surface);
+    Decimated decimated = decimate(before, run.target, run.weights, progress.part(0.2, 1.0));
+    run.decimated = decimated.report;
+    run.outcome.scene = with_surface(scene, std::move(decimated.surface));
     return run;
 }
 
-Outcome run_bare(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    Run run = decimated_by(scene, arguments, progress);
-    run.outcome.report = std::make_shared<Json>(std::move(run.report));
-    return std::move(run.outcome);
-}
+class LiveDecimation final : public ReplacingStepper {
+public:
+    LiveDecimation(const Scene& scene, const Arguments& arguments, Progress& progress)
+        : ReplacingStepper(arguments),
+          before_(scene),
+          run_(decimated_by(scene, arguments, progress)) {}
 
-Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    auto [outcome, report, target, weights, decimated] =
-        decimated_by(scene, arguments, progress.part(0.0, 0.5));
-    const Surface& before = surface_of(scene);
-    add_changes(report, before, decimated.surface);
-    if (!weights.empty())
-        add_gain(report, before, decimated.surface, weights, progress.part(0.6, 0.9));
-    warn(decimated.report, target, report, outcome);
-    warn_of_loss(report, outcome);
-    outcome.report = std::make_shared<Json>(std::move(report));
-    return std::move(outcome);
+    [[nodiscard]] const Scene& scene() const override { return run_.outcome.scene; }
+
+    [[nodiscard]] const Arguments& resolved() const override { return run_.outcome.resolved; }
+
+    [[nodiscard]] Outcome outcome(Progress& progress) override {
+        Outcome outcome = run_.outcome;
+        Json report = run_.report;
+        const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
+        add_changes(report, before, after);
+        if (!run_.weights.empty())
+            add_gain(report, before, after, run_.weights, progress.part(0.2, 0.8));
+        warn(run_.decimated, run_.target, report, outcome);
+        warn_of_loss(report, outcome);
+        outcome.report = std::make_shared<Json>(std::move(report));
+        return outcome;
+    }
+
+private:
+    void use(const Arguments& arguments, Progress& progress) override {
+        run_ = decimated_by(before_, arguments, progress);
+    }
+
+    Scene before_;
+    Run run_;
+};
+
+std::vector<SearchedParameter> searched_parameters(const Surface&, bool) {
+    SearchedParameter share{.name = "share", .values = {0.02}, .coarse = 4, .idle = 1.0};
+    for (int twentieths = 1; twentieths <= 20; ++twentieths)
+        share.values.push_back(twentieths / 20.0);
+    return {share};
 }
 
 std::vector<Parameter> parameter_table() {
@@ -247,9 +270,13 @@ Operation decimate_operation() {
                 "cover the surface with fewer triangles, fewest where the context allows; rims, "
                 "flat caps and patches stay",
             .parameters = parameter_table(),
-            .run = &run,
-            .run_bare = &run_bare,
-            .thesis = "5.6, 7.2"};
+            .start = &started<LiveDecimation>,
+            .thesis = "5.6, 7.2",
+            .search = {.by = OperationSearch::By::Runs,
+                       .parameters = &searched_parameters,
+                       .rivals = {"triangles"},
+                       .counts_triangles = true,
+                       .strong_is_first = true}};
 }
 
 }  // namespace vesselbench

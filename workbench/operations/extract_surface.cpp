@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/operations/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -156,18 +157,44 @@ void warn_of_fractions(const Image& image, Outcome& outcome) {
                                " and is no map of labels: method=threshold is for intensities");
 }
 
-Outcome run_extraction(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const Extraction extraction = extract_surface(
-        image_of(scene), scene.mask, parameters_from(arguments, scene.mask.has_value()), progress);
-    Outcome outcome;
-    outcome.resolved = resolved_from(arguments, extraction);
-    outcome.report = report_of(extraction);
-    outcome.warnings = warnings_of(extraction);
-    if (extraction.method == ExtractionMethod::Labels) warn_of_fractions(image_of(scene), outcome);
-    outcome.scene = with_surface(scene, extraction.surface);
-    outcome.scene.sampling = extraction.sampling;
-    return outcome;
-}
+class LiveExtraction final : public ReplacingStepper {
+public:
+    LiveExtraction(const Scene& scene, const Arguments& arguments, Progress& progress)
+        : ReplacingStepper(arguments), before_(scene), extractor_(image_of(scene), scene.mask) {
+        use(arguments, progress);
+    }
+
+    [[nodiscard]] const Scene& scene() const override { return scene_; }
+
+    [[nodiscard]] const Arguments& resolved() const override { return resolved_; }
+
+    [[nodiscard]] Outcome outcome(Progress&) override {
+        Outcome outcome{.scene = scene_,
+                        .report = report_of(extraction_),
+                        .resolved = resolved_,
+                        .warnings = warnings_of(extraction_)};
+        if (extraction_.method == ExtractionMethod::Labels)
+            warn_of_fractions(image_of(before_), outcome);
+        return outcome;
+    }
+
+private:
+    void use(const Arguments& arguments, Progress& progress) override {
+        Extraction extraction =
+            extractor_.extract(parameters_from(arguments, before_.mask.has_value()), progress);
+        Arguments resolved = resolved_from(arguments, extraction);
+        scene_ = with_surface(before_, extraction.surface);
+        scene_.sampling = extraction.sampling;
+        resolved_ = std::move(resolved);
+        extraction_ = std::move(extraction);
+    }
+
+    Scene before_;
+    SurfaceExtractor extractor_;
+    Extraction extraction_;
+    Scene scene_;
+    Arguments resolved_;
+};
 
 std::vector<Parameter> source_parameters() {
     using enum ParameterType;
@@ -260,8 +287,9 @@ Operation extract_surface_operation() {
             .allowed = {Step::Source},
             .summary = "make a surface from the image by threshold, labels or both",
             .parameters = std::move(parameters),
-            .run = &run_extraction,
-            .thesis = "3.2.1-3.2.3"};
+            .start = &started<LiveExtraction>,
+            .thesis = "3.2.1-3.2.3",
+            .recipe = {.makes_source = true}};
 }
 
 }  // namespace vesselbench

@@ -12,7 +12,8 @@ Surface read_foreign_surface(const std::string& file, const std::string& units,
     arguments.set("file", file);
     arguments.set("units", to_string(length_unit_from(units.empty() ? "mm" : units)));
     Progress reading = progress;
-    return *run_operation(find_operation("load-surface"), {}, arguments, reading).scene.surface;
+    const Operation& load = loading_operation(InputKind::Surface);
+    return *run_operation(load, {}, arguments, reading).scene.surface;
 }
 
 }  // namespace vesselbench

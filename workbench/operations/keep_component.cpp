@@ -46,9 +46,9 @@ Outcome keep(const Scene& scene, const Arguments& arguments, Progress&) {
     outcome.resolved = arguments;
     outcome.report = std::make_shared<ordered_json>(
         ordered_json{{"components_before", parts.count()},
-                     {"components_kept", std::count(wanted.begin(), wanted.end(), true)},
-                     {"triangles_removed", surface.triangle_count() - kept.triangle_count()},
-                     {"triangles", kept.triangle_count()}});
+                     {"components_after", std::count(wanted.begin(), wanted.end(), true)},
+                     {"triangles_before", surface.triangle_count()},
+                     {"triangles_after", kept.triangle_count()}});
     outcome.scene = with_surface(scene, std::move(kept));
     return outcome;
 }

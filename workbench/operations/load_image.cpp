@@ -196,7 +196,8 @@ Operation load_image_operation() {
                   .choices = {"above", "below"}}},
             .run = &load_image,
             .isolated = true,
-            .thesis = "3.2"};
+            .thesis = "3.2",
+            .recipe = {.loads = InputKind::Image}};
 }
 
 }  // namespace vesselbench

@@ -53,7 +53,8 @@ Operation load_surface_operation() {
                            units_parameter()},
             .run = &load,
             .isolated = true,
-            .thesis = "3.2"};
+            .thesis = "3.2",
+            .recipe = {.loads = InputKind::Surface, .makes_source = true}};
 }
 
 }  // namespace vesselbench

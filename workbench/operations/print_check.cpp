@@ -85,7 +85,8 @@ Operation print_check_operation() {
                             .minimum = 0.0,
                             .maximum = 100.0}},
             .run = &run_print_check,
-            .thesis = "2.3"};
+            .thesis = "2.3",
+            .recipe = {.report_section = "print"}};
 }
 
 }  // namespace vesselbench

@@ -1,12 +1,16 @@
 #include "meshing/remeshing/remesh.h"
 
+#include <cmath>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "meshing/remeshing/sizing_field.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -27,15 +31,15 @@ RemeshParameters parameters_from(const Arguments& arguments) {
 }
 
 Report report_from(const RemeshReport& figures) {
+    const Spread skewness{.mean = figures.wall_skewness_mean, .max = figures.wall_skewness_max};
+    const Spread ratio{.min = figures.wall_radius_ratio_min,
+                       .mean = figures.wall_radius_ratio_mean};
     return std::make_shared<nlohmann::ordered_json>(
         nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
                                {"edge_mm", figures.edge},
                                {"triangles_before", figures.triangles_before},
                                {"triangles_after", figures.triangles_after},
-                               {"wall_equiangle_skewness_mean", figures.wall_skewness_mean},
-                               {"wall_equiangle_skewness_max", figures.wall_skewness_max},
-                               {"wall_radius_ratio_mean", figures.wall_radius_ratio_mean},
-                               {"wall_radius_ratio_min", figures.wall_radius_ratio_min},
+                               {"wall", triangle_shape_json(skewness, ratio)},
                                {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
 }
 
@@ -80,6 +84,27 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
             "have moved; separate the walls or use a smaller edge if that part matters");
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
+}
+
+std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool all) {
+    const double radius = usual_radius(surface, local_radii(surface, nullptr));
+    SearchedParameter edge{.name = "edge", .values = {}, .coarse = 3};
+    for (const double factor :  // 45 ... 9 triangles around, as the operation's 0.28 makes 22
+         {0.14, 0.17, 0.2, 0.24, 0.28, 0.33, 0.4, 0.5, 0.6, 0.7}) {
+        const double length = three_digits(factor * radius);
+        const double triangle = std::sqrt(3.0) / 4.0 * length * length;
+        if (area(surface) / triangle <= kMostSearchedTriangles) edge.values.push_back(length);
+    }
+    if (edge.values.empty())
+        throw InvalidInput(
+            "remesh: the vessel is so thin for its area that every edge length in question makes "
+            "more than 4 million triangles");
+    if (!all) {
+        edge.values.insert(edge.values.begin(), 0.0);
+        edge.idle = 0.0;  // the surface's triangles may be better than any
+        return {edge};
+    }
+    return {edge, {.name = "gradation", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
 }
 
 }  // namespace
@@ -128,7 +153,11 @@ Operation remesh_operation() {
               .minimum = 1.05,
               .maximum = 3.0}},
         .run = &run,
-        .thesis = "3.3.2, 4.2.9"};
+        .thesis = "3.3.2, 4.2.9",
+        .search = {.by = OperationSearch::By::Runs,
+                   .parameters = &searched_parameters,
+                   .rivals = {"min_edge", "max_edge"},
+                   .counts_triangles = true}};
 }
 
 }  // namespace vesselbench

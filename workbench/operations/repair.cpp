@@ -127,7 +127,8 @@ Operation repair_operation() {
               .maximum = 0.1}},
         .run = &run,
         .isolated = true,
-        .thesis = "3.2"};
+        .thesis = "3.2",
+        .recipe = {.proves_source = true}};
 }
 
 }  // namespace vesselbench

@@ -6,11 +6,12 @@
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
-#include "gpu/filter_on_device.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/crossing_warning.h"
+#include "workbench/operations/replacing_stepper.h"
 #include "workbench/operations/smooth/context.h"
+#include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/table.h"
 
@@ -74,61 +75,58 @@ std::string why_little_moved(const Json& report, const Arguments& resolved) {
     return "nothing moved: every vertex is kept or has the weight 0";
 }
 
-/// What the filter makes of the surface in its context, on the device that was asked for; records
-/// which one it was: what is committed is the CPU's result unless the GPU is asked for by name
-/// (DESIGN 1).
-Positions filtered(const Scene& scene, const FilterParameters& filter, Outcome& outcome,
-                   Json& report, Progress& progress) {
-    const Arguments asked = outcome.resolved;
-    SmoothingContext context;
-    const auto prepare = [&](ContextFinder& finder) -> FilterStart {
-        progress.report(0.0, "looking at the context");
-        outcome.resolved = asked;
-        report = Json();
-        context = smoothing_context(scene, finder, outcome.resolved, report);
-        release_freed_memory();
-        if (!context.weights.empty()) report["mean_weight"] = mean(context.weights);
-        return {context.start,
-                {.iterations = static_cast<int>(asked.integer("iterations")),
-                 .weights = context.weights,
-                 .fixed = context.fixed,
-                 .rings = static_cast<int>(asked.integer("rings")),
-                 .constraint = context.constraint}};
-    };
-    const bool by_name = asked.text("device") == "gpu";
-    DeviceRun run = apply_filter_on(by_name ? DeviceChoice::Gpu : DeviceChoice::Cpu,
-                                    surface_of(scene), filter, prepare, progress.part(0.1, 0.8));
-    if (!run.reason.empty())
-        outcome.warnings.push_back("device=gpu: the CPU smoothed instead, because " + run.reason);
-    outcome.resolved.set("device", std::string(run.on_gpu ? "gpu" : "cpu"));
-    return std::move(run.positions);
-}
+class LiveSmoothing final : public ReplacingStepper {
+public:
+    LiveSmoothing(const Scene& scene, const Arguments& arguments, Progress& progress)
+        : ReplacingStepper(arguments), before_(scene), filter_(scene) {
+        use(arguments, progress);
+    }
 
-Outcome smooth(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const Surface& surface = surface_of(scene);
-    Outcome outcome;
-    outcome.resolved = arguments;
-    resolve_filter(surface, outcome.resolved);
-    const FilterParameters filter = filter_from(outcome.resolved);
-    if (const std::string warning = filter_warning(filter); !warning.empty())
-        outcome.warnings.push_back(warning);
-    Json report;
-    Positions moved = filtered(scene, filter, outcome, report, progress);
-    release_freed_memory();
-    // No filter may make the surface pass through itself.
-    warn_of_crossings(take_back_crossings(surface, moved, progress), "filter",
-                      "use fewer iterations, or repair", outcome);
-    Surface smoothed = surface.with_positions(std::move(moved));
-    if (outcome.resolved.text("distance") != "none")
-        report["smallest_neighbour_distance_after_mm"] =
-            smallest_neighbour_distance(scene, outcome.resolved, "smooth", smoothed.points());
-    add_changes(report, surface, smoothed);
-    if (const std::string reason = why_little_moved(report, outcome.resolved); !reason.empty())
-        outcome.warnings.push_back(reason);
-    outcome.report = std::make_shared<Json>(std::move(report));
-    outcome.scene = with_surface(scene, std::move(smoothed));
-    return outcome;
-}
+    [[nodiscard]] const Scene& scene() const override { return bare_.scene; }
+
+    [[nodiscard]] const Arguments& resolved() const override { return bare_.resolved; }
+
+    [[nodiscard]] Outcome outcome(Progress& progress) override {
+        progress.report(0.0, "measuring");
+        Outcome outcome = bare_;
+        const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
+        Json report = *outcome.report;
+        if (outcome.resolved.text("distance") != "none")
+            report["smallest_neighbour_distance_after_mm"] =
+                smallest_neighbour_distance(before_, outcome.resolved, "smooth", after.points());
+        add_changes(report, before, after);
+        if (const std::string reason = why_little_moved(report, outcome.resolved); !reason.empty())
+            outcome.warnings.push_back(reason);
+        outcome.report = std::make_shared<Json>(std::move(report));
+        return outcome;
+    }
+
+private:
+    void use(const Arguments& arguments, Progress& progress) override {
+        const Surface& surface = surface_of(before_);
+        Outcome bare;
+        bare.resolved = arguments;
+        resolve_filter(surface, bare.resolved);
+        if (const auto warning = filter_warning(filter_from(bare.resolved)); !warning.empty())
+            bare.warnings.push_back(warning);
+        auto [moved, resolved, report, reason] =
+            filter_.run(bare.resolved, progress.part(0.0, 0.8));
+        bare.resolved = std::move(resolved);
+        bare.report = std::move(report);
+        if (!reason.empty())
+            bare.warnings.push_back("device=gpu: the CPU smoothed instead, because " + reason);
+        release_freed_memory();
+        // No filter may make the surface pass through itself.
+        warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.8, 1.0)), "filter",
+                          "use fewer iterations, or repair", bare);
+        bare.scene = with_surface(before_, surface.with_positions(std::move(moved)));
+        bare_ = std::move(bare);
+    }
+
+    Scene before_;
+    ContextFilter filter_;
+    Outcome bare_;  ///< its report is the context's
+};
 
 std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
@@ -153,8 +151,10 @@ Operation smooth_operation() {
                         Step::Smoothing, Step::Deformation, Step::Remeshing},
             .summary = "smooth the surface, aware of staircases, neighbours and caps",
             .parameters = parameter_table(),
-            .run = &smooth,
-            .thesis = "3.3.4, 5"};
+            .start = &started<LiveSmoothing>,
+            .thesis = "3.3.4, 5",
+            .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
+            .search = {.by = OperationSearch::By::Filter}};
 }
 
 }  // namespace vesselbench

@@ -24,6 +24,15 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool) {
+    SearchedParameter iterations{
+        .name = "iterations", .values = {0.0, 1.0}, .coarse = 1, .idle = 0.0};
+    auto triangles = 16.0 * static_cast<double>(surface.triangle_count());
+    for (int i = 2; i <= 3 && triangles <= kMostSearchedTriangles; ++i, triangles *= 4.0)
+        iterations.values.push_back(i);
+    return {iterations};
+}
+
 }  // namespace
 
 Operation subdivide_operation() {
@@ -39,7 +48,8 @@ Operation subdivide_operation() {
                             .minimum = 1,
                             .maximum = 6}},
             .run = &run,
-            .thesis = "3.3.1"};
+            .thesis = "3.3.1",
+            .search = {.by = OperationSearch::By::Runs, .parameters = &searched_parameters}};
 }
 
 }  // namespace vesselbench

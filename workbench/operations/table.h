@@ -13,29 +13,37 @@ namespace vesselbench {
 /// \throw UsageError that lists the near names if there is none of this name
 [[nodiscard]] const Operation& find_operation(const std::string& name);
 
-// One function per operation, defined in the source file of the operation's name (clip_opening.cpp,
-// ...; the brushes share brush.cpp). An operation is registered by its line here and its line in
-// table.cpp.
+/// The operation that loads such an input.
+[[nodiscard]] const Operation& loading_operation(InputKind kind);
 
-[[nodiscard]] Operation brush_inflate_operation();
-[[nodiscard]] Operation brush_smooth_operation();
-[[nodiscard]] Operation brush_weight_operation();
-[[nodiscard]] Operation clip_opening_operation();
-[[nodiscard]] Operation crop_operation();
-[[nodiscard]] Operation decimate_operation();
-[[nodiscard]] Operation extract_surface_operation();
-[[nodiscard]] Operation extrude_opening_operation();
-[[nodiscard]] Operation fill_hole_operation();
-[[nodiscard]] Operation keep_component_operation();
-[[nodiscard]] Operation load_image_operation();
-[[nodiscard]] Operation load_neighbour_operation();
-[[nodiscard]] Operation load_surface_operation();
-[[nodiscard]] Operation print_check_operation();
-[[nodiscard]] Operation remesh_operation();
-[[nodiscard]] Operation remove_branch_operation();
-[[nodiscard]] Operation repair_operation();
-[[nodiscard]] Operation smooth_operation();
-[[nodiscard]] Operation subdivide_operation();
-[[nodiscard]] Operation tetrahedralize_operation();
+/// The registration of the operations, ordered by their usual steps. Each row `name` is a function
+/// `Operation name_operation()`, defined in operations/name.cpp (the brushes share brush.cpp).
+// clang-format off
+#define VESSELBENCH_OPERATIONS(ROW) \
+    ROW(load_surface) \
+    ROW(load_image) \
+    ROW(load_neighbour) \
+    ROW(extract_surface) \
+    ROW(crop) \
+    ROW(keep_component) \
+    ROW(repair) \
+    ROW(remove_branch) \
+    ROW(brush_smooth) \
+    ROW(brush_inflate) \
+    ROW(brush_weight) \
+    ROW(fill_hole) \
+    ROW(clip_opening) \
+    ROW(extrude_opening) \
+    ROW(smooth) \
+    ROW(remesh) \
+    ROW(decimate) \
+    ROW(subdivide) \
+    ROW(tetrahedralize) \
+    ROW(print_check)
+// clang-format on
+
+#define VESSELBENCH_DECLARE(name) [[nodiscard]] Operation name##_operation();
+VESSELBENCH_OPERATIONS(VESSELBENCH_DECLARE)
+#undef VESSELBENCH_DECLARE
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -11,24 +12,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json quality_json(const VolumeQuality& q) {
-    return {{"cells", q.cells},
-            {"points", q.points},
-            {"volume_mm3", q.volume},
-            {"mean_edge_mm", q.mean_edge},
-            {"dihedral_smallest_deg", q.smallest_dihedral},
-            {"dihedral_mean_smallest_deg", q.mean_smallest_dihedral},
-            {"dihedral_largest_deg", q.largest_dihedral},
-            {"cells_below_10_deg", q.cells_below_10_deg},
-            {"non_orthogonality_mean_deg", q.mean_non_orthogonality},
-            {"non_orthogonality_largest_deg", q.largest_non_orthogonality},
-            {"faces_over_70_deg", q.faces_over_70_deg},
-            {"skewness_largest", q.largest_skewness},
-            {"aspect_ratio_largest", q.largest_aspect_ratio},
-            {"volume_ratio_mean", q.mean_volume_ratio},
-            {"volume_ratio_largest", q.largest_volume_ratio}};
-}
 
 Json patches_json(const VolumeMesh& mesh) {
     Json patches = Json::array();
@@ -48,8 +31,8 @@ Json report_json(const TetrahedralizeResult& result) {
             {"tetgen_attempts", report.attempts},
             {"surface_kept", report.surface_kept},
             {"patches", patches_json(result.mesh)},
-            {"quality", quality_json(report.quality)},
-            {"quality_before_improvement", quality_json(report.raw)}};
+            {"quality", volume_quality_json(report.quality)},
+            {"quality_before_improvement", volume_quality_json(report.raw)}};
 }
 
 Outcome tetrahedralize(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -115,7 +98,8 @@ Operation tetrahedralize_operation() {
                             .maximum = 50}},
             .run = &tetrahedralize,
             .isolated = true,
-            .thesis = "3.3.3"};
+            .thesis = "3.3.3",
+            .recipe = {.makes_volume_mesh = true}};
 }
 
 }  // namespace vesselbench

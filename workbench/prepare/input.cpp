@@ -12,6 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/phantoms/phantom.h"
 #include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
 
 namespace vesselbench {
@@ -153,7 +154,8 @@ RecipeUse recipe_use(const Input& input, const std::string& purpose) {
 }
 
 RecipeEntry loading_entry(const Input& input) {
-    RecipeEntry entry{.operation = input.is_image ? "load-image" : "load-surface"};
+    const InputKind kind = input.is_image ? InputKind::Image : InputKind::Surface;
+    RecipeEntry entry{.operation = loading_operation(kind).name};
     entry.given.set("file", input.file.string());
     if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
     if (!input.units.empty()) entry.given.set("units", input.units);

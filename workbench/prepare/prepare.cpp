@@ -7,6 +7,7 @@
 
 #include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
@@ -95,27 +96,26 @@ std::string told(const LogEntry& entry) {
            (change.empty() ? "" : ": " + change);
 }
 
-/// Smoothing that costs more of the volume than this is told [-]: the surface is too coarse for it.
-constexpr double kNoticedLoss = 0.03;
+/// Where an operation that keeps the volume changes it by more than this [-], the surface is too
+/// coarse for it.
+constexpr double kNoticedChange = 0.03;
 
-/// What a user should know of a smoothing run beside its own warnings; else empty.
+/// What a user should know of an edit beside its own warnings; else empty.
 std::string noticed(const LogEntry& entry) {
-    if (entry.edit.operation != "smooth" || !entry.result) return "";
+    const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
+    if (remedy.empty() || !entry.result) return "";
     const SurfaceChange& change = entry.result->change;
     if (!change.volume_before || !change.volume_after || *change.volume_before <= 0) return "";
     const double ratio = *change.volume_after / *change.volume_before;
-    if (std::abs(ratio - 1.0) <= kNoticedLoss) return "";
-    char text[128];
-    std::snprintf(
-        text, sizeof text,
-        "smooth changed the volume by %.1f %%: fewer iterations, or filter=taubin, keep it",
-        100.0 * (ratio - 1.0));
-    return text;
+    if (std::abs(ratio - 1.0) <= kNoticedChange) return "";
+    return entry.edit.operation + " changed the volume by " +
+           formatted(100.0 * (ratio - 1.0), "%.1f") + " %: " + remedy;
 }
 
 /// Applies one entry. \return what should be told beside the edit's own warnings; else empty
 std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
                         const Teller& tell, const Progress& progress) {
+    const Operation& operation = find_operation(entry.operation);
     try {
         const LogEntry done = session.apply(entry.operation, entry.given,
                                             {.step = entry.step, .variant = variant}, progress);
@@ -128,10 +128,10 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         return warning;
     } catch (const InvalidInput& error) {
         // What was loaded was accepted: from here on it is the operation that cannot be done.
-        if (find_operation(entry.operation).usual_step == Step::Source) throw;
+        if (operation.usual_step == Step::Source) throw;
         throw AlgorithmFailure(error.what());
     } catch (const AlgorithmFailure& error) {
-        if (entry.operation == "repair") throw UnusableSource(error.what());
+        if (operation.recipe.proves_source) throw UnusableSource(error.what());
         if (!entry.otherwise.values().empty()) {
             RecipeEntry second = entry;
             second.otherwise = {};

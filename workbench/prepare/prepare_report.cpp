@@ -7,10 +7,10 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/openings/opening_axis.h"
-#include "meshing/tetrahedra/quality.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
-#include "workbench/report/measure_json.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {
@@ -89,51 +89,46 @@ std::vector<LogEntry> edits_of(const Session& session, const std::string& varian
     return edits;
 }
 
-std::optional<EditId> last_edit(const std::vector<LogEntry>& edits,
-                                std::initializer_list<const char*> operations) {
+/// What the edit's operation is to a recipe.
+const RecipePart& part_of(const LogEntry& entry) {
+    return find_operation(entry.edit.operation).recipe;
+}
+
+/// \param part that the edit's operation plays
+std::optional<EditId> last_edit(const std::vector<LogEntry>& edits, bool RecipePart::*part) {
     std::optional<EditId> last;
     for (const LogEntry& entry : edits)
-        if (std::ranges::count(operations, entry.edit.operation) > 0) last = entry.edit.edit.id;
+        if (part_of(entry).*part) last = entry.edit.edit.id;
     return last;
 }
 
-/// Quality of the wall's own triangles: caps are judged apart from it.
+/// Shape of the wall's own triangles: caps are judged apart from it.
 Json wall_json(const Surface& surface) {
-    double skewness = 0.0, worst_skewness = 0.0, ratio = 0.0, worst_ratio = 1.0;
+    Spread skewness{.min = 0.0, .mean = 0.0, .max = 0.0}, ratio{.min = 1.0, .mean = 0.0};
     std::size_t count = 0;
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         if (surface.patch_of(t).kind != PatchKind::Wall) continue;
         const double s = equiangle_skewness(surface.points(), surface.triangles()[t]);
         const double r = radius_ratio(surface.points(), surface.triangles()[t]);
-        skewness += s;
-        ratio += r;
-        worst_skewness = std::max(worst_skewness, s);
-        worst_ratio = std::min(worst_ratio, r);
+        skewness.mean += s;
+        ratio.mean += r;
+        skewness.max = std::max(skewness.max, s);
+        ratio.min = std::min(ratio.min, r);
         ++count;
     }
     const double n = static_cast<double>(std::max<std::size_t>(count, 1));
-    return {{"equiangle_skewness", {{"mean", skewness / n}, {"max", worst_skewness}}},
-            {"radius_ratio", {{"min", worst_ratio}, {"mean", ratio / n}}}};
+    skewness.mean /= n;
+    ratio.mean /= n;
+    return triangle_shape_json(skewness, ratio);
 }
 
-Json volume_mesh_json(const VolumeMesh& mesh) {
-    const VolumeQuality q = volume_quality(mesh);
-    return {{"points", q.points},
-            {"cells", q.cells},
-            {"volume_mm3", q.volume},
-            {"smallest_cell_mm3", q.smallest_cell},
-            {"mean_edge_mm", q.mean_edge},
-            {"smallest_dihedral_deg", q.smallest_dihedral},
-            {"largest_dihedral_deg", q.largest_dihedral},
-            {"cells_below_10_deg", q.cells_below_10_deg},
-            {"mean_non_orthogonality_deg", q.mean_non_orthogonality},
-            {"largest_non_orthogonality_deg", q.largest_non_orthogonality},
-            {"faces_over_70_deg", q.faces_over_70_deg},
-            {"faces", q.faces},
-            {"largest_skewness", q.largest_skewness},
-            {"largest_aspect_ratio", q.largest_aspect_ratio},
-            {"mean_volume_ratio", q.mean_volume_ratio},
-            {"largest_volume_ratio", q.largest_volume_ratio}};
+/// Quality of the volume mesh, as the edit that made it states it; null if none did.
+Json volume_mesh_json(const std::vector<LogEntry>& edits) {
+    Json quality;
+    for (const LogEntry& entry : edits)
+        if (part_of(entry).makes_volume_mesh && entry.result)
+            quality = Json::parse(entry.result->report, nullptr, false)["quality"];
+    return quality;
 }
 
 Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
@@ -184,8 +179,8 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(report["patches"], surface);
 }
 
-void add_cfd(Json& report, const PreparedCase& prepared) {
-    report["volume_mesh"] = volume_mesh_json(*prepared.scene.volume_mesh);
+void add_cfd(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
+    report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);
@@ -199,8 +194,8 @@ void add_steps(Json& report, const std::vector<LogEntry>& edits) {
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
             report["warnings"].push_back(entry.edit.operation + ": " + warning);
-        if (entry.edit.operation == "print-check")
-            report["print"] = Json::parse(entry.result->report, nullptr, false);
+        if (const std::string& section = part_of(entry).report_section; !section.empty())
+            report[section] = Json::parse(entry.result->report, nullptr, false);
     }
 }
 
@@ -220,11 +215,11 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                      {"mask", prepared.input.mask.filename().string()}}},
                    {"warnings", prepared.warnings}};
     add_steps(report, edits);
-    const auto source_edit = last_edit(edits, {"load-surface", "extract-surface"});
+    const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
     add_quality(report, source, surface);
-    const auto clip = last_edit(edits, {"clip-opening"});
+    const auto clip = last_edit(edits, &RecipePart::cuts_ends);
     const std::vector<std::uint8_t> comparable = comparable_vertices(
         surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
     if (source.surface) {
@@ -233,7 +228,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     }
     if (prepared.input.exact)
         report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
-    if (prepared.purpose == "cfd") add_cfd(report, prepared);
+    if (prepared.purpose == "cfd") add_cfd(report, prepared, edits);
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
     return {report,

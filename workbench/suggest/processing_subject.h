@@ -11,10 +11,11 @@
 
 namespace vesselbench {
 
-/// Operations that change triangles and whose parameters can be searched, by name.
+/// Operations whose parameters can be searched, by name.
 [[nodiscard]] std::vector<std::string> searched_operations();
 
 /// Compact where the number of triangles is what the operation is for; else default.
+/// \throw UsageError that lists the operations that can be searched, if it cannot
 [[nodiscard]] ScoreForm usual_score_of(const Operation& operation);
 
 /// The grid of an operation's parameters on a surface.

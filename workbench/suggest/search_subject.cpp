@@ -15,7 +15,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr const char* kSmooth = "smooth";
+bool searched_by_filter(const Operation& operation) {
+    return operation.search.by == OperationSearch::By::Filter;
+}
 
 void take_project(const SubjectOptions& options, SearchSubject& subject, const Progress& progress) {
     Session session = Session::open(options.source, {.find = find_operation});
@@ -40,14 +42,14 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
     subject.scene = session.scene_after(last->edit.edit.id, progress);
 }
 
-Arguments given_arguments(const SubjectOptions& options) {
+Arguments given_arguments(const Operation& operation, const SubjectOptions& options) {
     std::vector<std::string> texts = options.arguments;
     if (!options.filter.empty()) {
-        if (options.operation != kSmooth)
-            throw UsageError("--filter is of smooth, not of " + options.operation);
+        if (!searched_by_filter(operation))
+            throw UsageError("--filter: " + operation.name + " has no filters");
         texts.push_back("filter=" + options.filter);
     }
-    return arguments_from_texts(find_operation(options.operation), texts);
+    return arguments_from_texts(operation, texts);
 }
 
 }  // namespace
@@ -55,17 +57,18 @@ Arguments given_arguments(const SubjectOptions& options) {
 SearchSubject search_subject(const SubjectOptions& options, const Progress& progress) {
     SearchSubject subject;
     subject.name = std::filesystem::path(options.source).filename().string();
-    subject.operation = &find_operation(options.operation);
-    if (options.operation != kSmooth) static_cast<void>(usual_score_of(*subject.operation));
-    subject.given = given_arguments(options);
-    subject.arguments = checked_arguments(*subject.operation, subject.given);
+    const Operation& operation = find_operation(options.operation);
+    subject.operation = &operation;
+    if (!searched_by_filter(operation)) static_cast<void>(usual_score_of(operation));
+    subject.given = given_arguments(operation, options);
+    subject.arguments = checked_arguments(operation, subject.given);
     if (options.source.ends_with(".vbench") || is_project_file(options.source))
         take_project(options, subject, progress);
     else
         subject.scene.surface =
             read_foreign_surface(options.source, options.units, progress.part(0.0, 0.1));
     static_cast<void>(surface_of(subject.scene));
-    if (options.operation == kSmooth)
+    if (searched_by_filter(operation))
         subject.smoothing = smoothing_subject(subject.scene, subject.arguments);
     if (subject.smoothing) subject.smoothing->mu_stays = subject.given.has("mu");
     return subject;

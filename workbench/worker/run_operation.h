@@ -14,4 +14,10 @@ namespace vesselbench {
                                     const Arguments& given, Progress& progress,
                                     const WorkerOptions& worker = {});
 
+/// The same scene and resolved arguments without a report: for searches, where the figures of an
+/// operation with a live form cost as much again.
+/// \throw as run_operation
+[[nodiscard]] Outcome run_without_figures(const Operation& operation, const Scene& scene,
+                                          const Arguments& given, Progress& progress);
+
 }  // namespace vesselbench

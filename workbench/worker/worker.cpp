@@ -311,7 +311,7 @@ Bytes run_request(const OperationLookup& find) {
     const Arguments arguments = arguments_from_stored(reader.get_text());
     const Scene scene = decode_scene(reader.get_bytes(reader.left()));
     Progress progress(progress_lines(), {});
-    const Outcome outcome = operation.run(scene, arguments, progress);
+    const Outcome outcome = run_here(operation, scene, arguments, progress);
     return outcome_bytes(outcome, take_apart(scene).parts);
 }
 

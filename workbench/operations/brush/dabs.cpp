@@ -1,5 +1,7 @@
 #include "workbench/operations/brush/dabs.h"
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "geometry/kernel/errors.h"
@@ -11,6 +13,9 @@ namespace {
 
 /// Numbers of one dab in `dabs`: point, normal, local radius, radius, strength, falloff.
 constexpr std::size_t kNumbers = 10;
+
+/// Of the parameters below.
+constexpr std::array kNames = {"dabs", "at", "radius", "strength", "falloff"};
 
 /// Of a dab by `at`, where they are left out.
 constexpr double kStrength = 0.5, kFalloff = 1.0;
@@ -66,8 +71,7 @@ bool contradict(const Arguments& arguments, const std::vector<Dab>& dabs) {
 Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance& places,
                Outcome& outcome) {
     const Arguments& arguments = outcome.resolved;
-    if (!arguments.has("at") || !arguments.has("radius"))
-        throw UsageError(use.operation + ": give dabs, or at=x,y,z and radius= of one dab");
+    if (!arguments.has("at") || !arguments.has("radius")) throw_without_dabs(use);
     const double radius = arguments.real("radius");
     const Vec3 at = arguments.point("at");
     const Dab dab{.anchor = nearest_anchor(surface, places, at, radius),
@@ -84,6 +88,28 @@ Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance&
 }
 
 }  // namespace
+
+bool is_dab_argument(const std::string& name) {
+    return std::ranges::count(kNames, name) > 0;
+}
+
+void append_dabs(Arguments& stroke, const Arguments& more, bool first) {
+    if (first) {
+        for (const char* name : kNames)
+            if (const auto at = more.values().find(name); at != more.values().end())
+                stroke.set(name, at->second);
+        return;
+    }
+    std::vector<double> all = stroke.list("dabs");
+    const std::vector<double>& added = more.list("dabs");
+    all.insert(all.end(), added.begin(), added.end());
+    for (const char* name : kNames) stroke.remove(name);
+    stroke.set("dabs", std::move(all));
+}
+
+void throw_without_dabs(const DabUse& use) {
+    throw UsageError(use.operation + ": give dabs, or at=x,y,z and radius= of one dab");
+}
 
 std::string dab_name(const std::string& operation, std::size_t index, const Dab& dab) {
     return operation + ": dab " + std::to_string(index + 1) + " at " + place_text(dab.anchor.point);

@@ -29,6 +29,16 @@ struct DabUse {
 [[nodiscard]] std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);
 
+/// True for the names of dab_parameters.
+[[nodiscard]] bool is_dab_argument(const std::string& name);
+
+/// Appends the resolved dabs of `more` to those of a stroke.
+/// \param first the stroke had none: `at` and what belongs to it stay beside the one they made
+void append_dabs(Arguments& stroke, const Arguments& more, bool first);
+
+/// \throw UsageError that says how dabs are given
+[[noreturn]] void throw_without_dabs(const DabUse& use);
+
 /// "brush-smooth: dab 2 at (1, 2, 3) mm"
 [[nodiscard]] std::string dab_name(const std::string& operation, std::size_t index, const Dab& dab);
 

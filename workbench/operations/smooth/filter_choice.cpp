@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 
@@ -56,32 +57,9 @@ void check_mu(const Arguments& arguments) {
     throw UsageError(text.str());
 }
 
-}  // namespace
-
-std::vector<Parameter> filter_parameter_table() {
-    using enum ParameterType;
-    std::vector<std::string> presets;
-    for (const Preset& preset : kPresets) presets.push_back(preset.name);
-    return {{.name = "preset",
-             .type = Choice,
-             .default_value = std::string("none"),
-             .help = "filter, iterations and beta_min where they are not given, for compact "
-                     "organs, flat muscles, elongated vessels, or a use of the model: " +
-                     preset_values(),
-             .choices = presets},
-            {.name = "filter",
-             .type = Choice,
-             .help = "laplace shrinks the vessel, laplace-hc (the default without a preset) hardly "
-                     "does, taubin keeps the volume; mean-curvature-flow does not slide along the "
-                     "surface; anisotropic keeps sharp edges; curvature-triggered starts at them",
-             .choices = {"laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic",
-                         "curvature-triggered"}},
-            {.name = "iterations",
-             .type = Integer,
-             .help = "number of passes; more is smoother",
-             .minimum = 0,
-             .maximum = 10000},
-            {.name = "lambda",
+/// What the filters are set by.
+std::vector<Parameter> strength_parameters() {
+    return {{.name = "lambda",
              .unit = "-",
              .help = "share of the way to the neighbours' mean that a vertex goes in one pass; 0.5 "
                      "when left out",
@@ -118,13 +96,44 @@ std::vector<Parameter> filter_parameter_table() {
                      "radius; when left out, half a radian (triggered: a quarter) per mean edge",
              .minimum = 0.0,
              .above_minimum = true,
-             .only_with = Condition{"filter", {"anisotropic", "curvature-triggered"}}},
-            {.name = "rings",
-             .type = Integer,
-             .default_value = std::int64_t{1},
-             .help = "rings of neighbours that are averaged; 2 is less sensitive to small features",
-             .minimum = 1,
-             .maximum = 2}};
+             .only_with = Condition{"filter", {"anisotropic", "curvature-triggered"}}}};
+}
+
+}  // namespace
+
+std::vector<Parameter> filter_parameter_table() {
+    using enum ParameterType;
+    std::vector<std::string> presets;
+    for (const Preset& preset : kPresets) presets.push_back(preset.name);
+    std::vector<Parameter> table = {
+        {.name = "preset",
+         .type = Choice,
+         .default_value = std::string("none"),
+         .help = "filter, iterations and beta_min where they are not given, for compact "
+                 "organs, flat muscles, elongated vessels, or a use of the model: " +
+                 preset_values(),
+         .choices = presets},
+        {.name = "filter",
+         .type = Choice,
+         .help = "laplace shrinks the vessel, laplace-hc (the default without a preset) hardly "
+                 "does, taubin keeps the volume; mean-curvature-flow does not slide along the "
+                 "surface; anisotropic keeps sharp edges; curvature-triggered starts at them",
+         .choices = {"laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic",
+                     "curvature-triggered"}},
+        {.name = "iterations",
+         .type = Integer,
+         .help = "number of passes; more is smoother",
+         .minimum = 0,
+         .maximum = 10000}};
+    for (Parameter& parameter : strength_parameters()) table.push_back(std::move(parameter));
+    table.push_back(
+        {.name = "rings",
+         .type = Integer,
+         .default_value = std::int64_t{1},
+         .help = "rings of neighbours that are averaged; 2 is less sensitive to small features",
+         .minimum = 1,
+         .maximum = 2});
+    return table;
 }
 
 void resolve_filter(const Surface& surface, Arguments& arguments) {

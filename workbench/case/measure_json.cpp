@@ -1,4 +1,4 @@
-#include "workbench/report/measure_json.h"
+#include "workbench/case/measure_json.h"
 
 #include <cmath>
 #include <numbers>
@@ -49,10 +49,7 @@ Json measure_json(const SurfaceMeasures& measures) {
     json["edge_length"] = {{"min", measures.edge_length.min},
                            {"mean", measures.edge_length.mean},
                            {"max", measures.edge_length.max}};
-    json["equiangle_skewness"] = {{"mean", measures.equiangle_skewness.mean},
-                                  {"max", measures.equiangle_skewness.max}};
-    json["radius_ratio"] = {{"min", measures.radius_ratio.min},
-                            {"mean", measures.radius_ratio.mean}};
+    json.update(triangle_shape_json(measures.equiangle_skewness, measures.radius_ratio));
     json["normal_curvature_deg"] = measures.normal_curvature_deg;
     json["mean_curvature"] = {{"integral", measures.mean_curvature_integral},
                               {"integral_abs", measures.mean_curvature_integral_abs}};
@@ -60,6 +57,31 @@ Json measure_json(const SurfaceMeasures& measures) {
     for (const PatchMeasures& patch : measures.patches)
         json["patches"].push_back(patch_json(patch));
     return json;
+}
+
+Json triangle_shape_json(const Spread& skewness, const Spread& radius_ratio) {
+    return {{"equiangle_skewness", {{"mean", skewness.mean}, {"max", skewness.max}}},
+            {"radius_ratio", {{"min", radius_ratio.min}, {"mean", radius_ratio.mean}}}};
+}
+
+Json volume_quality_json(const VolumeQuality& q) {
+    return {{"points", q.points},
+            {"cells", q.cells},
+            {"volume_mm3", q.volume},
+            {"smallest_cell_mm3", q.smallest_cell},
+            {"mean_edge_mm", q.mean_edge},
+            {"smallest_dihedral_deg", q.smallest_dihedral},
+            {"mean_smallest_dihedral_deg", q.mean_smallest_dihedral},
+            {"largest_dihedral_deg", q.largest_dihedral},
+            {"cells_below_10_deg", q.cells_below_10_deg},
+            {"mean_non_orthogonality_deg", q.mean_non_orthogonality},
+            {"largest_non_orthogonality_deg", q.largest_non_orthogonality},
+            {"faces_over_70_deg", q.faces_over_70_deg},
+            {"faces", q.faces},
+            {"largest_skewness", q.largest_skewness},
+            {"largest_aspect_ratio", q.largest_aspect_ratio},
+            {"mean_volume_ratio", q.mean_volume_ratio},
+            {"largest_volume_ratio", q.largest_volume_ratio}};
 }
 
 Json reference_json(const ReferenceComparison& comparison) {

@@ -4,14 +4,24 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
+#include "meshing/tetrahedra/quality.h"
 
 namespace vesselbench {
+
+// One vocabulary for figures, whichever command or operation states them.
 
 /// The document of `vesselbench measure --json` [mm, mm^2, mm^3, degrees].
 [[nodiscard]] nlohmann::ordered_json measure_json(const SurfaceMeasures& measures);
 
 /// Its "reference" part.
 [[nodiscard]] nlohmann::ordered_json reference_json(const ReferenceComparison& comparison);
+
+/// Its figures on the shape of triangles: `equiangle_skewness` and `radius_ratio`.
+[[nodiscard]] nlohmann::ordered_json triangle_shape_json(const Spread& skewness,
+                                                         const Spread& radius_ratio);
+
+/// Quality of a volume mesh, units in the keys.
+[[nodiscard]] nlohmann::ordered_json volume_quality_json(const VolumeQuality& quality);
 
 /// Diameter of the circle of the same area [mm].
 [[nodiscard]] double diameter_of_area(double area);

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+/// Live form of an operation whose add() replaces arguments: the result is that of the last
+/// arguments, whatever came before them.
+class ReplacingStepper : public Stepper {
+public:
+    void add(const Arguments& more, Progress& progress) final;
+
+protected:
+    explicit ReplacingStepper(Arguments arguments) : arguments_(std::move(arguments)) {}
+
+private:
+    /// Works with these arguments from now on. \throw as the batch form; nothing is changed then
+    virtual void use(const Arguments& arguments, Progress& progress) = 0;
+
+    Arguments arguments_;
+};
+
+/// A StepperFunction that makes an object of a class from scene, arguments and progress.
+template <class Live>
+std::unique_ptr<Stepper> started(const Scene& scene, const Arguments& checked, Progress& progress) {
+    return std::make_unique<Live>(scene, checked, progress);
+}
+
+}  // namespace vesselbench

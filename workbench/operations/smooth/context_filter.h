@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gpu/device_choice.h"
+#include "smoothing/context/context_finder.h"
+#include "workbench/case/operation.h"
+
+namespace vesselbench {
+
+/// Finds the context of a scene's surface and filters the surface in it, once or again and again
+/// with other arguments: the context is found again only where its own arguments change. What is
+/// committed is the CPU's result unless the argument `device` asks for the GPU (DESIGN 1); then
+/// both are done there, and both by the CPU where the device fails, now or half-way. Not
+/// thread-safe.
+class ContextFilter {
+public:
+    explicit ContextFilter(Scene scene, DeviceSource source = offscreen_device);
+    ~ContextFilter();
+
+    struct Result {
+        Positions positions;  ///< [mm], #V
+        Arguments resolved;   ///< with what the context decided, and the device that was used
+        Report report;        ///< on the context
+        std::string reason;   ///< why the CPU served where the GPU was asked for; else empty
+    };
+
+    /// \param arguments of `smooth` after resolve_filter
+    /// \throw as smoothing_context and the filter; Cancelled. What was found before stays
+    [[nodiscard]] Result run(const Arguments& arguments, const Progress& progress);
+
+private:
+    struct Found;
+
+    [[nodiscard]] Result on_cpu(const Arguments& arguments, const Progress& progress);
+    [[nodiscard]] Result on_device(const Device& device, const Arguments& arguments,
+                                   const Progress& progress);
+    [[nodiscard]] bool is_found(const Arguments& arguments, bool on_gpu) const;
+
+    Scene scene_;
+    DeviceSource source_;
+    std::unique_ptr<ContextFinder> cpu_;  ///< keeps the caps it found
+    std::shared_ptr<const Found> found_;  ///< last
+};
+
+}  // namespace vesselbench
