@@ -9,7 +9,7 @@
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
-#include "tests/workbench/test_operations.h"
+#include "tests/session/small_operations.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
-#include "tests/workbench/test_operations.h"
 
 using namespace vesselbench;
 
@@ -51,7 +51,7 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
-SCENARIO("The log tells of each edit what it was and what it did", "[workbench][session]") {
+SCENARIO("The log tells of each edit what it was and what it did", "[session]") {
     Session session = sphere_session();
     EditOptions how;
     how.note = "the bulge is real";
@@ -78,7 +78,7 @@ SCENARIO("The log tells of each edit what it was and what it did", "[workbench][
     CHECK(log[1].result->report == entry.result->report);
 }
 
-SCENARIO("Undo and redo walk the states", "[workbench][session]") {
+SCENARIO("Undo and redo walk the states", "[session]") {
     Session session = sphere_session();
     const double before = top_of(session.scene());
     session.apply("bump", bump_at(kTop, 0.5));
@@ -93,7 +93,7 @@ SCENARIO("Undo and redo walk the states", "[workbench][session]") {
     CHECK_THROWS_AS(session.redo(), UsageError);
 }
 
-SCENARIO("Changing an earlier edit replays the later ones", "[workbench][session]") {
+SCENARIO("Changing an earlier edit replays the later ones", "[session]") {
     Session session = sphere_session();
     const double height =
         session.apply("bump", {{"at", kTop}, {"reach", 4.0}}).result->resolved.real("height");
@@ -115,7 +115,7 @@ SCENARIO("Changing an earlier edit replays the later ones", "[workbench][session
     }
 }
 
-SCENARIO("An edit that no longer applies becomes stale, and says why", "[workbench][session]") {
+SCENARIO("An edit that no longer applies becomes stale, and says why", "[session]") {
     Session session = sphere_session();
     session.apply("bump", bump_at(kTop, 0.5));
     EditOptions smoothing;
@@ -136,7 +136,7 @@ SCENARIO("An edit that no longer applies becomes stale, and says why", "[workben
     }
 }
 
-SCENARIO("An edit of an earlier step goes before the later ones", "[workbench][session]") {
+SCENARIO("An edit of an earlier step goes before the later ones", "[session]") {
     Session session = sphere_session();
     session.apply("scale", {});
     session.apply("bump", bump_at(kTop, 0.5));
@@ -145,7 +145,7 @@ SCENARIO("An edit of an earlier step goes before the later ones", "[workbench][s
     CHECK(top_of(session.scene()) == 2.0 * top_of(session.scene_after(3)));
 }
 
-SCENARIO("Variants share the trunk only", "[workbench][session]") {
+SCENARIO("Variants share the trunk only", "[session]") {
     Session session = sphere_session();
     const double top = top_of(session.scene());
     EditOptions print;
@@ -157,7 +157,7 @@ SCENARIO("Variants share the trunk only", "[workbench][session]") {
     CHECK(top_of(session.scene("none yet")) == top);
 }
 
-SCENARIO("What cannot be done leaves the session as it was", "[workbench][session]") {
+SCENARIO("What cannot be done leaves the session as it was", "[session]") {
     Session session = sphere_session();
     const StateId state = session.history().current();
     CHECK_THROWS_AS(session.apply("no-such-thing", {}), UsageError);
@@ -179,7 +179,7 @@ SCENARIO("What cannot be done leaves the session as it was", "[workbench][sessio
     CHECK(session.log().size() == 1);
 }
 
-SCENARIO("A project holds the whole session", "[workbench][session]") {
+SCENARIO("A project holds the whole session", "[session]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     std::vector<LogEntry> log;
     Positions points;
@@ -235,7 +235,7 @@ SCENARIO("A project holds the whole session", "[workbench][session]") {
     }
 }
 
-SCENARIO("Replay finds what is not reproduced", "[workbench][session]") {
+SCENARIO("Replay finds what is not reproduced", "[session]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     {
         Session session = Session::create(file, options());
@@ -260,7 +260,7 @@ SCENARIO("Replay finds what is not reproduced", "[workbench][session]") {
     CHECK(replayed[1].differences == std::vector<std::string>{"positions"});
 }
 
-SCENARIO("Source files are embedded, their folders are not", "[workbench][session]") {
+SCENARIO("Source files are embedded, their folders are not", "[session]") {
     const std::string folder = test::temporary_folder();
     std::filesystem::create_directory(folder + "/patient-name");
     const std::string source = folder + "/patient-name/radius.txt";
@@ -294,7 +294,7 @@ SCENARIO("Source files are embedded, their folders are not", "[workbench][sessio
     }
 }
 
-SCENARIO("Large images are referenced by their hash", "[workbench][session]") {
+SCENARIO("Large images are referenced by their hash", "[session]") {
     const std::string folder = test::temporary_folder();
     const std::string source = folder + "/scan.txt";
     std::ofstream(source) << 3.0;
@@ -318,7 +318,7 @@ SCENARIO("Large images are referenced by their hash", "[workbench][session]") {
     }
 }
 
-SCENARIO("Memory is bounded, and what was dropped is read again", "[workbench][session]") {
+SCENARIO("Memory is bounded, and what was dropped is read again", "[session]") {
     SessionOptions tight = options();
     tight.scene_bytes = 200000;
     Session session = Session::unsaved(tight);
