@@ -1,11 +1,13 @@
 #include "tests/session/small_operations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
@@ -16,7 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Outcome outcome(Scene scene, const Arguments& arguments) {
+#if defined(__SANITIZE_THREAD__)
+// oneTBB is not instrumented: what it synchronizes looks like a race. Our own threads are tested.
+const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+#endif
+
+Outcome made(Scene scene, const Arguments& arguments) {
     Outcome result;
     result.report = std::make_shared<const Json>(Json{{"arguments", arguments.values().size()}});
     result.scene = std::move(scene);
@@ -26,7 +33,7 @@ Outcome outcome(Scene scene, const Arguments& arguments) {
 
 Outcome make_sphere(const Scene&, const Arguments& arguments, Progress& progress) {
     progress.report(0.5, "rounding");
-    Outcome result = outcome({}, arguments);
+    Outcome result = made({}, arguments);
     const Vec3 centre = arguments.optional_point("centre").value_or(Vec3(1.0, 2.0, 1.0 / 3.0));
     result.resolved.set("centre", centre);
     result.scene.surface =
@@ -42,14 +49,14 @@ double number_in(const std::string& path) {
 }
 
 Outcome load_sphere(const Scene&, const Arguments& arguments, Progress&) {
-    Outcome result = outcome({}, arguments);
+    Outcome result = made({}, arguments);
     result.scene.surface = icosphere(number_in(arguments.text("file")), 2);
     return result;
 }
 
 Outcome make_image(const Scene&, const Arguments& arguments, Progress&) {
     const auto edge = static_cast<int>(arguments.integer("edge"));
-    Outcome result = outcome({}, arguments);
+    Outcome result = made({}, arguments);
     Image image;
     image.size = {edge, edge, edge};
     std::vector<float> voxels(image.voxel_count());
@@ -74,17 +81,73 @@ Outcome bump(const Scene& scene, const Arguments& arguments, Progress& progress)
     progress.report(0.5, "pushing");
     if (moved == 0) throw AlgorithmFailure("no vertex lies within reach of the place");
     Outcome result =
-        outcome(with_surface(scene, surface.with_positions(std::move(points))), arguments);
+        made(with_surface(scene, surface.with_positions(std::move(points))), arguments);
     result.resolved.set("height", height);
     if (moved == 1) result.warnings.emplace_back("only one vertex moved");
     return result;
 }
 
+/// Bumps one after the other, as a brush does; a height of 0 fails.
+class Stroke : public Stepper {
+public:
+    Stroke(const Scene& scene, const Arguments& checked)
+        : scene_(scene), arguments_(checked), heights_(checked.list("heights")) {
+        for (const double height : heights_) push(height);
+    }
+
+    void add(const Arguments& more, Progress& progress) override {
+        progress.report(0.5, "brushing");
+        const Scene before = scene_;
+        const std::size_t count = heights_.size();
+        try {
+            for (const double height : more.list("heights")) {
+                push(height);
+                heights_.push_back(height);
+            }
+        } catch (...) {
+            scene_ = before;
+            heights_.resize(count);
+            throw;
+        }
+    }
+
+    [[nodiscard]] const Scene& scene() const override { return scene_; }
+
+    [[nodiscard]] Outcome outcome(Progress& progress) override {
+        progress.report(0.9, "measuring");
+        Arguments arguments = arguments_;
+        arguments.set("heights", heights_);
+        return made(scene_, arguments);
+    }
+
+private:
+    void push(double height) {
+        if (height == 0.0) throw AlgorithmFailure("a height of 0 changes nothing");
+        const Surface& surface = surface_of(scene_);
+        Positions points = surface.points();
+        for (Vec3& p : points)
+            if (p.z() > 0.0) p.z() += height * std::sin(p.x());
+        scene_ = with_surface(scene_, surface.with_positions(std::move(points)));
+    }
+
+    Scene scene_;
+    Arguments arguments_;
+    std::vector<double> heights_;
+};
+
+std::unique_ptr<Stepper> start_stroke(const Scene& scene, const Arguments& checked, Progress&) {
+    return std::make_unique<Stroke>(scene, checked);
+}
+
+Outcome stroke(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    return start_stroke(scene, arguments, progress)->outcome(progress);
+}
+
 Outcome scale(const Scene& scene, const Arguments& arguments, Progress&) {
     const double factor = arguments.real("factor");
-    return outcome(with_surface(scene, mapped(surface_of(scene),
-                                              [&](const Vec3& p) { return Vec3(factor * p); })),
-                   arguments);
+    return made(with_surface(scene, mapped(surface_of(scene),
+                                           [&](const Vec3& p) { return Vec3(factor * p); })),
+                arguments);
 }
 
 Outcome flatten(const Scene& scene, const Arguments& arguments, Progress&) {
@@ -96,7 +159,7 @@ Outcome flatten(const Scene& scene, const Arguments& arguments, Progress&) {
     std::vector<double> weights(surface.vertex_count(), 0.5);
     weights.back() = 1.0 / 3.0;
     surface.attributes["weight"] = std::make_shared<const std::vector<double>>(std::move(weights));
-    Outcome result = outcome(with_surface(scene, surface), arguments);
+    Outcome result = made(with_surface(scene, surface), arguments);
     result.scene.neighbours["bone"] = icosphere(3.0, 1);
     result.scene.sampling = Sampling{};
     VolumeMesh mesh;
@@ -122,9 +185,17 @@ Outcome hang(const Scene&, const Arguments&, Progress& progress) {
     return {};
 }
 
+/// Asks nobody whether it should stop, and says that it goes back and forth.
+Outcome stubborn(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    progress.report(0.6, "digging in");
+    progress.report(0.2, "digging in");
+    std::this_thread::sleep_for(std::chrono::duration<double>(arguments.real("seconds")));
+    return made(scene, arguments);
+}
+
 Outcome greedy(const Scene& scene, const Arguments& arguments, Progress&) {
     std::vector<double> all(std::size_t{1} << 30, 1.0);
-    Outcome result = outcome(scene, arguments);
+    Outcome result = made(scene, arguments);
     result.warnings.push_back(std::to_string(all.back()));
     return result;
 }
@@ -164,14 +235,14 @@ Parameter whole(const char* name, std::int64_t value) {
 
 Operation operation(const char* name, Step step, OperationFunction run,
                     std::vector<Parameter> parameters) {
-    Operation made;
-    made.name = name;
-    made.usual_step = step;
-    made.allowed = {step};
-    made.summary = "For tests.";
-    made.parameters = std::move(parameters);
-    made.run = run;
-    return made;
+    Operation row;
+    row.name = name;
+    row.usual_step = step;
+    row.allowed = {step};
+    row.summary = "For tests.";
+    row.parameters = std::move(parameters);
+    row.run = run;
+    return row;
 }
 
 Operation isolated(Operation made) {
@@ -200,6 +271,10 @@ std::vector<Operation> make_operations() {
         isolated(
             operation("refuse", Step::Smoothing, refuse, {typed("as", ParameterType::Text, true)})),
     };
+    const Parameter heights = typed("heights", ParameterType::List, true);
+    all.push_back(operation("stroke", Step::LocalRepair, stroke, {heights}));
+    all.back().start = start_stroke;
+    all.push_back(operation("stubborn", Step::LocalRepair, stubborn, {real("seconds", 30.0)}));
     all[3].allowed = {Step::Source, Step::LocalRepair, Step::Smoothing, Step::Remeshing};
     return all;
 }
