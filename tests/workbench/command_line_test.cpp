@@ -54,7 +54,7 @@ SCENARIO("Help reads well at every level", "[workbench][command-line]") {
         const ProgramRun result = run({command, "--help"});
         CHECK(result.exit_code == 0);
         CHECK(result.err.empty());
-        CHECK_THAT(result.out, Contains("vesselbench " + command));
+        CHECK_THAT(result.out, Contains("vesselbench " + command) && Contains("--json"));
     }
     CHECK_THAT(run({"--version"}).out, StartsWith("vesselbench "));
 }
@@ -161,6 +161,56 @@ SCENARIO("A project that is not there or no project is bad input", "[workbench][
             CHECK(result.out.empty());
         }
     CHECK(names_in(folder) == std::vector<std::string>{"text.vbench"});
+}
+
+SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), project = folder + "/ball.vbench";
+    vesselbench::write_surface(icosphere(5.0, 3), folder + "/ball.vtp");
+    const auto json_of = [&](std::vector<std::string> arguments) {
+        arguments.emplace_back("--json");
+        const ProgramRun result = run(arguments);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return Json::parse(result.out);
+    };
+    CHECK(json_of({"new", project, folder + "/ball.vtp"})["edits"].size() == 1);
+    json_of({"apply", project, "smooth", "iterations=3", "lambda=0.2"});
+    json_of({"apply", project, "subdivide"});
+    const Json changed = json_of({"change", project, "2", "iterations=5"});
+    CHECK(changed["edit"] == 2);
+    CHECK(changed["revision"] == 2);
+    CHECK(changed["given"]["iterations"] == 5);
+    CHECK(changed["given"]["lambda"] == 0.2);
+    CHECK(changed["pending"] == Json::array({3}));
+    THEN("the text names what is pending, too") {
+        const ProgramRun again = run({"change", project, "2", "lambda=0.3", "--note", "less"});
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.out, StartsWith("edit 2.3: smooth") && Contains("pending now: 3 subdivi"));
+        CHECK(json_of({"log", project})["edits"][1]["note"] == "less");
+    }
+    THEN("an edit is removed, and undo brings it back") {
+        const Json removed = json_of({"remove", project, "2"});
+        CHECK(removed["removed"] == 2);
+        CHECK(removed["pending"] == Json::array({3}));
+        CHECK(json_of({"log", project})["edits"].size() == 2);
+        const Json undone = json_of({"undo", project});
+        CHECK(undone["edits"] == 3);
+        CHECK(undone["last"] == 3);
+        CHECK_THAT(run({"remove", project, "3"}).out,
+                   StartsWith("removed edit 3 subdivide\nthe case now holds 2 edits"));
+        CHECK(json_of({"undo", project, "2"})["state"] == 3);
+        CHECK(json_of({"redo", project})["state"] == 4);
+    }
+    THEN("what is pending runs when it is exported") {
+        const Json written = json_of({"export", project, folder + "/out.stl"});
+        CHECK(written["triangles"] == 4 * 1280);
+        CHECK(json_of({"log", project})["edits"][2]["status"] == "done");
+        CHECK(json_of({"replay", project})["same"] == true);
+    }
+    check_usage_error({"change", project, "7"}, {"no edit 7", "vesselbench log ball.vbench"});
+    check_usage_error({"remove", project, "7"}, {"no edit 7"});
+    check_usage_error({"change", project, "2", "iteration=5"}, {"did you mean 'iterations'"});
+    check_usage_error({"change", project, "two"}, {"EDIT"});
 }
 
 SCENARIO("A picture shows a surface, or its deviation", "[workbench][command-line]") {

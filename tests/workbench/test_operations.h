@@ -1,31 +1,13 @@
 #pragma once
 
 #include "workbench/case/operation.h"
-#include "workbench/worker/worker.h"
 
 namespace vesselbench::test {
-
-/// Small operations for testing what carries operations:
-/// - `make-sphere` (source): `radius`, `levels`, `centre`; decides `centre` if it is absent
-/// - `load-sphere` (source): reads a radius from the text file `file`
-/// - `make-image` (source): an image of `edge`^3 voxels, read from `file` as load-sphere does
-/// - `bump` (source to remeshing, usually local-repair): pushes the vertices within `reach` of `at`
-///   by `height` along z; decides `height` if it is absent; fails if there is none
-/// - `scale` (remeshing): by `factor`
-/// - `flatten` (openings): sets z to 0, and one attribute, patches and a volume mesh
-/// - isolated: `far-bump` (as bump), `crash`, `crash-on-file`, `hang`, `greedy`, `refuse`
-[[nodiscard]] const Operation& find_test_operation(const std::string& name);
 
 /// Runs a real operation, found by its name, on a scene or on a surface alone.
 [[nodiscard]] Outcome run(const std::string& operation, const Scene& scene,
                           const Arguments& arguments);
 [[nodiscard]] Outcome run(const std::string& operation, const Surface& surface,
                           const Arguments& arguments);
-
-/// Starts the helper program of these tests as a worker that knows the operations above.
-[[nodiscard]] WorkerOptions test_worker();
-
-/// Path of the helper program: `worker`, `edit PROJECT`, `hold PROJECT`.
-[[nodiscard]] std::string helper_program();
 
 }  // namespace vesselbench::test

@@ -36,6 +36,10 @@ constexpr const char* kExportFooter =
     "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, residual,\n"
     "processes; --set may be repeated.";
 
+constexpr const char* kChangeFooter =
+    "The edits behind it become pending: they run again when their result is shown, exported or\n"
+    "built upon. 'undo' goes back.";
+
 constexpr const char* kPictureFooter =
     "Patient coordinates are LPS: y points backwards, z to the head. --view 0,1,0 looks from the\n"
     "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
@@ -81,12 +85,16 @@ void add_project(CLI::App& command, std::string& project) {
     command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
 }
 
+void add_json(CLI::App& command, bool& json, const char* help = "Print one JSON document") {
+    command.add_flag("--json", json, help);
+}
+
 void add_operations(CommandLine& line) {
     const auto options = std::make_shared<OperationsOptions>();
     CLI::App& command = add_command(line, "operations", "List the operations and their parameters",
                                     [options] { return list_operations(*options), 0; });
     command.add_option("NAME", options->name, "Explain this operation only")->type_name("");
-    command.add_flag("--json", options->json, "Print one JSON document");
+    add_json(command, options->json);
     command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
         ->group("");
 }
@@ -116,7 +124,37 @@ void add_apply(CommandLine& line) {
     command.add_option("--author", options->author, "Who makes the edit (default: login name)")
         ->type_name("NAME");
     command.add_option("--note", options->note, "Why, in your words")->type_name("WORDS");
-    command.add_flag("--json", options->json, "Print the edit as one JSON document");
+    add_json(command, options->json, "Print the edit as one JSON document");
+}
+
+void add_edit(CLI::App& command, std::int64_t& edit) {
+    command.add_option("EDIT", edit, "Its number, as 'log' lists it")->required()->type_name("");
+}
+
+void add_change_and_remove(CommandLine& line) {
+    const auto changed = std::make_shared<ChangeOptions>();
+    CLI::App& change =
+        add_command(line, "change", "Run an earlier edit with other arguments",
+                    [changed, &line] { return change_edit(*changed, line.progress), 0; });
+    add_project(change, changed->project);
+    add_edit(change, changed->edit);
+    change
+        .add_option("parameter=value", changed->arguments,
+                    "Arguments to replace; the others stay as they were given")
+        ->type_name("");
+    change.add_option("--author", changed->author, "Who makes the change (default: login name)")
+        ->type_name("NAME");
+    change.add_option("--note", changed->note, "Why, in your words (default: as it was)")
+        ->type_name("WORDS");
+    add_json(change, changed->json, "Print the edit as one JSON document");
+    change.footer(kChangeFooter);
+    const auto removed = std::make_shared<RemoveOptions>();
+    CLI::App& remove = add_command(line, "remove", "Leave an edit out",
+                                   [removed] { return remove_edit(*removed), 0; });
+    add_project(remove, removed->project);
+    add_edit(remove, removed->edit);
+    add_json(remove, removed->json);
+    remove.footer(kChangeFooter);
 }
 
 void add_log(CommandLine& line) {
@@ -125,7 +163,7 @@ void add_log(CommandLine& line) {
         add_command(line, "log", "List steps, edits, authors, and what each edit changed",
                     [options] { return show_log(*options), 0; });
     add_project(command, options->project);
-    command.add_flag("--json", options->json, "Print one JSON document");
+    add_json(command, options->json);
 }
 
 void add_undo_and_redo(CommandLine& line) {
@@ -135,11 +173,13 @@ void add_undo_and_redo(CommandLine& line) {
     add_project(undo, options->project);
     undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)")
         ->type_name("");
+    add_json(undo, options->json);
     CLI::App& redo = add_command(line, "redo", "Go forward again to an edit that was undone",
                                  [options] { return redo_edit(*options), 0; });
     add_project(redo, options->project);
     redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)")
         ->type_name("");
+    add_json(redo, options->json);
 }
 
 void add_replay(CommandLine& line) {
@@ -148,7 +188,7 @@ void add_replay(CommandLine& line) {
         line, "replay", "Run every edit anew and compare with the stored results, bit for bit",
         [options, &line] { return replay_project(*options, line.progress) ? 0 : 1; });
     add_project(command, options->project);
-    command.add_flag("--json", options->json, "Print one JSON document");
+    add_json(command, options->json);
 }
 
 void add_input(CLI::App& command, InputArguments& input) {
@@ -188,17 +228,17 @@ void add_prepare(CommandLine& line) {
     command.add_option("--out", options->out, "Folder of the results; made if it is not there")
         ->required()
         ->type_name("FOLDER");
+    add_json(command, options->json);
 }
 
 void add_new(CommandLine& line) {
-    const auto options = std::make_shared<std::pair<std::string, InputArguments>>();
+    const auto options = std::make_shared<NewArguments>();
     CLI::App& command =
-        add_command(line, "new", "Make a project of an image or a surface", [options, &line] {
-            make_project(options->first, options->second, line.progress);
-            return 0;
-        });
-    add_project(command, options->first);
-    add_input(command, options->second);
+        add_command(line, "new", "Make a project of an image or a surface",
+                    [options, &line] { return make_project(*options, line.progress), 0; });
+    add_project(command, options->project);
+    add_input(command, options->input);
+    add_json(command, options->json);
 }
 
 void add_export(CommandLine& line) {
@@ -221,6 +261,7 @@ void add_export(CommandLine& line) {
                     "openfoam.parameter=value: change the flow of the case")
         ->allow_extra_args(false)
         ->type_name("OPERATION.PARAMETER=VALUE");
+    add_json(command, options->json);
 }
 
 void add_measure(CommandLine& line) {
@@ -233,7 +274,7 @@ void add_measure(CommandLine& line) {
         ->type_name("");
     command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
         ->type_name("UNIT");
-    command.add_flag("--json", options->json, "Print one JSON document");
+    add_json(command, options->json);
 }
 
 void add_picture(CommandLine& line) {
@@ -262,6 +303,7 @@ void add_picture(CommandLine& line) {
         ->type_name("PIXELS");
     command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
         ->type_name("UNIT");
+    add_json(command, options->json);
     command.footer(kPictureFooter);
 }
 
@@ -311,7 +353,7 @@ void add_suggest(CommandLine& line) {
             "and 1) or pattern")
         ->capture_default_str()
         ->type_name("WAY");
-    command.add_flag("--json", options->json, "Print one JSON document");
+    add_json(command, options->json);
     command.add_flag("--grid", options->grid, "With --json: the measures of all coarse sets, too");
     command
         .add_option("--truth", options->truth,
@@ -345,7 +387,7 @@ void add_quality(CommandLine& line) {
         ->delimiter(',')
         ->expected(3)
         ->type_name("X,Y,Z");
-    command.add_flag("--json", options->json, "Print the graphs' figures as one JSON document");
+    add_json(command, options->json, "Print the graphs' figures as one JSON document");
     command.footer(kQualityFooter);
 }
 
@@ -360,7 +402,7 @@ void add_centerlines(CommandLine& line) {
         ->type_name("");
     command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)")
         ->type_name("UNIT");
-    command.add_flag("--json", options->json, "Print nodes and branches as one JSON document");
+    add_json(command, options->json, "Print nodes and branches as one JSON document");
 }
 
 void add_phantom(CommandLine& line) {
@@ -378,6 +420,7 @@ void add_phantom(CommandLine& line) {
     command.add_option("--out", options->out, "Folder; made if it is not there")
         ->required()
         ->type_name("FOLDER");
+    add_json(command, options->json);
 }
 
 void set_up(CommandLine& line) {
@@ -390,6 +433,7 @@ void set_up(CommandLine& line) {
     add_prepare(line);
     add_new(line);
     add_apply(line);
+    add_change_and_remove(line);
     add_log(line);
     add_undo_and_redo(line);
     add_replay(line);

@@ -36,6 +36,28 @@ struct ApplyOptions {
 /// Runs one operation and adds it to the project as an edit.
 void apply_operation(const ApplyOptions& options, const Progress& progress);
 
+struct ChangeOptions {
+    std::string project;
+    std::int64_t edit = 0;
+    std::vector<std::string> arguments;  ///< "parameter=value"; the others stay as they were
+    std::string author;                  ///< empty: the login name
+    std::string note;                    ///< empty: stays as it was
+    bool json = false;
+};
+
+/// Runs an earlier edit with other arguments, as its next revision; the edits behind it become
+/// pending.
+void change_edit(const ChangeOptions& options, const Progress& progress);
+
+struct RemoveOptions {
+    std::string project;
+    std::int64_t edit = 0;
+    bool json = false;
+};
+
+/// Leaves an edit out; the edits behind it become pending.
+void remove_edit(const RemoveOptions& options);
+
 struct LogOptions {
     std::string project;
     bool json = false;
@@ -50,6 +72,7 @@ bool replay_project(const LogOptions& options, const Progress& progress);
 struct StepBackOptions {
     std::string project;
     std::optional<std::int64_t> edit;  ///< none: one state back or forward
+    bool json = false;
 };
 
 void undo_edit(const StepBackOptions& options);
@@ -73,6 +96,7 @@ struct PictureArguments {
     std::optional<double> full_colour;     ///< [mm]; none: what 98 of 100 vertices stay below
     int size = 700;                        ///< width and height [pixels]
     std::string units;                     ///< of the files; empty: mm
+    bool json = false;
 };
 
 /// Draws a surface, coloured by patch or by its deviation from a reference.
@@ -117,6 +141,7 @@ struct PhantomOptions {
     std::optional<std::uint64_t> seed;  ///< none: the description's own
     std::string name;
     std::string out;
+    bool json = false;
 };
 
 /// Writes a phantom's image, mask and exact surface, and a case.json beside them.
@@ -134,20 +159,27 @@ struct PrepareArguments {
     std::string recipe;
     std::vector<std::string> settings;  ///< "operation.parameter=value"
     std::string out;
+    bool json = false;
 };
 
 /// Walks from the input to a CFD or print model.
 void prepare_case(const PrepareArguments& arguments, const Progress& progress);
 
+struct NewArguments {
+    std::string project;
+    InputArguments input;
+    bool json = false;
+};
+
 /// Makes a project that holds the input.
-void make_project(const std::string& project, const InputArguments& arguments,
-                  const Progress& progress);
+void make_project(const NewArguments& arguments, const Progress& progress);
 
 struct ExportArguments {
     std::string project;
     std::string file;
     std::string variant = "cfd";
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
+    bool json = false;
 };
 
 /// Writes the project's model as a file, or as an OpenFOAM case.

@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+#include "workbench/session/monotone_progress.h"
+
 namespace vesselbench {
 
 namespace {
@@ -91,7 +93,7 @@ Progress console_progress(std::stop_token stop) {
         std::fprintf(stderr, "\r\033[K%3.0f %%  %.*s", 100.0 * fraction,
                      static_cast<int>(what.size()), what.data());
     };
-    return {show, std::move(stop)};
+    return {monotone(show), std::move(stop)};
 }
 
 void remark(const std::string& text) {

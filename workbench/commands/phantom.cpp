@@ -24,6 +24,19 @@ std::string case_text(const PhantomDescription& description) {
     return json.dump(2) + "\n";
 }
 
+void print_json(const PhantomDescription& description, const Phantom& phantom,
+                const std::string& folder) {
+    Json files = {"image.nii.gz", "mask.nii.gz", "exact.vtp", "case.json"};
+    if (phantom.noisy) files.push_back("noisy.vtp");
+    if (phantom.neighbour) files.push_back("neighbour.vtp");
+    std::cout << Json({{"name", description.name},
+                       {"seed", description.seed},
+                       {"folder", folder},
+                       {"files", files}})
+                     .dump(2)
+              << "\n";
+}
+
 }  // namespace
 
 void write_phantom(const PhantomOptions& options, const Progress& progress) {
@@ -43,6 +56,7 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     files.add_text(out / "case.json", case_text(description));
     progress.check_cancelled();
     files.commit();
+    if (options.json) return print_json(description, phantom, options.out);
     std::cout << description.name << ": image.nii.gz, mask.nii.gz"
               << (phantom.neighbour ? ", neighbour.vtp" : "") << " and exact.vtp are in "
               << options.out << "\n'vesselbench prepare " << options.out

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <iostream>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
 #include "gpu/png.h"
@@ -55,7 +57,11 @@ void draw_picture(const PictureArguments& arguments) {
     PendingFiles files;
     files.add_text(arguments.out, png(draw(surface, options)));
     files.commit();
-    std::cout << "wrote " << arguments.out << ": " << legend << "\n";
+    if (arguments.json)
+        std::cout << nlohmann::ordered_json({{"file", arguments.out}, {"legend", legend}}).dump(2)
+                  << "\n";
+    else
+        std::cout << "wrote " << arguments.out << ": " << legend << "\n";
 }
 
 }  // namespace vesselbench

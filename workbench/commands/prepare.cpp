@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <iostream>
 
+#include <nlohmann/json.hpp>
+
+#include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
@@ -10,16 +13,33 @@
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/report/log_json.h"
 
 namespace vesselbench {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 void check_purpose(const std::string& purpose) {
     static const std::vector<std::string> purposes = {"cfd", "rp", "planning", "simulation"};
     if (std::ranges::count(purposes, purpose) == 0)
         throw UsageError("--for '" + purpose + "' is not known" + did_you_mean(purpose, purposes) +
                          " (it is " + joined(purposes) + ")");
+}
+
+/// What was made, and what the report warns about.
+void print_prepared(const PrepareArguments& arguments) {
+    const std::filesystem::path out = arguments.out;
+    const Json report = Json::parse(read_text_file(out / "report.json"));
+    std::cout << Json({{"purpose", arguments.purpose},
+                       {"folder", arguments.out},
+                       {"project", "project.vbench"},
+                       {"reports", {"report.json", "report.html"}},
+                       {"products", report.at("products")},
+                       {"warnings", report.at("warnings")}})
+                     .dump(2)
+              << "\n";
 }
 
 InputOptions input_options(const InputArguments& arguments) {
@@ -37,6 +57,7 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
              .out = arguments.out},
             remark, progress);
     const std::filesystem::path out = arguments.out;
+    if (arguments.json) return print_prepared(arguments);
     const auto [what, file] = arguments.purpose == "cfd" ? std::pair("CFD case:    ", "openfoam")
                               : arguments.purpose == "rp"
                                   ? std::pair("print model: ", "print.stl")
@@ -46,10 +67,13 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
               << "\nproject:     " << (out / "project.vbench").string() << "\n";
 }
 
-void make_project(const std::string& project, const InputArguments& arguments,
-                  const Progress& progress) {
-    new_project(project, input_options(arguments), remark, progress);
-    std::cout << "made " << project << "\n";
+void make_project(const NewArguments& arguments, const Progress& progress) {
+    new_project(arguments.project, input_options(arguments.input), remark, progress);
+    if (!arguments.json) return void(std::cout << "made " << arguments.project << "\n");
+    Json edits = Json::array();
+    const Session session = Session::open(arguments.project, {.find = find_operation});
+    for (const LogEntry& entry : session.log()) edits.push_back(log_json(entry));
+    std::cout << Json({{"project", arguments.project}, {"edits", edits}}).dump(2) << "\n";
 }
 
 void export_project(const ExportArguments& arguments, const Progress& progress) {
@@ -65,7 +89,11 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     export_scene(files, arguments.file, scene, flow);
     progress.check_cancelled();
     files.commit();
-    std::cout << "wrote " << arguments.file << "\n";
+    if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");
+    Json json = {{"file", arguments.file}, {"variant", arguments.variant}};
+    if (scene.surface) json["triangles"] = scene.surface->triangle_count();
+    if (scene.volume_mesh) json["tetrahedra"] = scene.volume_mesh->tetrahedra.size();
+    std::cout << json.dump(2) << "\n";
 }
 
 }  // namespace vesselbench

@@ -54,12 +54,45 @@ void print_report(const std::string& text) {
     std::cout << as_columns(rows);
 }
 
-void print_state(const Session& session) {
-    const std::vector<LogEntry> log = session.log();
-    std::cout << "the case now holds " << counted(log.size(), "edit");
-    if (!log.empty())
-        std::cout << ", the last is " << log.back().edit.edit.id << " "
-                  << log.back().edit.operation;
+/// "3 clip-opening, 4 smooth"
+std::string edit_list(const std::vector<const EditRecord*>& edits) {
+    std::string list;
+    for (const EditRecord* edit : edits)
+        list += (list.empty() ? "" : ", ") + std::to_string(edit->edit.id) + " " + edit->operation;
+    return list;
+}
+
+std::vector<const EditRecord*> pending_edits(const Snapshot& now) {
+    std::vector<const EditRecord*> pending;
+    for (const LogEntry& entry : now.log)
+        if (entry.status == EditStatus::Pending) pending.push_back(&entry.edit);
+    return pending;
+}
+
+Json pending_json(const Snapshot& now) {
+    Json pending = Json::array();
+    for (const EditRecord* edit : pending_edits(now)) pending.push_back(edit->edit.id);
+    return pending;
+}
+
+void print_pending(const Snapshot& now) {
+    const std::vector<const EditRecord*> pending = pending_edits(now);
+    if (pending.empty()) return;
+    std::cout << "pending now: " << edit_list(pending)
+              << " (they run when their result is shown, exported or built upon)\n";
+}
+
+Json state_json(const Snapshot& now) {
+    Json json = {{"state", now.history->current()}, {"edits", now.log.size()}};
+    json["last"] = now.log.empty() ? Json() : Json(now.log.back().edit.edit.id);
+    json["pending"] = pending_json(now);
+    return json;
+}
+
+void print_state(const Snapshot& now, bool json) {
+    if (json) return void(std::cout << state_json(now).dump(2) << "\n");
+    std::cout << "the case now holds " << counted(now.log.size(), "edit");
+    if (!now.log.empty()) std::cout << ", the last is " << edit_list({&now.log.back().edit});
     std::cout << "\n";
 }
 
@@ -129,6 +162,32 @@ std::vector<std::string> all_warnings(const Operation& operation, const Argument
     return warnings;
 }
 
+/// What an edit that has just run did.
+void print_edit(const LogEntry& entry) {
+    const EditRecord& edit = entry.edit;
+    std::cout << "edit " << edit.edit.id
+              << (edit.edit.revision > 1 ? "." + std::to_string(edit.edit.revision) : "") << ": "
+              << edit.operation;
+    if (!entry.result) return void(std::cout << "\n");
+    const std::string change = change_text(entry.result->change);
+    std::cout << (change.empty() ? "" : ": " + change) << "\n";
+    print_report(entry.result->report);
+}
+
+void remark_warnings(const LogEntry& entry, const Arguments& given) {
+    if (!entry.result) return;
+    for (const std::string& warning :
+         all_warnings(find_operation(entry.edit.operation), given, *entry.result))
+        remark("warning: " + warning);
+}
+
+const EditRecord& edit_of(const Snapshot& now, EditId id) {
+    for (const LogEntry& entry : now.log)
+        if (entry.edit.edit.id == id) return entry.edit;
+    throw UsageError("the current state holds no edit " + std::to_string(id) +
+                     "; 'vesselbench log " + now.project + "' lists its edits");
+}
+
 }  // namespace
 
 void apply_operation(const ApplyOptions& options, const Progress& progress) {
@@ -138,30 +197,59 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     if (!options.step.empty()) edit.step = step_from(options.step);
     Session session = Session::open(options.project, {.find = find_operation});
     const LogEntry entry = session.apply(operation.name, given, edit, progress);
-    if (entry.result)
-        for (const std::string& warning : all_warnings(operation, given, *entry.result))
-            remark("warning: " + warning);
-    if (options.json) {
+    remark_warnings(entry, given);
+    if (options.json)
         std::cout << log_json(entry).dump(2) << "\n";
+    else
+        print_edit(entry);
+}
+
+void change_edit(const ChangeOptions& options, const Progress& progress) {
+    Session session = Session::open(options.project, {.find = find_operation});
+    const EditRecord old = edit_of(*session.snapshot(), options.edit);
+    const Arguments more = arguments_from_texts(find_operation(old.operation), options.arguments);
+    Arguments given = old.given;
+    for (const auto& [name, value] : more.values()) given.set(name, value);
+    const LogEntry entry = session.change_edit(
+        options.edit, given, {.author = options.author, .note = options.note}, progress);
+    remark_warnings(entry, given);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    if (options.json) {
+        Json json = log_json(entry);
+        json["pending"] = pending_json(*now);
+        std::cout << json.dump(2) << "\n";
         return;
     }
-    std::cout << "edit " << entry.edit.edit.id << ": " << operation.name;
-    if (!entry.result) return void(std::cout << "\n");
-    const std::string change = change_text(entry.result->change);
-    std::cout << (change.empty() ? "" : ": " + change) << "\n";
-    print_report(entry.result->report);
+    print_edit(entry);
+    print_pending(*now);
+}
+
+void remove_edit(const RemoveOptions& options) {
+    Session session = Session::open(options.project, {.find = find_operation});
+    const EditRecord old = edit_of(*session.snapshot(), options.edit);
+    session.remove_edit(options.edit);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    if (options.json) {
+        Json json = {{"removed", old.edit.id}, {"operation", old.operation}};
+        json.update(state_json(*now));
+        std::cout << json.dump(2) << "\n";
+        return;
+    }
+    std::cout << "removed edit " << edit_list({&old}) << "\n";
+    print_state(*now, false);
+    print_pending(*now);
 }
 
 void show_log(const LogOptions& options) {
     const Session session = open_for_reading(options.project);
-    const std::vector<LogEntry> log = session.log();
-    if (!options.json) return print_log(log);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    if (!options.json) return print_log(now->log);
     Json edits = Json::array();
-    for (const LogEntry& entry : log) edits.push_back(log_json(entry));
+    for (const LogEntry& entry : now->log) edits.push_back(log_json(entry));
     std::cout << Json({{"project", std::filesystem::path(options.project).filename().string()},
-                       {"read_only", session.read_only_reason()},
-                       {"state", session.history().current()},
-                       {"states", session.history().states().size()},
+                       {"read_only", now->read_only_reason},
+                       {"state", now->history->current()},
+                       {"states", now->history->states().size()},
                        {"edits", edits}})
                      .dump(2)
               << "\n";
@@ -173,7 +261,7 @@ void undo_edit(const StepBackOptions& options) {
         session.undo(*options.edit);
     else
         session.undo();
-    print_state(session);
+    print_state(*session.snapshot(), options.json);
 }
 
 void redo_edit(const StepBackOptions& options) {
@@ -182,7 +270,7 @@ void redo_edit(const StepBackOptions& options) {
         session.redo(*options.edit);
     else
         session.redo();
-    print_state(session);
+    print_state(*session.snapshot(), options.json);
 }
 
 bool replay_project(const LogOptions& options, const Progress& progress) {

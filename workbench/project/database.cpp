@@ -15,6 +15,8 @@ constexpr int kPatienceMilliseconds = 10000;
     const int code = database != nullptr ? sqlite3_errcode(database) : SQLITE_NOMEM;
     const std::string why = database != nullptr ? sqlite3_errmsg(database) : "out of memory";
     switch (code) {
+        case SQLITE_INTERRUPT:
+            throw Cancelled();
         case SQLITE_NOTADB:
             throw InvalidInput(name + " is not a vesselbench project");
         case SQLITE_CORRUPT:
@@ -163,6 +165,26 @@ std::int64_t Database::number(const std::string& sql) const {
     Statement statement = prepare(sql);
     if (!statement.step()) throw InvalidInput(name_ + " is damaged: a value is missing");
     return statement.integer(0);
+}
+
+Interruptible::Interruptible(const Database& database, Progress progress)
+    : database_(database), progress_(std::move(progress)) {
+    constexpr int kInstructions = 1000;  // of SQLite's machine: well below a millisecond
+    sqlite3_progress_handler(
+        database_.database_.get(), kInstructions,
+        [](void* self) {
+            try {
+                static_cast<const Interruptible*>(self)->progress_.check_cancelled();
+                return 0;
+            } catch (const Cancelled&) {
+                return 1;
+            }
+        },
+        this);
+}
+
+Interruptible::~Interruptible() {
+    sqlite3_progress_handler(database_.database_.get(), 0, nullptr, nullptr);
 }
 
 Transaction::Transaction(const Database& database) : database_(database) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "geometry/kernel/progress.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -66,12 +68,27 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
+    friend class Interruptible;
+
     struct Close {
         void operator()(sqlite3* database) const;
     };
 
     std::string name_;
     std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// While it lives, a long statement ends as soon as the progress is cancelled: with Cancelled.
+class Interruptible {
+public:
+    Interruptible(const Database& database, Progress progress);
+    ~Interruptible();
+    Interruptible(const Interruptible&) = delete;
+    Interruptible& operator=(const Interruptible&) = delete;
+
+private:
+    const Database& database_;
+    Progress progress_;
 };
 
 /// All or nothing: rolled back unless commit() was reached.

@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "workbench/case/edit_record.h"
 #include "workbench/case/history.h"
 #include "workbench/case/scene.h"
@@ -24,16 +26,21 @@ struct SourceFile {
     std::string place;      ///< path relative to the project; only kept if the scene refers to it
 };
 
+/// A result that a transaction adds.
+struct NewResult {
+    const ResultRecord* record = nullptr;
+    const Scene* scene = nullptr;  ///< null: the result is stale
+    const Scene* input = nullptr;  ///< the scene it was made from
+};
+
 /// What one transaction adds to a project: the difference between two histories, and what belongs
 /// to it.
 struct ProjectChange {
     const History* before = nullptr;
     const History* after = nullptr;
-    const EditRecord* edit = nullptr;      ///< of the new edit revision, if there is one
-    const ResultRecord* result = nullptr;  ///< of the new result, if there is one
-    const Scene* scene = nullptr;          ///< of the new result, unless it is stale
-    const Scene* input = nullptr;          ///< the scene it was made from
-    std::vector<SourceFile> sources;       ///< of the new edit revision
+    const EditRecord* edit = nullptr;  ///< of the new edit revision, if there is one
+    std::vector<SourceFile> sources;   ///< of the new edit revision
+    std::vector<NewResult> results;    ///< each behind the results it runs on
 };
 
 /// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
@@ -60,12 +67,21 @@ public:
     /// Empty if it may be written.
     [[nodiscard]] const std::string& read_only_reason() const;
 
+    /// The file's name without its folder; empty for a temporary project.
+    [[nodiscard]] std::string name() const;
+
     /// The file's folder; empty for a temporary project.
     [[nodiscard]] std::filesystem::path folder() const;
 
     [[nodiscard]] History history() const;
+
+    /// The records of one or of several edits or results, by one query.
+    /// \throw InvalidInput if one is missing or damaged
     [[nodiscard]] EditRecord edit(EditRef edit) const;
-    [[nodiscard]] ResultRecord result(ResultId id) const;
+    [[nodiscard]] std::map<EditRef, EditRecord> edits(const std::vector<EditRef>& edits) const;
+    [[nodiscard]] std::map<ResultId, ResultRecord> results(
+        const std::vector<ResultId>& results) const;
+
     [[nodiscard]] std::vector<SourceFile> sources(EditRef edit) const;
 
     /// One transaction. \throw IoError if it cannot be written; the project is then as before
@@ -74,7 +90,7 @@ public:
     /// The scene of a result, sharing its parts with the scenes in memory.
     /// \throw InvalidInput if it is damaged, or if a part of it is referenced only and was not
     ///        recalled
-    [[nodiscard]] Scene scene(ResultId id) const;
+    [[nodiscard]] Scene scene(ResultId id, const Progress& progress = {}) const;
 
     /// True if the result's scene holds an image that is referenced only and not in memory.
     [[nodiscard]] bool needs_recall(ResultId id) const;
@@ -87,10 +103,11 @@ public:
     [[nodiscard]] std::vector<std::string> differences(ResultId id, const Scene& scene) const;
 
     /// Names of the stored parts of a result whose content does not fit their checksum.
-    [[nodiscard]] std::vector<std::string> damages(ResultId id) const;
+    [[nodiscard]] std::vector<std::string> damages(ResultId id,
+                                                   const Progress& progress = {}) const;
 
-    /// \throw IoError if the file exists or cannot be written
-    void save_as(const std::filesystem::path& path) const;
+    /// \throw IoError if the file exists or cannot be written; Cancelled: then there is none
+    void save_as(const std::filesystem::path& path, const Progress& progress = {}) const;
 
 private:
     struct Parts;

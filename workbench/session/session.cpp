@@ -1,88 +1,24 @@
 #include "workbench/session/session.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <ctime>
-#include <map>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <pwd.h>
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
-#include "workbench/case/version.h"
 #include "workbench/project/source_files.h"
-#include "workbench/project/stored_text.h"
-#include "workbench/session/replay_tolerance.h"
-#include "workbench/session/scene_cache.h"
-#include "workbench/session/surface_change.h"
+#include "workbench/session/case_store.h"
+#include "workbench/session/edit_place.h"
+#include "workbench/session/edit_runner.h"
 
 namespace vesselbench {
 
 namespace {
 
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text.data();
-}
-
 std::string login_name() {
     const passwd* user = getpwuid(geteuid());
     return user != nullptr ? user->pw_name : "unknown";
-}
-
-std::string device_of(const Arguments& resolved) {
-    const auto found = resolved.values().find("device");
-    if (found == resolved.values().end()) return "cpu";
-    const auto* device = std::get_if<std::string>(&found->second);
-    return device != nullptr && *device == "gpu" ? "gpu" : "cpu";
-}
-
-std::string step_names(const std::vector<Step>& steps) {
-    std::string names;
-    for (const Step step : steps) names += (names.empty() ? "" : ", ") + to_string(step);
-    return names;
-}
-
-EditPlace place_of(const Operation& operation, const EditOptions& options) {
-    EditPlace place{options.step.value_or(operation.usual_step), {}};
-    if (std::find(operation.allowed.begin(), operation.allowed.end(), place.step) ==
-        operation.allowed.end())
-        throw UsageError(operation.name + " is not allowed in step " + to_string(place.step) +
-                         " (only in: " + step_names(operation.allowed) + ")");
-    if (!belongs_to_variant(place.step)) return place;
-    if (options.variant.empty())
-        throw UsageError("step " + to_string(place.step) +
-                         " belongs to a variant; name it (cfd, rp, ...)");
-    place.variant = options.variant;
-    return place;
-}
-
-/// The entries that stand before a new edit of this place.
-std::vector<HistoryEntry> entries_before(const History& history, const EditPlace& place) {
-    std::vector<HistoryEntry> before = history.line(place.variant);
-    std::erase_if(before, [&](const HistoryEntry& e) { return e.place.step > place.step; });
-    return before;
-}
-
-/// The entries of the edit's line up to it, without it.
-std::vector<HistoryEntry> entries_before(const History& history, EditId id) {
-    for (const HistoryEntry& entry : history.entries()) {
-        if (entry.edit.id != id) continue;
-        std::vector<HistoryEntry> before = history.line(entry.place.variant);
-        const auto own = std::find_if(before.begin(), before.end(),
-                                      [&](const auto& e) { return e.edit.id == id; });
-        before.erase(own, before.end());
-        return before;
-    }
-    throw UsageError("the current state holds no edit " + std::to_string(id) +
-                     "; the log lists its edits");
 }
 
 bool refers_to_image(const Scene& scene, std::size_t embed_limit) {
@@ -92,249 +28,127 @@ bool refers_to_image(const Scene& scene, std::size_t embed_limit) {
     return large(scene.image) || large(scene.mask);
 }
 
+/// The share of a new edit's progress that the pending edits before it have [-].
+double share_of_pending(const std::vector<HistoryEntry>& before) {
+    const auto pending =
+        std::ranges::count(before, EditStatus::Pending, [](const auto& e) { return e.status; });
+    return static_cast<double>(pending) / static_cast<double>(pending + 1);
+}
+
 }  // namespace
+
+/// A new edit, or a new revision of one, before it runs.
+struct PlannedEdit {
+    const Operation* operation = nullptr;
+    EditRecord edit;    ///< id 0: a new one
+    Arguments located;  ///< with the paths of the files it reads
+    std::vector<HistoryEntry> before;
+};
 
 struct Session::Parts {
     SessionOptions options;
-    ProjectFile project;
-    History history;
-    SceneCache cache;
-    /// Results of pending edits that a session without the right to write ran for itself.
-    std::map<ResultId, ResultRecord> own_results;
-    std::map<ResultId, Scene> own_scenes;
+    CaseStore store;
+    EditRunner runner;
 
-    Parts(SessionOptions o, ProjectFile p)
+    Parts(SessionOptions o, ProjectFile project)
         : options(std::move(o)),
-          project(std::move(p)),
-          history(project.history()),
-          cache(options.scene_bytes) {
+          store(std::move(project), options.scene_bytes),
+          runner(store, options) {
         if (options.author.empty()) options.author = login_name();
     }
 
-    /// An edit that has run: everything that is going to be committed.
-    struct Run {
-        Scene input;
-        Outcome outcome;
-        ResultRecord record;
-        Arguments located;  ///< the arguments with the paths of the files it read
-    };
-
-    void check_writable() const {
-        if (!project.read_only_reason().empty()) throw IoError(project.read_only_reason());
+    void describe(EditRecord& edit, const EditOptions& how) const {
+        edit.author = how.author.empty() ? options.author : how.author;
+        if (!how.note.empty()) edit.note = how.note;
     }
 
-    Run run(const Operation& operation, ResultId input, const Arguments& located,
-            Progress& progress) {
-        Run done;
-        done.input = load(input);
-        done.located = located;
-        const auto start = std::chrono::steady_clock::now();
-        done.outcome = run_operation(operation, done.input, located, progress, options.worker);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        ResultRecord& record = done.record;
-        record.input = input;
-        record.resolved = without_folders(operation, done.outcome.resolved);
-        record.warnings = done.outcome.warnings;
-        if (done.outcome.report) record.report = stored_text(*done.outcome.report);
-        record.change = surface_change(done.input, done.outcome.scene);
-        record.duration = took.count();
-        record.device = device_of(record.resolved);
-        stamp(record);
-        return done;
+    /// \throw UsageError before anything runs
+    PlannedEdit plan(const std::string& name, const Arguments& given, const EditOptions& how) {
+        const Operation& operation = options.find(name);
+        PlannedEdit planned{&operation, {}, given, {}};
+        planned.edit.place = place_of(operation, how);
+        planned.edit.operation = name;
+        planned.edit.given = without_folders(operation, given);
+        describe(planned.edit, how);
+        static_cast<void>(checked_arguments(operation, given));
+        planned.before = entries_before(store.history(), planned.edit.place);
+        return planned;
     }
 
-    static void stamp(ResultRecord& record) {
-        record.time = utc_now();
-        record.program_version = version();
+    PlannedEdit plan_change(EditId id, const Arguments& given, const EditOptions& how) {
+        PlannedEdit planned;
+        planned.before = entries_before(store.history(), id);
+        const EditRef old = store.history().find(id).value();
+        planned.edit = store.edit(old);
+        planned.operation = &options.find(planned.edit.operation);
+        const ProjectFile& project = store.project();
+        planned.located =
+            with_found_files(*planned.operation, given, project.sources(old), project.folder());
+        planned.edit.given = without_folders(*planned.operation, given);
+        describe(planned.edit, how);
+        static_cast<void>(checked_arguments(*planned.operation, given));
+        return planned;
     }
 
-    [[nodiscard]] bool only_reads() const { return !project.read_only_reason().empty(); }
-
-    /// Writes the difference between the history and `next`, then makes it the history.
-    void commit(History next, ProjectChange change) {
-        change.before = &history;
-        change.after = &next;
-        project.commit(change);
-        history = std::move(next);
+    /// The files that a run has read, with their hashes.
+    [[nodiscard]] std::vector<SourceFile> sources(const Operation& operation,
+                                                  const Arguments& located,
+                                                  const Scene& scene) const {
+        auto sources = source_files(operation, located, store.project().folder());
+        if (!refers_to_image(scene, options.embed_limit))
+            for (SourceFile& source : sources) source.place.clear();
+        return sources;
     }
 
-    /// Enters the result of a pending edit. A session that only reads keeps it to itself.
-    void commit_result(History next, const ResultRecord& record, const Scene* scene,
-                       const Scene* input) {
-        if (only_reads()) {
-            own_results[record.id] = record;
-            if (scene != nullptr) own_scenes[record.id] = *scene;
-            history = std::move(next);
-            return;
-        }
+    Preview::Data run(PlannedEdit planned, const Progress& progress) {
+        const double share = share_of_pending(planned.before);
+        Preview::Data data;
+        data.edit = std::move(planned.edit);
+        data.before = runner.evaluated(planned.before, progress.part(0.0, share));
+        data.run = runner.run(*planned.operation, data.before.scene, planned.located,
+                              progress.part(share, 1.0));
+        data.sources = sources(*planned.operation, planned.located, *data.run.scene);
+        return data;
+    }
+
+    /// The edits that stand before the previewed one now.
+    /// \throw UsageError if they are others than those it ran on
+    void check_same_input(const Preview::Data& data) const {
+        const EditRecord& edit = data.edit;
+        const auto now = edit.edit.id == 0 ? entries_before(store.history(), edit.place)
+                                           : entries_before(store.history(), edit.edit.id);
+        const auto same = [](const HistoryEntry& entry, const EvaluatedLine::Link& link) {
+            return entry.edit == link.edit;
+        };
+        if (!std::ranges::equal(now, data.before.links, same))
+            throw UsageError("the preview of " + edit.operation +
+                             " no longer fits: the edits before it have changed; preview it again");
+    }
+
+    LogEntry enter(Preview::Data data) {
+        store.check_writable();
+        check_same_input(data);
+        EditRecord edit = data.edit;
+        edit.time = utc_now();
+        History next = store.history();
+        edit.edit = edit.edit.id == 0 ? next.apply(edit.place) : next.change(edit.edit.id);
         ProjectChange change;
-        change.result = &record;
-        change.scene = scene;
-        change.input = input;
-        commit(std::move(next), std::move(change));
-        if (scene != nullptr) cache.put(record.id, *scene);
-    }
-
-    [[nodiscard]] ResultRecord record_of(ResultId id) const {
-        const auto own = own_results.find(id);
-        return own != own_results.end() ? own->second : project.result(id);
+        ResultRecord& record = data.run.record;
+        record.edit = edit.edit;
+        record.input = vesselbench::enter(data.before, next, change.results);
+        record.id = next.add_result(edit.edit, record.input);
+        change.results.push_back({&record, &*data.run.scene, &data.run.input});
+        change.edit = &edit;
+        change.sources = std::move(data.sources);
+        store.commit(std::move(next), std::move(change));
+        return {std::move(edit), EditStatus::Done, {}, store.record(record.id)};
     }
 
     void navigate(const std::function<void(History&)>& move) {
-        check_writable();
-        History next = history;
+        store.check_writable();
+        History next = store.history();
         move(next);
-        commit(std::move(next), {});
-    }
-
-    /// Commits a run edit as a new edit or a new revision. \return its entry for the log
-    LogEntry enter(const Operation& operation, History next, EditRecord edit, Run run) {
-        run.record.edit = edit.edit;
-        run.record.id = next.add_result(edit.edit, run.record.input);
-        ProjectChange change;
-        change.edit = &edit;
-        change.result = &run.record;
-        change.scene = &run.outcome.scene;
-        change.input = &run.input;
-        change.sources = source_files(operation, run.located, project.folder());
-        if (!refers_to_image(run.outcome.scene, options.embed_limit))
-            for (SourceFile& source : change.sources) source.place.clear();
-        commit(std::move(next), std::move(change));
-        cache.put(run.record.id, run.outcome.scene);
-        return {std::move(edit), EditStatus::Done, {}, std::move(run.record)};
-    }
-
-    /// Runs a pending edit on an input and stores what came out. \return the result behind it
-    ResultId run_pending(EditRef ref, ResultId input, Progress& progress) {
-        const EditRecord edit = project.edit(ref);
-        const HistoryResult* earlier = history.newest_result_of(ref);
-        const Arguments arguments =
-            earlier != nullptr ? record_of(earlier->id).resolved : edit.given;
-        History next = history;
-        try {
-            const Operation& operation = options.find(edit.operation);
-            Run done =
-                run(operation, input,
-                    with_found_files(operation, arguments, project.sources(ref), project.folder()),
-                    progress);
-            done.record.edit = ref;
-            done.record.id = next.add_result(ref, input);
-            commit_result(std::move(next), done.record, &done.outcome.scene, &done.input);
-            return done.record.id;
-        } catch (const AlgorithmFailure& error) {
-            return enter_stale(ref, input, error.what());
-        } catch (const InvalidInput& error) {
-            return enter_stale(ref, input, error.what());
-        } catch (const UsageError& error) {
-            return enter_stale(ref, input, error.what());
-        }
-    }
-
-    ResultId enter_stale(EditRef ref, ResultId input, const std::string& reason) {
-        History next = history;
-        ResultRecord record;
-        record.id = next.add_result(ref, input, reason);
-        record.edit = ref;
-        record.input = input;
-        record.stale_reason = reason;
-        record.device = "cpu";
-        stamp(record);
-        commit_result(std::move(next), record, nullptr, nullptr);
-        return input;
-    }
-
-    /// Runs what is pending among the entries, from the first on. \return the result behind them
-    ResultId evaluate(const std::vector<HistoryEntry>& entries, const Progress& progress) {
-        ResultId input = 0;
-        for (std::size_t i = 0; i < entries.size(); ++i) {
-            const auto whole = static_cast<double>(entries.size());
-            Progress part =
-                progress.part(static_cast<double>(i) / whole, static_cast<double>(i + 1) / whole);
-            const HistoryResult* known = history.result_of(entries[i].edit, input);
-            if (known == nullptr)
-                input = run_pending(entries[i].edit, input, part);
-            else if (known->stale_reason.empty())
-                input = known->id;
-        }
-        return input;
-    }
-
-    Scene load(ResultId id) {
-        if (id == 0) return {};
-        if (const auto own = own_scenes.find(id); own != own_scenes.end()) return own->second;
-        if (auto scene = cache.find(id)) return *scene;
-        const std::vector<Scene> recalled = recall(id);
-        Scene scene = project.scene(id);
-        cache.put(id, scene);
-        return scene;
-    }
-
-    /// Makes again what is referenced only: runs the first edit of the chain that lacks something.
-    /// \return scenes that must live until the result is loaded
-    std::vector<Scene> recall(ResultId id) {
-        std::vector<Scene> recalled;
-        ResultId last = 0;
-        while (project.needs_recall(id)) {
-            ResultId first = id;
-            for (ResultId at = id; at != 0; at = history.results().at(at).input)
-                if (project.needs_recall(at)) first = at;
-            if (first == last)
-                throw InvalidInput("the image that edit " +
-                                   std::to_string(history.results().at(first).edit.id) +
-                                   " made cannot be made again: its source has changed");
-            last = first;
-            Progress quiet;
-            const HistoryResult& result = history.results().at(first);
-            recalled.push_back(rerun(result, quiet).scene);
-            project.recall(recalled.back());
-        }
-        return recalled;
-    }
-
-    /// Runs a stored edit again on its stored input, with what it had decided.
-    Outcome rerun(const HistoryResult& result, Progress& progress) {
-        const EditRecord edit = project.edit(result.edit);
-        const Operation& operation = options.find(edit.operation);
-        const Arguments arguments =
-            with_found_files(operation, record_of(result.id).resolved, project.sources(result.edit),
-                             project.folder());
-        return run_operation(operation, load(result.input), arguments, progress, options.worker);
-    }
-
-    /// Bit for bit; what a GPU computed by tolerance, as no two devices round alike.
-    void compare(ResultId stored, const Scene& scene, ReplayEntry& replayed) {
-        const std::vector<std::string> names = project.differences(stored, scene);
-        if (record_of(stored).device == "gpu" && names == std::vector<std::string>{"positions"}) {
-            const auto distance = replay_distance(surface_of(load(stored)), surface_of(scene));
-            if (distance) replayed.distance = distance->largest;
-            if (distance && distance->allowed) return;
-        }
-        replayed.differences.insert(replayed.differences.end(), names.begin(), names.end());
-    }
-
-    ReplayEntry replay(const HistoryEntry& entry, Progress& progress) {
-        ReplayEntry replayed;
-        replayed.edit = entry.edit;
-        replayed.operation = project.edit(entry.edit).operation;
-        replayed.variant = entry.place.variant;
-        if (entry.status != EditStatus::Done || own_results.contains(entry.result)) {
-            replayed.note = to_string(entry.status) + ": it has no stored result";
-            return replayed;
-        }
-        replayed.differences = project.damages(entry.result);
-        try {
-            const Outcome outcome = rerun(history.results().at(entry.result), progress);
-            replayed.replayed = true;
-            compare(entry.result, outcome.scene, replayed);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const IoError& error) {
-            // The source file is not here any more; what was made of it is, and its checksums fit.
-            replayed.note = error.what();
-        } catch (const std::exception& error) {
-            replayed.differences.push_back(std::string("it fails now: ") + error.what());
-        }
-        return replayed;
+        store.commit(std::move(next), {});
     }
 };
 
@@ -360,49 +174,55 @@ Session Session::unsaved(SessionOptions options) {
 }
 
 const std::string& Session::read_only_reason() const {
-    return parts_->project.read_only_reason();
+    return parts_->store.project().read_only_reason();
 }
 
 LogEntry Session::apply(const std::string& operation, const Arguments& given,
                         const EditOptions& options, Progress progress) {
-    parts_->check_writable();
-    const Operation& found = parts_->options.find(operation);
-    EditRecord edit;
-    edit.place = place_of(found, options);
-    edit.operation = operation;
-    edit.given = without_folders(found, given);
-    edit.author = options.author.empty() ? parts_->options.author : options.author;
-    edit.time = utc_now();
-    edit.note = options.note;
-    (void)checked_arguments(found, given);  // before pending edits are run for nothing
-    const auto before = entries_before(parts_->history, edit.place);
-    const ResultId input = parts_->evaluate(before, progress.part(0.0, 0.5));
-    Progress own = progress;
-    auto run = parts_->run(found, input, given, own);
-    History next = parts_->history;
-    edit.edit = next.apply(edit.place);
-    return parts_->enter(found, std::move(next), std::move(edit), std::move(run));
+    parts_->store.check_writable();
+    return parts_->enter(parts_->run(parts_->plan(operation, given, options), progress));
 }
 
 LogEntry Session::change_edit(EditId id, const Arguments& given, const EditOptions& options,
                               Progress progress) {
-    parts_->check_writable();
-    const auto before = entries_before(parts_->history, id);
-    const EditRef old = parts_->history.find(id).value();
-    EditRecord edit = parts_->project.edit(old);
-    const Operation& found = parts_->options.find(edit.operation);
-    const Arguments located =
-        with_found_files(found, given, parts_->project.sources(old), parts_->project.folder());
-    edit.given = without_folders(found, given);
-    edit.author = options.author.empty() ? parts_->options.author : options.author;
-    edit.time = utc_now();
-    if (!options.note.empty()) edit.note = options.note;
-    (void)checked_arguments(found, given);
-    const ResultId input = parts_->evaluate(before, progress.part(0.0, 0.5));
-    auto run = parts_->run(found, input, located, progress);
-    History next = parts_->history;
-    edit.edit = next.change(id);
-    return parts_->enter(found, std::move(next), std::move(edit), std::move(run));
+    parts_->store.check_writable();
+    return parts_->enter(parts_->run(parts_->plan_change(id, given, options), progress));
+}
+
+Preview Session::preview(const std::string& operation, const Arguments& given,
+                         const EditOptions& options, Progress progress) {
+    return Preview(parts_->run(parts_->plan(operation, given, options), progress));
+}
+
+Preview Session::preview_change(EditId id, const Arguments& given, const EditOptions& options,
+                                Progress progress) {
+    return Preview(parts_->run(parts_->plan_change(id, given, options), progress));
+}
+
+LogEntry Session::commit(const Preview& preview) {
+    return parts_->enter(*preview.data_);
+}
+
+LiveEdit Session::start_live(const std::string& operation, const Arguments& given,
+                             const EditOptions& options, Progress progress) {
+    PlannedEdit planned = parts_->plan(operation, given, options);
+    const double share = share_of_pending(planned.before);
+    EvaluatedLine before = parts_->runner.evaluated(planned.before, progress.part(0.0, share));
+    Progress own = progress.part(share, 1.0);
+    return {*planned.operation, std::move(planned.edit), std::move(before), planned.located, own};
+}
+
+Preview Session::preview(LiveEdit& live, Progress progress) {
+    Progress own = progress.part(0.0, 0.9);
+    Outcome outcome = live.outcome(own);
+    Preview::Data data;
+    data.edit = live.edit_;
+    data.edit.given = without_folders(*live.operation_, live.given(outcome.resolved));
+    data.before = live.before_;
+    data.sources = parts_->sources(*live.operation_, live.given_, outcome.scene);
+    data.run = edit_run(*live.operation_, live.before_.scene, std::move(outcome), live.seconds_,
+                        progress.part(0.9, 1.0));
+    return Preview(std::move(data));
 }
 
 void Session::remove_edit(EditId id) {
@@ -430,46 +250,34 @@ void Session::jump(StateId state) {
 }
 
 Scene Session::scene(const std::string& variant, Progress progress) {
-    return parts_->load(parts_->evaluate(parts_->history.line(variant), progress));
+    const auto line = parts_->store.history().line(variant);
+    return parts_->runner.load(parts_->runner.evaluate(line, progress), progress);
 }
 
 Scene Session::scene_after(EditId id, Progress progress) {
-    auto entries = entries_before(parts_->history, id);
-    entries.emplace_back().edit = parts_->history.find(id).value();
-    return parts_->load(parts_->evaluate(entries, progress));
+    auto entries = entries_before(parts_->store.history(), id);
+    entries.emplace_back().edit = parts_->store.history().find(id).value();
+    return parts_->runner.load(parts_->runner.evaluate(entries, progress), progress);
 }
 
 std::vector<LogEntry> Session::log() const {
-    std::vector<LogEntry> log;
-    for (const HistoryEntry& entry : parts_->history.entries()) {
-        LogEntry line;
-        line.edit = parts_->project.edit(entry.edit);
-        line.status = entry.status;
-        line.reason = entry.reason;
-        if (entry.status == EditStatus::Done) line.result = parts_->record_of(entry.result);
-        log.push_back(std::move(line));
-    }
-    return log;
+    return snapshot()->log;
 }
 
-const History& Session::history() const {
-    return parts_->history;
+std::shared_ptr<const Snapshot> Session::snapshot() const {
+    return parts_->store.snapshot();
 }
 
 std::vector<ReplayEntry> Session::replay(Progress progress) {
-    const auto entries = parts_->history.entries();
-    std::vector<ReplayEntry> replayed;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        const auto whole = static_cast<double>(entries.size());
-        Progress part =
-            progress.part(static_cast<double>(i) / whole, static_cast<double>(i + 1) / whole);
-        replayed.push_back(parts_->replay(entries[i], part));
-    }
-    return replayed;
+    return vesselbench::replay(parts_->store, parts_->runner, progress);
 }
 
-void Session::save_as(const std::filesystem::path& project) const {
-    parts_->project.save_as(project);
+void Session::save_as(const std::filesystem::path& project, Progress progress) const {
+    parts_->store.project().save_as(project, progress);
+}
+
+void Session::run_in_workers() {
+    parts_->options.worker.every_operation = true;
 }
 
 }  // namespace vesselbench

@@ -1,58 +1,23 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "workbench/case/edit_record.h"
-#include "workbench/case/history.h"
-#include "workbench/project/project.h"
-#include "workbench/worker/run_operation.h"
+#include "workbench/session/live_edit.h"
+#include "workbench/session/preview.h"
+#include "workbench/session/replay.h"
+#include "workbench/session/session_options.h"
+#include "workbench/session/snapshot.h"
 
 namespace vesselbench {
 
-struct SessionOptions {
-    std::string author;                             ///< of the edits; empty: the user's login name
-    OperationLookup find;                           ///< required: how operations are found by name
-    WorkerOptions worker;                           ///< for isolated operations
-    std::size_t embed_limit = kEmbeddedImageBytes;  ///< [bytes] see there
-    std::size_t scene_bytes = std::size_t{768}
-                              << 20;  ///< scenes held in memory; others are re-read
-};
-
-/// How an edit enters the history.
-struct EditOptions {
-    std::optional<Step> step;     ///< none: the operation's usual step
-    std::string variant = "cfd";  ///< for steps 6-8
-    std::string author;           ///< empty: the session's
-    std::string note;
-};
-
-/// One edit of the current state, as the log shows it.
-struct LogEntry {
-    EditRecord edit;
-    EditStatus status = EditStatus::Pending;
-    std::string reason;                  ///< of a stale edit
-    std::optional<ResultRecord> result;  ///< of a done edit
-};
-
-/// What replaying one edit showed.
-struct ReplayEntry {
-    EditRef edit;
-    std::string operation;
-    std::string variant;
-    bool replayed = false;  ///< false: only the stored result's checksums were tested
-    std::vector<std::string> differences;  ///< empty: same bits, or as `distance` says
-    std::optional<double> distance;  ///< largest between vertices [mm], of what a GPU computed
-    std::string note;                ///< why it was not run again
-};
-
 /// A case being worked on: history, project file and running operations in one. Command line,
 /// recipes, tests and the window go through this door. Every change is in the project file, by one
-/// transaction, before the call returns; a call that throws leaves everything as it was.
+/// transaction, before the call returns. A call that throws or is cancelled leaves everything as it
+/// was, but for scene(), scene_after() and replay(): pending edits that have run by then stay done.
+/// Used by one thread at a time; a window's session belongs to a SessionRunner.
 class Session {
 public:
     /// Makes a new project file. \throw IoError if it exists or cannot be written
@@ -76,8 +41,9 @@ public:
     /// Empty if this session may write.
     [[nodiscard]] const std::string& read_only_reason() const;
 
-    /// Runs an operation and enters it into the history. Edits before it that are pending run
-    /// first; those behind it become pending.
+    /// Runs an operation and enters it into the history: preview() and commit() in one. Edits
+    /// before it that are pending run first and are entered with it; those behind it become
+    /// pending.
     /// \throw UsageError on wrong arguments, step or variant; what the operation throws; IoError if
     /// the session only reads or the project cannot be written
     LogEntry apply(const std::string& operation, const Arguments& given,
@@ -85,9 +51,31 @@ public:
 
     /// Runs an edit of the current state with other arguments: its next revision. The edits behind
     /// it become pending.
+    /// \param given all its arguments; of files that it read before, the names suffice
     /// \throw as apply()
     LogEntry change_edit(EditId id, const Arguments& given, const EditOptions& options = {},
                          Progress progress = {});
+
+    /// Runs what apply() and change_edit() run, without entering anything. A session that only
+    /// reads may preview, too.
+    /// \throw UsageError; what the operation throws
+    [[nodiscard]] Preview preview(const std::string& operation, const Arguments& given,
+                                  const EditOptions& options = {}, Progress progress = {});
+    [[nodiscard]] Preview preview_change(EditId id, const Arguments& given,
+                                         const EditOptions& options = {}, Progress progress = {});
+
+    /// Enters what was previewed, without running it again.
+    /// \throw UsageError if other edits stand before it by now than those it ran on; IoError if the
+    /// session only reads or the project cannot be written
+    LogEntry commit(const Preview& preview);
+
+    /// Starts an operation live. Pending edits before it run in memory.
+    /// \throw UsageError if it has no live form; as preview()
+    [[nodiscard]] LiveEdit start_live(const std::string& operation, const Arguments& given,
+                                      const EditOptions& options = {}, Progress progress = {});
+
+    /// What everything added to a live edit comes to, with its figures; the live edit may go on.
+    [[nodiscard]] Preview preview(LiveEdit& live, Progress progress = {});
 
     /// Leaves an edit out; the edits behind it become pending.
     /// \throw UsageError if there is no such edit
@@ -112,17 +100,21 @@ public:
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 
-    /// States, edits and results without their data.
-    [[nodiscard]] const History& history() const;
+    /// What the session is now, for any thread to hold.
+    [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
 
-    /// Runs each done edit of the current state anew on its stored input, with its resolved
+    /// Runs each done edit of the current state again on its stored input, with its resolved
     /// arguments, and compares with its stored result bit for bit.
     [[nodiscard]] std::vector<ReplayEntry> replay(Progress progress = {});
 
     /// Writes the whole project, with its history, to a new file; this session stays with the old
     /// one.
     /// \throw IoError if the file exists or cannot be written
-    void save_as(const std::filesystem::path& project) const;
+    void save_as(const std::filesystem::path& project, Progress progress = {}) const;
+
+    /// From now on every operation runs in a worker process, not only those that are `isolated`:
+    /// a cancel then ends it at once. See WorkerOptions::every_operation.
+    void run_in_workers();
 
 private:
     struct Parts;

@@ -38,9 +38,11 @@ Deviations deviations_in_place(const Positions& before, const Positions& after) 
 
 /// Distances of the vertices to another surface. Those that stand on one of its vertices need no
 /// search.
-Deviations deviations_from(const Positions& points, const Surface& other) {
+Deviations deviations_from(const Positions& points, const Surface& other,
+                           const Progress& progress) {
     Positions sorted = other.points();
     std::sort(sorted.begin(), sorted.end(), comes_before);
+    progress.check_cancelled();
     Positions away;
     for (const Vec3& p : points)
         if (!std::binary_search(sorted.begin(), sorted.end(), p, comes_before)) away.push_back(p);
@@ -52,19 +54,23 @@ Deviations deviations_from(const Positions& points, const Surface& other) {
     Positions sample;
     for (std::size_t i = 0; i < all; i += stride) sample.push_back(away[i]);
     const double weight = static_cast<double>(all) / static_cast<double>(sample.size());
-    for (const SurfacePoint& nearest : SurfaceDistance(other).closest_points(sample))
+    const SurfaceDistance distance(other);
+    progress.check_cancelled();
+    for (const SurfacePoint& nearest : distance.closest_points(sample))
         found.add(nearest.distance, weight);
     return found;
 }
 
-void add_deviations(const Surface& before, const Surface& after, SurfaceChange& change) {
+void add_deviations(const Surface& before, const Surface& after, SurfaceChange& change,
+                    const Progress& progress) {
     Deviations found;
     if (before.topology == after.topology) {
         found = deviations_in_place(before.points(), after.points());
         change.moved_vertices = static_cast<std::size_t>(found.count);
     } else {
-        found = deviations_from(after.points(), before);
-        const Deviations back = deviations_from(before.points(), after);
+        found = deviations_from(after.points(), before, progress.part(0.0, 0.5));
+        progress.report(0.5, "measuring the change");
+        const Deviations back = deviations_from(before.points(), after, progress.part(0.5, 1.0));
         found = {found.sum + back.sum, std::max(found.largest, back.largest),
                  found.count + back.count};
     }
@@ -74,7 +80,8 @@ void add_deviations(const Surface& before, const Surface& after, SurfaceChange& 
 
 }  // namespace
 
-SurfaceChange surface_change(const Scene& before, const Scene& after) {
+SurfaceChange surface_change(const Scene& before, const Scene& after, const Progress& progress) {
+    progress.report(0.0, "measuring the change");
     SurfaceChange change;
     const bool had = before.surface && !before.surface->empty();
     const bool has = after.surface && !after.surface->empty();
@@ -87,7 +94,7 @@ SurfaceChange surface_change(const Scene& before, const Scene& after) {
     const bool same_shape = had && before.surface->positions == after.surface->positions &&
                             before.surface->topology == after.surface->topology;
     change.volume_after = same_shape ? change.volume_before : volume(*after.surface);
-    if (had) add_deviations(*before.surface, *after.surface, change);
+    if (had) add_deviations(*before.surface, *after.surface, change, progress);
     return change;
 }
 

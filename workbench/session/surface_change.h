@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/kernel/progress.h"
 #include "workbench/case/edit_record.h"
 #include "workbench/case/scene.h"
 
@@ -9,6 +10,8 @@ namespace vesselbench {
 /// vertex to its old place, their mean over the vertices that moved. Else they go from the vertices
 /// of either surface to the other surface, their mean over all vertices of both; of more than
 /// 50,000 that stand on no vertex of the other, every n-th is measured.
-[[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after);
+/// \throw Cancelled
+[[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
+                                           const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -2,13 +2,34 @@
 
 namespace vesselbench {
 
+namespace {
+
+bool uses_gpu(const Arguments& checked) {
+    return checked.optional_text("device") == "gpu";
+}
+
+/// What would have run here has the time and the memory it would have had here.
+WorkerOptions without_limits(WorkerOptions worker) {
+    worker.memory_limit = 0;
+    worker.time_limit = std::chrono::hours(24 * 365);
+    return worker;
+}
+
+Outcome outcome_of(const Operation& operation, const Scene& scene, const Arguments& checked,
+                   Progress& progress, const WorkerOptions& worker) {
+    if (operation.isolated) return run_in_worker(operation, scene, checked, progress, worker);
+    if (worker.every_operation && !uses_gpu(checked))
+        return run_in_worker(operation, scene, checked, progress, without_limits(worker));
+    return run_here(operation, scene, checked, progress);
+}
+
+}  // namespace
+
 Outcome run_operation(const Operation& operation, const Scene& scene, const Arguments& given,
                       Progress& progress, const WorkerOptions& worker) {
     const Arguments checked = checked_arguments(operation, given);
     progress.check_cancelled();
-    Outcome outcome = operation.isolated
-                          ? run_in_worker(operation, scene, checked, progress, worker)
-                          : run_here(operation, scene, checked, progress);
+    Outcome outcome = outcome_of(operation, scene, checked, progress, worker);
     for (const auto& [name, value] : checked.values())
         if (!outcome.resolved.has(name)) outcome.resolved.set(name, value);
     return outcome;

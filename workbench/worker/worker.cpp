@@ -100,6 +100,15 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
     }
 }
 
+/// Large scenes take seconds: asks between pieces whether it was cancelled.
+void write_request(int descriptor, std::span<const std::byte> bytes, const Progress& progress) {
+    constexpr std::size_t kPiece = std::size_t{16} << 20;
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(kPiece, bytes.size()))) {
+        progress.check_cancelled();
+        write_all(descriptor, bytes.first(std::min(kPiece, bytes.size())));
+    }
+}
+
 Bytes read_all(int descriptor) {
     struct stat info {};
 
@@ -323,7 +332,7 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene, const Argu
     if (command.empty()) command = {"/proc/self/exe", "--worker"};
     const Descriptor request = memory_file("vesselbench-request");
     const Descriptor answer = memory_file("vesselbench-outcome");
-    write_all(request.number(), request_bytes(operation, scene, checked, options));
+    write_request(request.number(), request_bytes(operation, scene, checked, options), progress);
     lseek(request.number(), 0, SEEK_SET);
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)

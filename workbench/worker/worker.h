@@ -19,6 +19,10 @@ struct WorkerOptions {
     std::vector<std::string> command;
     std::chrono::seconds time_limit{3600};            ///< then the worker is killed
     std::size_t memory_limit = std::size_t{8} << 30;  ///< [bytes] of address space; 0: no limit
+    /// Run those in a worker, too, that are not `isolated`, within no limits: a cancel then ends
+    /// them at once, whatever they are doing. What was asked of a GPU still runs here: its driver
+    /// takes more address space and time to start than a worker is worth, and it polls often.
+    bool every_operation = false;
 };
 
 /// Runs an operation in a process of its own: the program starts itself anew (exec), scene in and

@@ -9,7 +9,7 @@
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
-#include "tests/workbench/test_operations.h"
+#include "tests/session/small_operations.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -25,7 +25,7 @@ SessionOptions options() {
 /// Edits without end; tells the number of edits after each commit.
 int edit(const char* project) {
     Session session = Session::open(project, options());
-    for (auto made = session.history().entries().size();; ++made) {
+    for (auto made = session.snapshot()->history->entries().size();; ++made) {
         std::printf("%zu\n", made);
         std::fflush(stdout);
         if (made == 0)

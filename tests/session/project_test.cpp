@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
-#include "tests/workbench/test_operations.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -131,7 +131,7 @@ private:
 
 }  // namespace
 
-SCENARIO("A project outlives SIGKILL at any moment", "[workbench][project]") {
+SCENARIO("A project outlives SIGKILL at any moment", "[session][project]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     (void)Session::create(file, options());
     std::mt19937 random(20240517);
@@ -163,7 +163,7 @@ SCENARIO("A project outlives SIGKILL at any moment", "[workbench][project]") {
     for (const auto& entry : session.replay()) REQUIRE(entry.differences.empty());
 }
 
-SCENARIO("Two processes on one project: the second only reads", "[workbench][project]") {
+SCENARIO("Two processes on one project: the second only reads", "[session][project]") {
     const std::string file = new_project();
     {
         Helper writer("hold", file);
@@ -190,7 +190,7 @@ SCENARIO("Two processes on one project: the second only reads", "[workbench][pro
     }
 }
 
-SCENARIO("A reader sees pending edits run, for itself only", "[workbench][project]") {
+SCENARIO("A reader sees pending edits run, for itself only", "[session][project]") {
     const std::string file = new_project();
     Session writer = Session::open(file, options());
     writer.apply("bump", small_bump());
@@ -205,7 +205,7 @@ SCENARIO("A reader sees pending edits run, for itself only", "[workbench][projec
     CHECK(reader.replay()[0].replayed);
 }
 
-SCENARIO("A session without a file becomes a project", "[workbench][project]") {
+SCENARIO("A session without a file becomes a project", "[session][project]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     Session session = Session::unsaved(options());
     session.apply("make-sphere", {});
@@ -215,7 +215,7 @@ SCENARIO("A session without a file becomes a project", "[workbench][project]") {
     CHECK(saved.scene().surface->points() == session.scene().surface->points());
 }
 
-SCENARIO("A project of a newer version is refused", "[workbench][project]") {
+SCENARIO("A project of a newer version is refused", "[session][project]") {
     const std::string file = new_project();
     run_sql(file,
             "PRAGMA user_version = 7; UPDATE meta SET value = '9.9.9' WHERE name = 'written by'");
@@ -225,7 +225,7 @@ SCENARIO("A project of a newer version is refused", "[workbench][project]") {
     CHECK(text.find("version 1") != std::string::npos);
 }
 
-SCENARIO("What is no project is refused", "[workbench][project]") {
+SCENARIO("What is no project is refused", "[session][project]") {
     const std::string folder = test::temporary_folder();
     CHECK_THROWS_AS(Session::open(folder + "/none.vbench", options()), IoError);
     CHECK_THROWS_AS(Session::open(folder, options()), InvalidInput);
@@ -242,7 +242,7 @@ SCENARIO("What is no project is refused", "[workbench][project]") {
     }
 }
 
-SCENARIO("Damaged data is noticed", "[workbench][project]") {
+SCENARIO("Damaged data is noticed", "[session][project]") {
     const std::string file = new_project();
     run_sql(file, "UPDATE blobs SET content = zeroblob(length(content)) WHERE id = 2");
     Session session = Session::open(file, options());
@@ -254,7 +254,7 @@ SCENARIO("Damaged data is noticed", "[workbench][project]") {
     }
 }
 
-SCENARIO("A folder that cannot be written", "[workbench][project]") {
+SCENARIO("A folder that cannot be written", "[session][project]") {
     const std::string file = new_project();
     const fs::path folder = fs::path(file).parent_path();
     fs::permissions(folder, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
@@ -274,7 +274,7 @@ SCENARIO("A folder that cannot be written", "[workbench][project]") {
     CHECK(std::distance(fs::directory_iterator(folder), {}) == 1);
 }
 
-SCENARIO("A full disk leaves the project as it was", "[workbench][project]") {
+SCENARIO("A full disk leaves the project as it was", "[session][project]") {
     const std::string file = new_project(4);
     Session session = Session::open(file, options());
     session.apply("bump", small_bump());
@@ -298,7 +298,7 @@ SCENARIO("A full disk leaves the project as it was", "[workbench][project]") {
     }
 }
 
-SCENARIO("An edit costs at most 64 bytes a moved vertex and 16 KiB", "[workbench][project]") {
+SCENARIO("An edit costs at most 64 bytes a moved vertex and 16 KiB", "[session][project]") {
     const std::string file = new_project(5);
     const double reach = GENERATE(0.5, 3.0, 9.0, 100.0);
     const auto before = fs::file_size(file);
@@ -314,7 +314,7 @@ SCENARIO("An edit costs at most 64 bytes a moved vertex and 16 KiB", "[workbench
 }
 
 SCENARIO("A million triangles: undo reads no scene, and scenes share their topology",
-         "[workbench][project]") {
+         "[session][project]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     {
         Session session = Session::create(file, options());

@@ -319,7 +319,7 @@ private:
 
 }  // namespace
 
-SCENARIO("A history does what a plain list of states does", "[workbench][history]") {
+SCENARIO("A history does what a plain list of states does", "[session][history]") {
     RandomUser user(20240611);
     History history;
     PlainHistory plain;

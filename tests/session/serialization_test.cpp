@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
-#include "tests/workbench/test_operations.h"
 #include "workbench/project/stored_text.h"
 
 using namespace vesselbench;
@@ -44,7 +44,7 @@ bool same_parts(const Scene& a, const Scene& b) {
 
 }  // namespace
 
-SCENARIO("A scene survives its blob bit for bit", "[workbench][serialization]") {
+SCENARIO("A scene survives its blob bit for bit", "[session][serialization]") {
     const Scene scene = full_scene();
     CHECK(same_parts(scene, decode_scene(encode_scene(scene))));
     CHECK(same_parts({}, decode_scene(encode_scene({}))));
@@ -58,7 +58,7 @@ SCENARIO("A scene survives its blob bit for bit", "[workbench][serialization]") 
     }
 }
 
-SCENARIO("Parts survive compression, odd numbers too", "[workbench][serialization]") {
+SCENARIO("Parts survive compression, odd numbers too", "[session][serialization]") {
     Positions odd = {{-0.0, 1e-310, 1e300},
                      {std::numeric_limits<double>::infinity(), 0.1, -1.0},
                      {std::nan("7"), 2.0, 3.0}};
@@ -72,7 +72,7 @@ SCENARIO("Parts survive compression, odd numbers too", "[workbench][serializatio
           content_hash(empty));
 }
 
-SCENARIO("Moved vertices cost less than 64 bytes each", "[workbench][serialization]") {
+SCENARIO("Moved vertices cost less than 64 bytes each", "[session][serialization]") {
     const Surface sphere = test::icosphere(10.0, 4);
     const std::size_t count = GENERATE(1, 10, 300, 1100);
     const Surface after = moved(sphere, count);
@@ -89,7 +89,7 @@ SCENARIO("Moved vertices cost less than 64 bytes each", "[workbench][serializati
     }
 }
 
-SCENARIO("A difference bridges other lengths", "[workbench][serialization]") {
+SCENARIO("A difference bridges other lengths", "[session][serialization]") {
     const Surface small = test::icosphere(1.0, 1);
     std::vector<Triangle> triangles(small.triangles().begin(), small.triangles().end());
     triangles.push_back({0, 1, 2});
@@ -104,7 +104,7 @@ SCENARIO("A difference bridges other lengths", "[workbench][serialization]") {
     }
 }
 
-SCENARIO("Damaged blobs are refused", "[workbench][serialization]") {
+SCENARIO("Damaged blobs are refused", "[session][serialization]") {
     const Scene scene = full_scene();
     WHEN("a scene is cut short anywhere") {
         const Bytes blob = encode_scene(scene);
@@ -147,7 +147,7 @@ SCENARIO("Damaged blobs are refused", "[workbench][serialization]") {
     }
 }
 
-SCENARIO("Stored arguments keep type and bits", "[workbench][serialization]") {
+SCENARIO("Stored arguments keep type and bits", "[session][serialization]") {
     const Arguments arguments = {{"flag", true},
                                  {"whole", std::int64_t{-12}},
                                  {"real", 2.0},

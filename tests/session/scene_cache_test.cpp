@@ -6,7 +6,7 @@
 
 using namespace vesselbench;
 
-SCENARIO("The scene cache keeps to its bytes", "[workbench][scene_cache]") {
+SCENARIO("The scene cache keeps to its bytes", "[session][scene_cache]") {
     Scene scene;
     scene.surface = test::icosphere(10.0, 4);
     const std::size_t shape = scene.surface->vertex_count() * 24;

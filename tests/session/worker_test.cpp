@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
-#include "tests/workbench/test_operations.h"
 #include "workbench/worker/run_operation.h"
 
 using namespace vesselbench;
@@ -39,7 +39,7 @@ const Arguments kTop = {{"at", Vec3(0.0, 0.0, 10.0)}, {"reach", 3.0}};
 
 }  // namespace
 
-SCENARIO("An isolated operation gives what it gives in process", "[workbench][worker]") {
+SCENARIO("An isolated operation gives what it gives in process", "[session][worker]") {
     const Scene scene = sphere();
     const Outcome near = run("bump", scene, kTop);
     const Outcome far = run("far-bump", scene, kTop);
@@ -53,7 +53,7 @@ SCENARIO("An isolated operation gives what it gives in process", "[workbench][wo
     }
 }
 
-SCENARIO("Errors keep their class across the processes", "[workbench][worker]") {
+SCENARIO("Errors keep their class across the processes", "[session][worker]") {
     const auto refuse = [](const char* as) { return run("refuse", {}, {{"as", std::string(as)}}); };
     CHECK_THROWS_AS(refuse("usage"), UsageError);
     CHECK_THROWS_AS(refuse("input"), InvalidInput);
@@ -65,7 +65,7 @@ SCENARIO("Errors keep their class across the processes", "[workbench][worker]") 
     CHECK_THROWS_AS(run("refuse", {}, {}), UsageError);
 }
 
-SCENARIO("The session outlives what its workers do", "[workbench][worker]") {
+SCENARIO("The session outlives what its workers do", "[session][worker]") {
     CHECK_THROWS_AS(run("crash", sphere(), {}), AlgorithmFailure);
     THEN("a crash while reading a file is the file's fault") {
         const Arguments given = {{"file", std::string("/somewhere/bad.stl")}};
@@ -95,7 +95,7 @@ SCENARIO("The session outlives what its workers do", "[workbench][worker]") {
     }
 }
 
-SCENARIO("Cancelling kills the worker at once", "[workbench][worker]") {
+SCENARIO("Cancelling kills the worker at once", "[session][worker]") {
     std::stop_source stop;
     double seen = -1.0;
     const Progress progress(

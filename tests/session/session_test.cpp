@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
-#include "tests/workbench/test_operations.h"
 
 using namespace vesselbench;
 
@@ -51,7 +51,7 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
-SCENARIO("The log tells of each edit what it was and what it did", "[workbench][session]") {
+SCENARIO("The log tells of each edit what it was and what it did", "[session]") {
     Session session = sphere_session();
     EditOptions how;
     how.note = "the bulge is real";
@@ -78,7 +78,7 @@ SCENARIO("The log tells of each edit what it was and what it did", "[workbench][
     CHECK(log[1].result->report == entry.result->report);
 }
 
-SCENARIO("Undo and redo walk the states", "[workbench][session]") {
+SCENARIO("Undo and redo walk the states", "[session]") {
     Session session = sphere_session();
     const double before = top_of(session.scene());
     session.apply("bump", bump_at(kTop, 0.5));
@@ -93,7 +93,7 @@ SCENARIO("Undo and redo walk the states", "[workbench][session]") {
     CHECK_THROWS_AS(session.redo(), UsageError);
 }
 
-SCENARIO("Changing an earlier edit replays the later ones", "[workbench][session]") {
+SCENARIO("Changing an earlier edit replays the later ones", "[session]") {
     Session session = sphere_session();
     const double height =
         session.apply("bump", {{"at", kTop}, {"reach", 4.0}}).result->resolved.real("height");
@@ -115,7 +115,7 @@ SCENARIO("Changing an earlier edit replays the later ones", "[workbench][session
     }
 }
 
-SCENARIO("An edit that no longer applies becomes stale, and says why", "[workbench][session]") {
+SCENARIO("An edit that no longer applies becomes stale, and says why", "[session]") {
     Session session = sphere_session();
     session.apply("bump", bump_at(kTop, 0.5));
     EditOptions smoothing;
@@ -136,7 +136,7 @@ SCENARIO("An edit that no longer applies becomes stale, and says why", "[workben
     }
 }
 
-SCENARIO("An edit of an earlier step goes before the later ones", "[workbench][session]") {
+SCENARIO("An edit of an earlier step goes before the later ones", "[session]") {
     Session session = sphere_session();
     session.apply("scale", {});
     session.apply("bump", bump_at(kTop, 0.5));
@@ -145,7 +145,7 @@ SCENARIO("An edit of an earlier step goes before the later ones", "[workbench][s
     CHECK(top_of(session.scene()) == 2.0 * top_of(session.scene_after(3)));
 }
 
-SCENARIO("Variants share the trunk only", "[workbench][session]") {
+SCENARIO("Variants share the trunk only", "[session]") {
     Session session = sphere_session();
     const double top = top_of(session.scene());
     EditOptions print;
@@ -157,9 +157,9 @@ SCENARIO("Variants share the trunk only", "[workbench][session]") {
     CHECK(top_of(session.scene("none yet")) == top);
 }
 
-SCENARIO("What cannot be done leaves the session as it was", "[workbench][session]") {
+SCENARIO("What cannot be done leaves the session as it was", "[session]") {
     Session session = sphere_session();
-    const StateId state = session.history().current();
+    const StateId state = session.snapshot()->history->current();
     CHECK_THROWS_AS(session.apply("no-such-thing", {}), UsageError);
     CHECK_THROWS_AS(session.apply("bump", {{"where", kTop}}), UsageError);
     CHECK_THROWS_AS(session.apply("bump", bump_at(Vec3(99, 0, 0), 1.0)), AlgorithmFailure);
@@ -174,12 +174,12 @@ SCENARIO("What cannot be done leaves the session as it was", "[workbench][sessio
     stop.request_stop();
     CHECK_THROWS_AS(session.apply("bump", bump_at(kTop, 1.0), {}, Progress({}, stop.get_token())),
                     Cancelled);
-    CHECK(session.history().current() == state);
-    CHECK(session.history().results().size() == 1);
+    CHECK(session.snapshot()->history->current() == state);
+    CHECK(session.snapshot()->history->results().size() == 1);
     CHECK(session.log().size() == 1);
 }
 
-SCENARIO("A project holds the whole session", "[workbench][session]") {
+SCENARIO("A project holds the whole session", "[session]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     std::vector<LogEntry> log;
     Positions points;
@@ -235,7 +235,7 @@ SCENARIO("A project holds the whole session", "[workbench][session]") {
     }
 }
 
-SCENARIO("Replay finds what is not reproduced", "[workbench][session]") {
+SCENARIO("Replay finds what is not reproduced", "[session]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     {
         Session session = Session::create(file, options());
@@ -260,7 +260,7 @@ SCENARIO("Replay finds what is not reproduced", "[workbench][session]") {
     CHECK(replayed[1].differences == std::vector<std::string>{"positions"});
 }
 
-SCENARIO("Source files are embedded, their folders are not", "[workbench][session]") {
+SCENARIO("Source files are embedded, their folders are not", "[session]") {
     const std::string folder = test::temporary_folder();
     std::filesystem::create_directory(folder + "/patient-name");
     const std::string source = folder + "/patient-name/radius.txt";
@@ -294,7 +294,7 @@ SCENARIO("Source files are embedded, their folders are not", "[workbench][sessio
     }
 }
 
-SCENARIO("Large images are referenced by their hash", "[workbench][session]") {
+SCENARIO("Large images are referenced by their hash", "[session]") {
     const std::string folder = test::temporary_folder();
     const std::string source = folder + "/scan.txt";
     std::ofstream(source) << 3.0;
@@ -318,7 +318,7 @@ SCENARIO("Large images are referenced by their hash", "[workbench][session]") {
     }
 }
 
-SCENARIO("Memory is bounded, and what was dropped is read again", "[workbench][session]") {
+SCENARIO("Memory is bounded, and what was dropped is read again", "[session]") {
     SessionOptions tight = options();
     tight.scene_bytes = 200000;
     Session session = Session::unsaved(tight);
@@ -329,4 +329,177 @@ SCENARIO("Memory is bounded, and what was dropped is read again", "[workbench][s
     CHECK(top_of(session.scene()) == Approx(top - 2.0));
     for (int i = 0; i < 20; ++i) session.redo();
     CHECK(top_of(session.scene()) == top);
+}
+
+SCENARIO("A failing edit leaves pending edits pending", "[session]") {
+    Session session = sphere_session();
+    session.apply("bump", bump_at(kTop, 0.5));
+    session.change_edit(1, {{"radius", 10.5}});
+    const auto before = session.snapshot();
+    REQUIRE(statuses(session) == std::vector{kDone, kPending});
+    CHECK_THROWS_AS(session.apply("bump", bump_at(Vec3(99, 0, 0), 1.0)), AlgorithmFailure);
+    CHECK(statuses(session) == std::vector{kDone, kPending});
+    CHECK(session.snapshot()->history->results().size() == before->history->results().size());
+    THEN("and one that succeeds enters them, by one change") {
+        session.apply("bump", bump_at(kTop, 0.25));
+        CHECK(statuses(session) == std::vector{kDone, kDone, kDone});
+        CHECK(session.replay()[1].differences.empty());
+        CHECK(session.replay()[2].differences.empty());
+        CHECK(session.log()[2].result->input == session.log()[1].result->id);
+    }
+    THEN("pending edits that have become stale are entered, too") {
+        session.change_edit(1, {{"radius", 3.0}});
+        session.apply("bump", {{"at", Vec3(1, 2, 0)}, {"reach", 100.0}, {"height", 1.0}});
+        CHECK(statuses(session) == std::vector{kDone, kStale, kDone});
+        CHECK(session.log()[2].result->input == session.log()[0].result->id);
+    }
+}
+
+SCENARIO("A preview is shown first and entered later", "[session][preview]") {
+    Session session = sphere_session();
+    const auto before = session.snapshot();
+    const Preview preview = session.preview("bump", {{"at", kTop}, {"reach", 4.0}});
+    CHECK(preview.input_id() == before->log[0].result->id);
+    CHECK(preview.result().change.moved_vertices > 0);
+    CHECK(preview.result().resolved.has("height"));
+    CHECK(session.snapshot()->history->states().size() == before->history->states().size());
+    CHECK(statuses(session) == std::vector{kDone});
+    WHEN("it is committed") {
+        const LogEntry entry = session.commit(preview);
+        CHECK(entry.edit.edit.id == 2);
+        CHECK(entry.result->resolved == preview.result().resolved);
+        CHECK(session.scene().surface->positions == preview.scene().surface->positions);
+        CHECK(session.replay()[1].differences.empty());
+        THEN("it cannot be committed twice: it would stand on itself") {
+            CHECK_THROWS_AS(session.commit(preview), UsageError);
+        }
+        THEN("after an undo it can") {
+            session.undo();
+            CHECK(session.commit(preview).edit.edit.id == 3);
+        }
+    }
+    WHEN("what stands before it has changed") {
+        session.change_edit(1, {{"radius", 10.5}});
+        THEN("it is refused, and nothing is entered") {
+            const auto now = session.snapshot();
+            CHECK_THROWS_WITH(session.commit(preview),
+                              Catch::Matchers::Contains("preview of bump no longer fits"));
+            CHECK(session.snapshot()->history->states().size() == now->history->states().size());
+        }
+        THEN("it fits again when that is undone") {
+            session.undo();
+            CHECK(session.commit(preview).status == kDone);
+        }
+    }
+    WHEN("an edit behind it was made meanwhile") {
+        session.apply("scale", {});
+        session.commit(preview);
+        CHECK(statuses(session) == std::vector{kDone, kDone, kPending});
+    }
+}
+
+SCENARIO("A change is previewed as well", "[session][preview]") {
+    Session session = sphere_session();
+    session.apply("bump", bump_at(kTop, 0.5));
+    session.apply("scale", {});
+    const Preview preview = session.preview_change(2, bump_at(kTop, 1.0));
+    CHECK(top_of(preview.scene()) == top_of(preview.input()) + 1.0);
+    const LogEntry entry = session.commit(preview);
+    CHECK(entry.edit.edit == EditRef{2, 2});
+    CHECK(statuses(session) == std::vector{kDone, kDone, kPending});
+    session.remove_edit(2);
+    CHECK_THROWS_AS(session.commit(preview), UsageError);
+}
+
+SCENARIO("A preview runs pending edits for itself", "[session][preview]") {
+    Session session = sphere_session();
+    session.apply("bump", bump_at(kTop, 0.5));
+    session.change_edit(1, {{"radius", 10.5}});
+    const Preview preview = session.preview("bump", bump_at(kTop, 0.25));
+    CHECK_FALSE(preview.input_id());
+    CHECK(statuses(session) == std::vector{kDone, kPending});
+    WHEN("it is committed, they are") {
+        session.commit(preview);
+        CHECK(statuses(session) == std::vector{kDone, kDone, kDone});
+    }
+    WHEN("they have run by then, their results serve") {
+        const double top = top_of(session.scene());
+        session.commit(preview);
+        CHECK(statuses(session) == std::vector{kDone, kDone, kDone});
+        CHECK(session.snapshot()->history->results().size() == 5);
+        CHECK(top_of(session.scene()) == top + 0.25);
+    }
+}
+
+SCENARIO("A session that only reads may preview", "[session][preview]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    Session writer = Session::create(file, options());
+    writer.apply("make-sphere", {});
+    Session reader = Session::open(file, options());
+    CHECK_FALSE(reader.snapshot()->read_only_reason.empty());
+    const Preview preview = reader.preview("bump", bump_at(kTop, 0.5));
+    CHECK(top_of(preview.scene()) == top_of(preview.input()) + 0.5);
+    CHECK_THROWS_AS(reader.commit(preview), IoError);
+    CHECK(reader.log().size() == 1);
+}
+
+SCENARIO("A stroke is one edit, the sum of what was drawn", "[session][live]") {
+    Session session = sphere_session();
+    LiveEdit live = session.start_live("stroke", {{"heights", std::vector<double>{0.1, 0.2}}});
+    live.add({{"heights", std::vector<double>{0.3}}});
+    const Positions drawn = surface_of(live.scene()).points();
+    CHECK_THROWS_AS(live.add({{"heights", std::vector<double>{0.4, 0.0}}}), AlgorithmFailure);
+    CHECK_THROWS_AS(live.add({{"depths", 1.0}}), UsageError);
+    CHECK(surface_of(live.scene()).points() == drawn);
+    const Preview half = session.preview(live);
+    live.add({{"heights", std::vector<double>{-0.2}}});
+    const LogEntry entry = session.commit(session.preview(live));
+    CHECK(entry.edit.given.list("heights") == std::vector<double>{0.1, 0.2, 0.3, -0.2});
+    CHECK(surface_of(session.scene()).points() == surface_of(live.scene()).points());
+    CHECK(surface_of(half.scene()).points() == drawn);
+    THEN("its replay, and the same arguments at once, give the same bits") {
+        CHECK(session.replay()[1].differences.empty());
+        session.undo();
+        session.apply("stroke", entry.edit.given);
+        CHECK(surface_of(session.scene()).points() == surface_of(live.scene()).points());
+    }
+    CHECK_THROWS_WITH(session.start_live("scale", {}),
+                      Catch::Matchers::Contains("cannot be driven live"));
+}
+
+SCENARIO("A snapshot shows what is at hand", "[session][snapshot]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    {
+        Session session = Session::create(file, options());
+        session.apply("make-sphere", {});
+        session.apply("scale", {});
+        const auto now = session.snapshot();
+        CHECK(now->project == "case.vbench");
+        CHECK(now->read_only_reason.empty());
+        CHECK(now->scenes.size() == 2);
+        CHECK(top_of(now->scenes.at("cfd")) == 2.0 * top_of(now->scenes.at("")));
+        session.change_edit(1, {{"radius", 5.0}});
+        CHECK(now->log[0].edit.edit.revision == 1);
+        CHECK(session.snapshot()->scenes.size() == 1);
+        CHECK_FALSE(session.snapshot()->log[1].result);
+    }
+    Session session = Session::open(file, options());
+    CHECK(session.snapshot()->scenes.empty());
+    CHECK(session.snapshot()->log.size() == 2);
+    static_cast<void>(session.scene());
+    CHECK(session.snapshot()->scenes.contains("cfd"));
+}
+
+SCENARIO("A cancelled copy leaves no file", "[session]") {
+    const std::string folder = test::temporary_folder();
+    Session session = Session::create(folder + "/case.vbench", options());
+    session.apply("make-sphere", {{"levels", std::int64_t{5}}});
+    std::stop_source stop;
+    stop.request_stop();
+    CHECK_THROWS_AS(session.save_as(folder + "/copy.vbench", Progress({}, stop.get_token())),
+                    Cancelled);
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        CHECK(entry.path().filename().string().find("copy") == std::string::npos);
+    session.save_as(folder + "/copy.vbench");
+    CHECK(std::filesystem::exists(folder + "/copy.vbench"));
 }

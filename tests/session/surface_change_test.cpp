@@ -18,7 +18,7 @@ Scene scene_of(Surface surface) {
 
 }  // namespace
 
-SCENARIO("The figures of a change", "[workbench][surface_change]") {
+SCENARIO("The figures of a change", "[session][surface_change]") {
     const Scene sphere = scene_of(test::icosphere(10.0, 3));
     GIVEN("the same connectivity") {
         const Scene larger =

@@ -45,7 +45,7 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
-SCENARIO("Edits stand by step, then by time", "[workbench][history]") {
+SCENARIO("Edits stand by step, then by time", "[session][history]") {
     History history;
     done(history, kSource);
     done(history, kSmoothing);
@@ -57,7 +57,7 @@ SCENARIO("Edits stand by step, then by time", "[workbench][history]") {
     }
 }
 
-SCENARIO("Undo goes to the parent, redo to the child last visited", "[workbench][history]") {
+SCENARIO("Undo goes to the parent, redo to the child last visited", "[session][history]") {
     History history;
     done(history, kSource);
     const StateId fork = history.current();
@@ -90,7 +90,7 @@ SCENARIO("Undo goes to the parent, redo to the child last visited", "[workbench]
     }
 }
 
-SCENARIO("Undo and redo by an edit", "[workbench][history]") {
+SCENARIO("Undo and redo by an edit", "[session][history]") {
     History history;
     for (int i = 0; i < 4; ++i) done(history, kRepair);
     history.undo_before(2);
@@ -101,7 +101,7 @@ SCENARIO("Undo and redo by an edit", "[workbench][history]") {
     CHECK_THROWS_AS(history.redo_to(1), UsageError);
 }
 
-SCENARIO("A changed edit keeps its id and its place", "[workbench][history]") {
+SCENARIO("A changed edit keeps its id and its place", "[session][history]") {
     History history;
     done(history, kSource);
     const EditRef second = done(history, kRepair);
@@ -121,7 +121,7 @@ SCENARIO("A changed edit keeps its id and its place", "[workbench][history]") {
     }
 }
 
-SCENARIO("A removed edit makes those behind it pending", "[workbench][history]") {
+SCENARIO("A removed edit makes those behind it pending", "[session][history]") {
     History history;
     done(history, kSource);
     done(history, kRepair);
@@ -136,7 +136,7 @@ SCENARIO("A removed edit makes those behind it pending", "[workbench][history]")
     }
 }
 
-SCENARIO("A stale edit lets its input through", "[workbench][history]") {
+SCENARIO("A stale edit lets its input through", "[session][history]") {
     History history;
     done(history, kSource);
     const EditRef broken = history.apply(kRepair);
@@ -150,7 +150,7 @@ SCENARIO("A stale edit lets its input through", "[workbench][history]") {
     CHECK(statuses(history) == std::vector{kDone, kStale, kDone});
 }
 
-SCENARIO("A variant's edits do not touch the other variants", "[workbench][history]") {
+SCENARIO("A variant's edits do not touch the other variants", "[session][history]") {
     History history;
     done(history, kSource);
     done(history, kRemeshing);
@@ -172,7 +172,7 @@ SCENARIO("A variant's edits do not touch the other variants", "[workbench][histo
     }
 }
 
-SCENARIO("A history that contradicts itself is refused", "[workbench][history]") {
+SCENARIO("A history that contradicts itself is refused", "[session][history]") {
     const std::map<EditRef, EditPlace> edits = {{{1, 1}, kSource}};
     const HistoryState start;
     const HistoryState first{1, 0, StateChange::Apply, {1, 1}, 0};

@@ -1,0 +1,55 @@
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "tests/support/shapes.h"
+#include "workbench/operations/table.h"
+#include "workbench/session/session_runner.h"
+
+using namespace vesselbench;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// What takes seconds on the tube below.
+const std::vector<std::pair<std::string, Arguments>> kLongOperations = {
+    {"repair", {}},
+    {"clip-opening", {}},
+    {"smooth",
+     {{"filter", std::string("mean-curvature-flow")}, {"iterations", std::int64_t{5000}}}},
+    {"remesh", {{"edge", 0.2}}},
+    {"decimate", {{"share", 0.1}}},
+    {"subdivide", {{"iterations", std::int64_t{3}}}},
+    {"tetrahedralize", {}},
+};
+
+Session tube_session() {
+    const std::string file = test::temporary_folder() + "/tube.vtp";
+    write_surface(test::fine_tube(10.0, 80.0, 240), file);
+    SessionOptions options;
+    options.find = find_operation;
+    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    Session session = Session::unsaved(options);
+    session.apply("load-surface", {{"file", file}});
+    return session;
+}
+
+}  // namespace
+
+SCENARIO("A cancel ends every long operation within 0.3 s", "[workbench][cancel]") {
+    SessionRunner runner(tube_session());
+    for (const auto& [operation, arguments] : kLongOperations) {
+        const auto job = runner.apply(operation, arguments);
+        static_cast<void>(job.wait_for(400ms));
+        INFO(operation << ": " << job.error() << ", at " << job.progress().what);
+        CHECK(job.state() == JobState::Running);
+        const auto start = std::chrono::steady_clock::now();
+        job.cancel();
+        job.wait();
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        CHECK(took.count() < 0.3);
+        CHECK(job.state() == JobState::Cancelled);
+        CHECK(runner.snapshot()->log.size() == 1);
+    }
+}

@@ -1,0 +1,260 @@
+#include "workbench/project/record_rows.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/project/stored_text.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const SurfaceChange& change) {
+    Json json;
+    const auto put = [&](const char* name, const std::optional<double>& value) {
+        if (value) json[name] = *value;
+    };
+    put("volume_before_mm3", change.volume_before);
+    put("volume_after_mm3", change.volume_after);
+    put("largest_deviation_mm", change.largest_deviation);
+    put("mean_deviation_mm", change.mean_deviation);
+    json["triangles_before"] = change.triangles_before;
+    json["triangles_after"] = change.triangles_after;
+    json["moved_vertices"] = change.moved_vertices;
+    return json;
+}
+
+SurfaceChange change_from(const Json& json) {
+    SurfaceChange change;
+    const auto get = [&](const char* name) {
+        const auto found = json.find(name);
+        return found == json.end() || !found->is_number() ? std::nullopt
+                                                          : std::optional(found->get<double>());
+    };
+    change.volume_before = get("volume_before_mm3");
+    change.volume_after = get("volume_after_mm3");
+    change.largest_deviation = get("largest_deviation_mm");
+    change.mean_deviation = get("mean_deviation_mm");
+    change.triangles_before = json.at("triangles_before").get<std::size_t>();
+    change.triangles_after = json.at("triangles_after").get<std::size_t>();
+    change.moved_vertices = json.at("moved_vertices").get<std::size_t>();
+    return change;
+}
+
+Bytes packed_details(const ResultRecord& result) {
+    return pack_text(Json({{"resolved", stored_text(result.resolved)},
+                           {"warnings", result.warnings},
+                           {"change", to_json(result.change)},
+                           {"report", result.report}})
+                         .dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+void unpack_details(std::span<const std::byte> blob, ResultRecord& result) {
+    const Json json = Json::parse(unpack_text(blob));
+    result.resolved = arguments_from_stored(json.at("resolved").get<std::string>());
+    result.warnings = json.at("warnings").get<std::vector<std::string>>();
+    result.change = change_from(json.at("change"));
+    result.report = json.at("report").get<std::string>();
+}
+
+/// Runs a reader of stored JSON. \throw InvalidInput instead of the JSON library's errors
+template <class Reader>
+auto guarded(const Database& database, Reader reader) {
+    try {
+        return reader();
+    } catch (const Json::exception& error) {
+        throw InvalidInput(database.name() + " is damaged: " + error.what());
+    }
+}
+
+EditRecord edit_from(const Statement& row) {
+    EditRecord record;
+    record.edit = {row.integer(0), static_cast<int>(row.integer(1))};
+    record.place = {static_cast<Step>(row.integer(2)), row.text(3)};
+    record.operation = row.text(4);
+    record.author = row.text(5);
+    record.time = row.text(6);
+    record.note = row.text(7);
+    record.given = arguments_from_stored(unpack_text(row.blob(8)));
+    return record;
+}
+
+ResultRecord result_from(const Statement& row) {
+    ResultRecord record;
+    record.id = row.integer(0);
+    record.edit = {row.integer(1), static_cast<int>(row.integer(2))};
+    record.input = row.integer(3);
+    record.stale_reason = row.text(4);
+    record.time = row.text(5);
+    record.duration = row.real(6);
+    record.program_version = row.text(7);
+    record.device = row.text(8);
+    unpack_details(row.blob(9), record);
+    return record;
+}
+
+/// "1,2,3"
+template <class Row, class Number>
+std::string number_list(const std::vector<Row>& rows, Number number) {
+    std::string list;
+    for (const Row& row : rows) list += (list.empty() ? "" : ",") + number(row);
+    return list;
+}
+
+void check_complete(const Database& database, std::size_t found, std::size_t wanted,
+                    const char* what) {
+    if (found < wanted)
+        throw InvalidInput(database.name() + " is damaged: " + what + " is missing");
+}
+
+}  // namespace
+
+void insert_edit(const Database& database, const EditRecord& edit) {
+    const Bytes given = pack_text(stored_text(edit.given));
+    database.prepare("INSERT INTO edits VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(0, edit.edit.id)
+        .bind(1, std::int64_t{edit.edit.revision})
+        .bind(2, static_cast<std::int64_t>(edit.place.step))
+        .bind(3, edit.place.variant)
+        .bind(4, edit.operation)
+        .bind(5, edit.author)
+        .bind(6, edit.time)
+        .bind(7, edit.note)
+        .bind(8, given)
+        .step();
+}
+
+void insert_sources(const Database& database, EditRef edit,
+                    const std::vector<SourceFile>& sources) {
+    for (const SourceFile& source : sources)
+        database.prepare("INSERT INTO sources VALUES(?, ?, ?, ?, ?, ?)")
+            .bind(0, edit.id)
+            .bind(1, std::int64_t{edit.revision})
+            .bind(2, source.parameter)
+            .bind(3, source.name)
+            .bind(4, source.hash)
+            .bind(5, source.place)
+            .step();
+}
+
+void insert_result(const Database& database, const ResultRecord& result,
+                   std::span<const std::byte> scene) {
+    const Bytes details = packed_details(result);
+    database.prepare("INSERT INTO results VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(0, result.id)
+        .bind(1, result.edit.id)
+        .bind(2, std::int64_t{result.edit.revision})
+        .bind(3, result.input)
+        .bind(4, result.stale_reason)
+        .bind(5, result.time)
+        .bind(6, result.duration)
+        .bind(7, result.program_version)
+        .bind(8, result.device)
+        .bind(9, details)
+        .bind(10, scene)
+        .step();
+}
+
+void write_states(const Database& database, const History& before, const History& after) {
+    for (const auto& [id, state] : after.states()) {
+        const auto old = before.states().find(id);
+        if (old == before.states().end())
+            database.prepare("INSERT INTO states VALUES(?, ?, ?, ?, ?, ?)")
+                .bind(0, id)
+                .bind(1, state.parent)
+                .bind(2, static_cast<std::int64_t>(state.change))
+                .bind(3, state.edit.id)
+                .bind(4, std::int64_t{state.edit.revision})
+                .bind(5, state.last_child)
+                .step();
+        else if (old->second.last_child != state.last_child)
+            database.prepare("UPDATE states SET last_child = ? WHERE id = ?")
+                .bind(0, state.last_child)
+                .bind(1, id)
+                .step();
+    }
+    if (before.current() != after.current())
+        database.prepare("UPDATE meta SET value = ? WHERE name = 'current'")
+            .bind(0, after.current())
+            .step();
+}
+
+History read_history(const Database& database) {
+    database.run("BEGIN");  // all tables as of one moment, though another process may write
+    std::map<EditRef, EditPlace> edits;
+    for (auto row = database.prepare("SELECT edit, revision, step, variant FROM edits");
+         row.step();)
+        edits[{row.integer(0), static_cast<int>(row.integer(1))}] = {
+            static_cast<Step>(row.integer(2)), row.text(3)};
+    std::vector<HistoryState> states;
+    for (auto row =
+             database.prepare("SELECT id, parent, change, edit, revision, last_child FROM states");
+         row.step();)
+        states.push_back({row.integer(0),
+                          row.integer(1),
+                          static_cast<StateChange>(row.integer(2)),
+                          {row.integer(3), static_cast<int>(row.integer(4))},
+                          row.integer(5)});
+    std::vector<HistoryResult> results;
+    for (auto row = database.prepare("SELECT id, edit, revision, input, stale FROM results");
+         row.step();)
+        results.push_back({row.integer(0),
+                           {row.integer(1), static_cast<int>(row.integer(2))},
+                           row.integer(3),
+                           row.text(4)});
+    const StateId current = database.number("SELECT value FROM meta WHERE name = 'current'");
+    database.run("COMMIT");
+    try {
+        return {std::move(edits), std::move(states), std::move(results), current};
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(database.name() + " is damaged: " + error.what());
+    }
+}
+
+std::map<EditRef, EditRecord> read_edits(const Database& database,
+                                         const std::vector<EditRef>& edits) {
+    const std::string pairs = number_list(edits, [](EditRef edit) {
+        return "(" + std::to_string(edit.id) + "," + std::to_string(edit.revision) + ")";
+    });
+    std::map<EditRef, EditRecord> records;
+    for (auto row = database.prepare(
+             "SELECT edit, revision, step, variant, operation, author, time, note, given"
+             " FROM edits WHERE (edit, revision) IN (VALUES " +
+             (pairs.empty() ? "(0,0)" : pairs) + ")");
+         row.step();) {
+        EditRecord record = edit_from(row);
+        records.emplace(record.edit, std::move(record));
+    }
+    check_complete(database, records.size(), edits.size(), "an edit");
+    return records;
+}
+
+std::map<ResultId, ResultRecord> read_results(const Database& database,
+                                              const std::vector<ResultId>& results) {
+    std::map<ResultId, ResultRecord> records;
+    for (auto row = database.prepare(
+             "SELECT id, edit, revision, input, stale, time, duration, version, device, details"
+             " FROM results WHERE id IN (" +
+             number_list(results, [](ResultId id) { return std::to_string(id); }) + ")");
+         row.step();) {
+        ResultRecord record = guarded(database, [&] { return result_from(row); });
+        records.emplace(record.id, std::move(record));
+    }
+    check_complete(database, records.size(), results.size(), "a result");
+    return records;
+}
+
+std::vector<SourceFile> read_sources(const Database& database, EditRef edit) {
+    Statement row = database.prepare(
+        "SELECT parameter, name, hash, place FROM sources WHERE edit = ? AND revision = ?");
+    row.bind(0, edit.id).bind(1, std::int64_t{edit.revision});
+    std::vector<SourceFile> sources;
+    while (row.step()) sources.push_back({row.text(0), row.text(1), row.text(2), row.text(3)});
+    return sources;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,95 @@
+#include "workbench/project/scene_rows.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "workbench/project/serialization.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr const char* kPartNames[] = {"triangles", "positions", "patch labels",
+                                      "attribute", "voxels",    "volume mesh"};
+
+/// For each new part of a scene, in order, the part of its kind that it replaced.
+std::vector<std::optional<ScenePart>> bases_of(const std::vector<ScenePart>& parts,
+                                               const Scene* input) {
+    std::vector<std::optional<ScenePart>> bases(parts.size());
+    if (input == nullptr) return bases;
+    const std::vector<ScenePart> old = take_apart(*input).parts;
+    const auto holds = [](const std::vector<ScenePart>& list, const ScenePart& part) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](const auto& p) { return identity(p) == identity(part); });
+    };
+    std::map<std::size_t, std::vector<ScenePart>> replaced;
+    for (auto part = old.rbegin(); part != old.rend(); ++part)
+        if (!holds(parts, *part)) replaced[part->index()].push_back(*part);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        auto& candidates = replaced[parts[i].index()];
+        if (candidates.empty() || holds(old, parts[i])) continue;
+        bases[i] = candidates.back();
+        candidates.pop_back();
+    }
+    return bases;
+}
+
+}  // namespace
+
+Bytes pack(const SceneRow& row) {
+    ByteWriter writer;
+    writer.put<std::uint64_t>(row.blobs.size());
+    for (const BlobId id : row.blobs) writer.put(id);
+    writer.append(row.manifest);
+    return writer.take();
+}
+
+SceneRow unpack_scene_row(std::span<const std::byte> bytes) {
+    ByteReader reader(bytes);
+    SceneRow row;
+    for (auto left = reader.get<std::uint64_t>(); left > 0; --left)
+        row.blobs.push_back(reader.get<BlobId>());
+    const auto rest = reader.get_bytes(reader.left());
+    row.manifest.assign(rest.begin(), rest.end());
+    return row;
+}
+
+SceneRow store_scene(PartStore& store, const Scene& scene, const Scene* input) {
+    SceneParts taken = take_apart(scene);
+    SceneRow row;
+    const auto bases = bases_of(taken.parts, input);
+    for (std::size_t i = 0; i < taken.parts.size(); ++i)
+        row.blobs.push_back(store.store(taken.parts[i], bases[i]));
+    row.manifest = std::move(taken.manifest);
+    return row;
+}
+
+std::vector<std::string> differences(const PartStore& store, const SceneRow& row,
+                                     const Scene& scene) {
+    const SceneParts taken = take_apart(scene);
+    std::vector<std::string> names;
+    if (taken.manifest != row.manifest) names.emplace_back("patches, grid or kinds of data");
+    for (std::size_t i = 0; i < taken.parts.size(); ++i) {
+        const ScenePart& part = taken.parts[i];
+        if (i < row.blobs.size() && (store.known(part) == row.blobs[i] ||
+                                     content_hash(part) == store.hash_of(row.blobs[i])))
+            continue;
+        names.emplace_back(kPartNames[part.index()]);
+    }
+    if (taken.parts.size() < row.blobs.size()) names.emplace_back("missing data");
+    return names;
+}
+
+std::vector<std::string> damages(PartStore& store, const SceneRow& row, const Progress& progress) {
+    std::vector<std::string> names;
+    for (const BlobId blob : row.blobs) {
+        progress.check_cancelled();
+        const ScenePart part = store.load(blob);
+        if (content_hash(part) != store.hash_of(blob))
+            names.emplace_back(std::string(kPartNames[part.index()]) + " (stored checksum)");
+    }
+    return names;
+}
+
+}  // namespace vesselbench

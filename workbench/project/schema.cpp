@@ -1,0 +1,58 @@
+#include "workbench/project/schema.h"
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/version.h"
+#include "workbench/project/part_store.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::int64_t kApplication = 0x56424e43;  // "VBNC", PRAGMA application_id
+constexpr std::int64_t kVersion = 1;               // PRAGMA user_version
+
+std::string writer_of(const Database& database) {
+    Statement query = database.prepare("SELECT value FROM meta WHERE name = 'written by'");
+    return query.step() ? query.text(0) : "?";
+}
+
+}  // namespace
+
+void make_tables(const Database& database) {
+    database.run(
+        "CREATE TABLE meta(name TEXT PRIMARY KEY, value) WITHOUT ROWID;"
+        "CREATE TABLE edits(edit INTEGER, revision INTEGER, step INTEGER NOT NULL,"
+        " variant TEXT NOT NULL, operation TEXT NOT NULL, author TEXT NOT NULL,"
+        " time TEXT NOT NULL, note TEXT NOT NULL, given BLOB NOT NULL,"
+        " PRIMARY KEY(edit, revision)) WITHOUT ROWID;"
+        "CREATE TABLE states(id INTEGER PRIMARY KEY, parent INTEGER NOT NULL,"
+        " change INTEGER NOT NULL, edit INTEGER NOT NULL, revision INTEGER NOT NULL,"
+        " last_child INTEGER NOT NULL);"
+        "CREATE TABLE results(id INTEGER PRIMARY KEY, edit INTEGER NOT NULL,"
+        " revision INTEGER NOT NULL, input INTEGER NOT NULL, stale TEXT NOT NULL,"
+        " time TEXT NOT NULL, duration REAL NOT NULL, version TEXT NOT NULL,"
+        " device TEXT NOT NULL, details BLOB NOT NULL, scene BLOB);"
+        "CREATE TABLE sources(edit INTEGER, revision INTEGER, parameter TEXT, name TEXT NOT NULL,"
+        " hash TEXT NOT NULL, place TEXT NOT NULL, PRIMARY KEY(edit, revision, parameter))"
+        " WITHOUT ROWID;"
+        "INSERT INTO states VALUES(0, 0, 0, 0, 0, 0);"
+        "INSERT INTO meta VALUES('current', 0);");
+    const std::string program = version();
+    database.prepare("INSERT INTO meta VALUES('written by', ?)").bind(0, program).step();
+    PartStore::make_table(database);
+    database.run("PRAGMA application_id = " + std::to_string(kApplication));
+    database.run("PRAGMA user_version = " + std::to_string(kVersion));
+}
+
+void check_version(const Database& database) {
+    const auto stored = database.number("PRAGMA user_version");
+    if (database.number("PRAGMA application_id") != kApplication || stored < 1)
+        throw InvalidInput(database.name() + " is not a vesselbench project");
+    if (stored > kVersion)
+        throw InvalidInput(database.name() + " is a project of version " + std::to_string(stored) +
+                           ", written by vesselbench " + writer_of(database) +
+                           "; this vesselbench, " + version() + ", reads up to version " +
+                           std::to_string(kVersion) + ": use the newer program");
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,110 @@
+#include "workbench/session/case_store.h"
+
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// The result behind the last of these edits; empty if one of them is pending.
+std::optional<ResultId> end_of(const std::vector<HistoryEntry>& line) {
+    ResultId end = 0;
+    for (const HistoryEntry& entry : line) {
+        if (entry.status == EditStatus::Pending) return std::nullopt;
+        if (entry.status == EditStatus::Done) end = entry.result;
+    }
+    return end;
+}
+
+}  // namespace
+
+CaseStore::CaseStore(ProjectFile project, std::size_t scene_bytes)
+    : project_(std::move(project)),
+      history_(std::make_shared<const History>(project_.history())),
+      cache_(scene_bytes) {}
+
+void CaseStore::check_writable() const {
+    if (only_reads()) throw IoError(project_.read_only_reason());
+}
+
+void CaseStore::commit(History next, ProjectChange change) {
+    auto after = std::make_shared<const History>(std::move(next));
+    change.before = history_.get();
+    change.after = after.get();
+    project_.commit(change);
+    history_ = std::move(after);
+    if (change.edit != nullptr) edits_[change.edit->edit] = *change.edit;
+    for (const NewResult& result : change.results) {
+        records_[result.record->id] = std::make_shared<const ResultRecord>(*result.record);
+        if (result.scene != nullptr) cache_.put(result.record->id, *result.scene);
+    }
+}
+
+void CaseStore::commit_results(History next, const std::vector<NewResult>& results) {
+    if (!only_reads()) {
+        ProjectChange change;
+        change.results = results;
+        return commit(std::move(next), std::move(change));
+    }
+    for (const NewResult& result : results) {
+        const ResultId id = result.record->id;
+        records_[id] = std::make_shared<const ResultRecord>(*result.record);
+        own_scenes_[id] = result.scene != nullptr ? std::optional(*result.scene) : std::nullopt;
+    }
+    history_ = std::make_shared<const History>(std::move(next));
+}
+
+std::shared_ptr<const ResultRecord> CaseStore::record(ResultId id) {
+    remember({}, {id});
+    return records_.at(id);
+}
+
+std::optional<Scene> CaseStore::at_hand(ResultId id) {
+    if (id == 0) return Scene{};
+    if (const auto own = own_scenes_.find(id); own != own_scenes_.end()) return own->second;
+    return cache_.find(id);
+}
+
+void CaseStore::remember(std::vector<EditRef> edits, std::vector<ResultId> results) {
+    std::erase_if(edits, [&](EditRef edit) { return edits_.contains(edit); });
+    std::erase_if(results, [&](ResultId id) { return records_.contains(id); });
+    if (!edits.empty()) edits_.merge(project_.edits(edits));
+    if (results.empty()) return;
+    for (auto& [id, record] : project_.results(results))
+        records_[id] = std::make_shared<const ResultRecord>(std::move(record));
+}
+
+std::map<std::string, Scene> CaseStore::scenes_at_hand() {
+    std::vector<std::string> variants = history_->variants();
+    variants.emplace_back();
+    std::map<std::string, Scene> scenes;
+    for (const std::string& variant : variants)
+        if (const auto end = end_of(history_->line(variant)))
+            if (auto scene = at_hand(*end)) scenes.emplace(variant, std::move(*scene));
+    return scenes;
+}
+
+std::shared_ptr<const Snapshot> CaseStore::snapshot() {
+    const std::vector<HistoryEntry> entries = history_->entries();
+    std::vector<EditRef> edits;
+    std::vector<ResultId> results;
+    for (const HistoryEntry& entry : entries) {
+        edits.push_back(entry.edit);
+        if (entry.status == EditStatus::Done) results.push_back(entry.result);
+    }
+    remember(std::move(edits), std::move(results));
+    auto made = std::make_shared<Snapshot>();
+    made->history = history_;
+    for (const HistoryEntry& entry : entries)
+        made->log.push_back(
+            {edits_.at(entry.edit), entry.status, entry.reason,
+             entry.status == EditStatus::Done ? records_.at(entry.result) : nullptr});
+    made->scenes = scenes_at_hand();
+    made->project = project_.name();
+    made->read_only_reason = project_.read_only_reason();
+    return made;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "workbench/project/project.h"
+#include "workbench/session/scene_cache.h"
+#include "workbench/session/snapshot.h"
+
+namespace vesselbench {
+
+/// The case of a session: its project file, the history as it is now, and the records and scenes
+/// in memory. Not thread-safe; the snapshots it hands out are.
+class CaseStore {
+public:
+    /// \param scene_bytes [bytes] of scenes held in memory
+    CaseStore(ProjectFile project, std::size_t scene_bytes);
+
+    [[nodiscard]] const History& history() const { return *history_; }
+
+    [[nodiscard]] const ProjectFile& project() const { return project_; }
+
+    [[nodiscard]] bool only_reads() const { return !project_.read_only_reason().empty(); }
+
+    /// \throw IoError with the reason if the case can only be read
+    void check_writable() const;
+
+    /// Makes `next` the history and keeps what belongs to it, by one transaction.
+    /// \param change without its histories
+    /// \throw IoError if it cannot be written; everything is then as it was
+    void commit(History next, ProjectChange change);
+
+    /// Enters results of pending edits. A case that can only be read keeps them in memory.
+    void commit_results(History next, const std::vector<NewResult>& results);
+
+    /// True if the result is one that a case that can only be read keeps in memory.
+    [[nodiscard]] bool is_own(ResultId id) const { return own_scenes_.contains(id); }
+
+    /// \throw InvalidInput if the project lacks it
+    [[nodiscard]] EditRecord edit(EditRef edit) const { return project_.edit(edit); }
+
+    [[nodiscard]] std::shared_ptr<const ResultRecord> record(ResultId id);
+
+    /// The scene of a result if it is in memory.
+    [[nodiscard]] std::optional<Scene> at_hand(ResultId id);
+
+    void keep(ResultId id, const Scene& scene) { cache_.put(id, scene); }
+
+    /// What the case is now. What did not change since the last one is shared with it.
+    [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
+
+private:
+    void remember(std::vector<EditRef> edits, std::vector<ResultId> results);
+    [[nodiscard]] std::map<std::string, Scene> scenes_at_hand();
+
+    ProjectFile project_;
+    std::shared_ptr<const History> history_;
+    SceneCache cache_;
+    std::map<EditRef, EditRecord> edits_;  ///< those read or made so far
+    std::map<ResultId, std::shared_ptr<const ResultRecord>> records_;
+    std::map<ResultId, std::optional<Scene>> own_scenes_;  ///< none: a stale result
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,54 @@
+#include "workbench/session/edit_place.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string step_names(const std::vector<Step>& steps) {
+    std::string names;
+    for (const Step step : steps) names += (names.empty() ? "" : ", ") + to_string(step);
+    return names;
+}
+
+}  // namespace
+
+EditPlace place_of(const Operation& operation, const EditOptions& options) {
+    EditPlace place{options.step.value_or(operation.usual_step), {}};
+    if (std::find(operation.allowed.begin(), operation.allowed.end(), place.step) ==
+        operation.allowed.end())
+        throw UsageError(operation.name + " is not allowed in step " + to_string(place.step) +
+                         " (only in: " + step_names(operation.allowed) + ")");
+    if (!belongs_to_variant(place.step)) return place;
+    if (options.variant.empty())
+        throw UsageError("step " + to_string(place.step) +
+                         " belongs to a variant; name it (cfd, rp, ...)");
+    place.variant = options.variant;
+    return place;
+}
+
+/// The entries that stand before a new edit of this place.
+std::vector<HistoryEntry> entries_before(const History& history, const EditPlace& place) {
+    std::vector<HistoryEntry> before = history.line(place.variant);
+    std::erase_if(before, [&](const HistoryEntry& e) { return e.place.step > place.step; });
+    return before;
+}
+
+/// The entries of the edit's line up to it, without it.
+std::vector<HistoryEntry> entries_before(const History& history, EditId id) {
+    for (const HistoryEntry& entry : history.entries()) {
+        if (entry.edit.id != id) continue;
+        std::vector<HistoryEntry> before = history.line(entry.place.variant);
+        const auto own = std::find_if(before.begin(), before.end(),
+                                      [&](const auto& e) { return e.edit.id == id; });
+        before.erase(own, before.end());
+        return before;
+    }
+    throw UsageError("the current state holds no edit " + std::to_string(id) +
+                     "; the log lists its edits");
+}
+
+}  // namespace vesselbench

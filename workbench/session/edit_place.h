@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "workbench/case/history.h"
+#include "workbench/session/session_options.h"
+
+namespace vesselbench {
+
+/// Where a new edit of an operation goes.
+/// \throw UsageError if the step is not allowed, or belongs to a variant and none is named
+[[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options);
+
+/// The entries that stand before a new edit of this place.
+[[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history,
+                                                       const EditPlace& place);
+
+/// The entries of the edit's line up to it, without it.
+/// \throw UsageError if the current state does not hold it
+[[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history, EditId id);
+
+}  // namespace vesselbench

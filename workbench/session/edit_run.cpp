@@ -1,0 +1,66 @@
+#include "workbench/session/edit_run.h"
+
+#include <array>
+#include <ctime>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/case/version.h"
+#include "workbench/project/source_files.h"
+#include "workbench/project/stored_text.h"
+#include "workbench/session/surface_change.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string device_of(const Arguments& resolved) {
+    const auto found = resolved.values().find("device");
+    if (found == resolved.values().end()) return "cpu";
+    const auto* device = std::get_if<std::string>(&found->second);
+    return device != nullptr && *device == "gpu" ? "gpu" : "cpu";
+}
+
+void stamp(ResultRecord& record) {
+    record.time = utc_now();
+    record.program_version = version();
+}
+
+}  // namespace
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text.data();
+}
+
+EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, double duration,
+                 const Progress& progress) {
+    EditRun run;
+    ResultRecord& record = run.record;
+    record.resolved = without_folders(operation, outcome.resolved);
+    record.warnings = std::move(outcome.warnings);
+    if (outcome.report) record.report = stored_text(*outcome.report);
+    record.change = surface_change(input, outcome.scene, progress);
+    record.duration = duration;
+    record.device = device_of(record.resolved);
+    stamp(record);
+    run.input = std::move(input);
+    run.scene = std::move(outcome.scene);
+    return run;
+}
+
+EditRun stale_run(Scene input, const std::string& reason) {
+    EditRun run;
+    run.record.stale_reason = reason;
+    run.record.device = "cpu";
+    stamp(run.record);
+    run.input = std::move(input);
+    return run;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "workbench/case/edit_record.h"
+#include "workbench/case/operation.h"
+#include "workbench/case/scene.h"
+
+namespace vesselbench {
+
+/// One edit that has run on one input and is not in the history yet.
+struct EditRun {
+    ResultRecord record;         ///< without the ids of result, edit and input
+    Scene input;                 ///< the scene it ran on
+    std::optional<Scene> scene;  ///< none: the edit is stale
+};
+
+/// The edits before a new one, evaluated in memory: nothing of it is in the history yet.
+struct EvaluatedLine {
+    struct Link {
+        EditRef edit;
+        std::optional<EditRun> run;  ///< none: its result was known
+    };
+
+    std::vector<Link> links;
+    /// The known result behind them; none: it is made by their runs.
+    std::optional<ResultId> end = 0;
+    Scene scene;  ///< of that result
+};
+
+/// What came of an operation as the record of a result.
+/// \param outcome whose report and arguments the record gets, files without their folders
+/// \param duration [s]
+[[nodiscard]] EditRun edit_run(const Operation& operation, Scene input, Outcome outcome,
+                               double duration, const Progress& progress);
+
+/// Why a pending edit no longer applies to its input.
+[[nodiscard]] EditRun stale_run(Scene input, const std::string& reason);
+
+/// Time of this moment, UTC, 2024-05-17T09:30:00Z.
+[[nodiscard]] std::string utc_now();
+
+/// Seconds since it was made.
+class Stopwatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,160 @@
+#include "workbench/session/edit_runner.h"
+
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/project/source_files.h"
+
+namespace vesselbench {
+
+namespace {
+
+// Measuring what changed and, of a pending edit, storing it come behind its run.
+constexpr double kRunShare = 0.9;
+
+/// The part of a progress that the i-th of several equal tasks has.
+Progress part_of(const Progress& progress, std::size_t i, std::size_t count) {
+    const auto whole = static_cast<double>(count);
+    return progress.part(static_cast<double>(i) / whole, static_cast<double>(i + 1) / whole);
+}
+
+}  // namespace
+
+EditRun EditRunner::run(const Operation& operation, Scene input, const Arguments& located,
+                        const Progress& progress) const {
+    const Stopwatch watch;
+    Progress own = progress.part(0.0, kRunShare);
+    Outcome outcome = run_operation(operation, input, located, own, options_->worker);
+    return edit_run(operation, std::move(input), std::move(outcome), watch.seconds(),
+                    progress.part(kRunShare, 1.0));
+}
+
+EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progress) {
+    const EditRecord edit = store_->edit(ref);
+    const HistoryResult* earlier = store_->history().newest_result_of(ref);
+    const Arguments arguments =
+        earlier != nullptr ? store_->record(earlier->id)->resolved : edit.given;
+    const ProjectFile& project = store_->project();
+    try {
+        const Operation& operation = options_->find(edit.operation);
+        return run(operation, input,
+                   with_found_files(operation, arguments, project.sources(ref), project.folder()),
+                   progress);
+    } catch (const AlgorithmFailure& error) {
+        return stale_run(std::move(input), error.what());
+    } catch (const InvalidInput& error) {
+        return stale_run(std::move(input), error.what());
+    } catch (const UsageError& error) {
+        return stale_run(std::move(input), error.what());
+    }
+}
+
+ResultId EditRunner::evaluate(const std::vector<HistoryEntry>& entries, const Progress& progress) {
+    ResultId end = 0;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const HistoryResult* known = store_->history().result_of(entries[i].edit, end);
+        if (known == nullptr) {
+            const Progress part = part_of(progress, i, entries.size());
+            EvaluatedLine line{.links = {{entries[i].edit, {}}}};
+            line.links[0].run = run_pending(entries[i].edit, load(end, part), part);
+            History next = store_->history();
+            std::vector<NewResult> results;
+            const ResultId after = enter(line, next, results, end);
+            store_->commit_results(std::move(next), results);
+            end = after;
+        } else if (known->stale_reason.empty()) {
+            end = known->id;
+        }
+    }
+    return end;
+}
+
+EvaluatedLine EditRunner::evaluated(const std::vector<HistoryEntry>& entries,
+                                    const Progress& progress) {
+    EvaluatedLine line;
+    bool loaded = true;  // the empty scene
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        EvaluatedLine::Link& link = line.links.emplace_back();
+        link.edit = entries[i].edit;
+        const HistoryResult* known =
+            line.end ? store_->history().result_of(link.edit, *line.end) : nullptr;
+        if (known != nullptr) {
+            if (!known->stale_reason.empty()) continue;
+            line.end = known->id;
+            loaded = false;
+            continue;
+        }
+        const Progress part = part_of(progress, i, entries.size());
+        if (!std::exchange(loaded, true)) line.scene = load(*line.end, part);
+        link.run = run_pending(link.edit, line.scene, part);
+        if (!link.run->scene) continue;
+        line.scene = *link.run->scene;
+        line.end.reset();
+    }
+    if (!loaded) line.scene = load(*line.end, progress);
+    return line;
+}
+
+ResultId enter(EvaluatedLine& line, History& next, std::vector<NewResult>& results,
+               ResultId start) {
+    ResultId end = start;
+    for (EvaluatedLine::Link& link : line.links) {
+        if (const HistoryResult* known = next.result_of(link.edit, end)) {
+            if (known->stale_reason.empty()) end = known->id;
+            continue;
+        }
+        if (!link.run)
+            throw UsageError("edit " + std::to_string(link.edit.id) +
+                             " stood on other edits when this was previewed");
+        ResultRecord& record = link.run->record;
+        record.edit = link.edit;
+        record.input = end;
+        record.id = next.add_result(link.edit, end, record.stale_reason);
+        results.push_back(
+            {&record, link.run->scene ? &*link.run->scene : nullptr, &link.run->input});
+        if (link.run->scene) end = record.id;
+    }
+    return end;
+}
+
+Scene EditRunner::load(ResultId id, const Progress& progress) {
+    if (auto scene = store_->at_hand(id)) return *scene;
+    progress.check_cancelled();
+    const std::vector<Scene> recalled = recall(id, progress);
+    Scene scene = store_->project().scene(id, progress);
+    store_->keep(id, scene);
+    return scene;
+}
+
+/// Makes again what is referenced only: runs the first edit of the chain that lacks something.
+/// \return scenes that must live until the result is loaded
+std::vector<Scene> EditRunner::recall(ResultId id, const Progress& progress) {
+    const ProjectFile& project = store_->project();
+    std::vector<Scene> recalled;
+    ResultId last = 0;
+    while (project.needs_recall(id)) {
+        ResultId first = id;
+        for (ResultId at = id; at != 0; at = store_->history().results().at(at).input)
+            if (project.needs_recall(at)) first = at;
+        const HistoryResult& result = store_->history().results().at(first);
+        if (first == last)
+            throw InvalidInput("the image that edit " + std::to_string(result.edit.id) +
+                               " made cannot be made again: its source has changed");
+        last = first;
+        recalled.push_back(rerun(result, progress.silent()).scene);
+        project.recall(recalled.back());
+    }
+    return recalled;
+}
+
+Outcome EditRunner::rerun(const HistoryResult& result, const Progress& progress) {
+    const EditRecord edit = store_->edit(result.edit);
+    const Operation& operation = options_->find(edit.operation);
+    const Arguments arguments =
+        with_found_files(operation, store_->record(result.id)->resolved,
+                         store_->project().sources(result.edit), store_->project().folder());
+    Progress own = progress;
+    return run_operation(operation, load(result.input, progress), arguments, own, options_->worker);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+
+#include "workbench/case/operation.h"
+#include "workbench/session/edit_run.h"
+
+namespace vesselbench {
+
+/// An operation that is driven live, made by Session::start_live(): a brush stroke, a sliding
+/// plane. What is added shows in scene() at once; Session::preview() and commit() make one edit of
+/// it, whose arguments are the sum of what was given. Not thread-safe: one thread drives it, which
+/// need not be the session's; it may outlive the session.
+class LiveEdit {
+public:
+    /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
+    /// \throw UsageError if they do not fit the operation; what the operation throws. The scene
+    /// then stays as it was
+    void add(const Arguments& more, Progress progress = {});
+
+    /// The scene after everything added so far.
+    [[nodiscard]] const Scene& scene() const { return stepper_->scene(); }
+
+private:
+    friend class Session;
+
+    LiveEdit(const Operation& operation, EditRecord edit, EvaluatedLine before,
+             const Arguments& located, Progress& progress);
+
+    /// What the batch form returns for everything added so far, every checked argument filled in.
+    [[nodiscard]] Outcome outcome(Progress& progress);
+
+    /// The arguments that were given, with the values that everything added made of them.
+    [[nodiscard]] Arguments given(const Arguments& resolved) const;
+
+    const Operation* operation_;
+    EditRecord edit_;
+    EvaluatedLine before_;
+    Arguments given_;    ///< with the paths of files; what was added replaces what was there
+    Arguments checked_;  ///< the same with defaults
+    std::unique_ptr<Stepper> stepper_;
+    double seconds_ = 0.0;  ///< that the stepper has worked
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/session/edit_runner.h"
+
+namespace vesselbench {
+
+/// What replaying one edit showed.
+struct ReplayEntry {
+    EditRef edit;
+    std::string operation;
+    std::string variant;
+    bool replayed = false;  ///< false: only the stored result's checksums were tested
+    std::vector<std::string> differences;  ///< empty: same bits, or as `distance` says
+    std::optional<double> distance;  ///< largest between vertices [mm], of what a GPU computed
+    std::string note;                ///< why it was not run again
+};
+
+/// Runs each done edit of the current state again on its stored input, with its resolved arguments,
+/// and compares with its stored result bit for bit.
+[[nodiscard]] std::vector<ReplayEntry> replay(CaseStore& store, EditRunner& runner,
+                                              const Progress& progress);
+
+}  // namespace vesselbench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "workbench/project/project.h"
+#include "workbench/worker/run_operation.h"
+
+namespace vesselbench {
+
+struct SessionOptions {
+    std::string author;                             ///< of the edits; empty: the user's login name
+    OperationLookup find;                           ///< required: how operations are found by name
+    WorkerOptions worker;                           ///< how operations run in worker processes
+    std::size_t embed_limit = kEmbeddedImageBytes;  ///< [bytes] see there
+    std::size_t scene_bytes = std::size_t{768}
+                              << 20;  ///< scenes held in memory; others are re-read
+};
+
+/// How an edit enters the history.
+struct EditOptions {
+    std::optional<Step> step;     ///< none: the operation's usual step
+    std::string variant = "cfd";  ///< for steps 6-8
+    std::string author;           ///< empty: the session's
+    std::string note;
+};
+
+}  // namespace vesselbench
