@@ -33,7 +33,7 @@ std::vector<double> neighbour_distances(const Positions& positions,
     detail::require_neighbours(neighbours);
     std::vector<double> distances(positions.size(), std::numeric_limits<double>::infinity());
     for (const Surface& neighbour : neighbours) {
-        const SurfaceDistance surface(neighbour);
+        const SurfaceDistance surface = distance_to(neighbour);
         const bool closed = detail::is_closed(neighbour);
         detail::for_each_vertex(positions.size(), [&](std::size_t v) {
             const double distance = closed ? std::max(0.0, surface.signed_distance(positions[v]))

@@ -25,7 +25,7 @@ constexpr double kWeakest = -1.0, kSmoothWeakest = 0.0;
 /// \param outcome gets the resolved arguments, warnings, and the number of dabs in its report
 BrushStroke painted(const DabUse& use, const Surface& surface, const BrushSettings& settings,
                     Outcome& outcome, const Progress& progress) {
-    const auto places = std::make_shared<const SurfaceDistance>(surface);
+    const auto places = std::make_shared<const SurfaceDistance>(distance_to(surface));
     const auto dabs = resolved_dabs(use, surface, *places, outcome);
     BrushStroke stroke(surface, settings, places);
     std::size_t empty = 0;  // that changed no vertex

@@ -34,15 +34,15 @@ OpeningPlan decide(const Surface& surface, const Arguments& arguments, Progress&
     const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                      .distance = arguments.optional_real("distance"),
                                      .radii = arguments.optional_real("radii")};
-    CenterlineGraph graph = compute_centerlines(surface, {}, progress.part(0.0, 0.7));
+    auto graph = centerlines_of(surface, {}, progress.part(0.0, 0.7));
     if (options.tip) {
         // A stub or a sac that the automatic search leaves out.
-        const auto tip = nearest_tip(graph, *options.tip);
+        const auto tip = nearest_tip(*graph, *options.tip);
         if (!tip ||
-            (graph.nodes[*tip].position - *options.tip).norm() > 2.0 * tip_radius(graph, *tip))
-            graph = compute_centerlines(surface, {.ends = {*options.tip}}, progress.part(0.7, 0.9));
+            (graph->nodes[*tip].position - *options.tip).norm() > 2.0 * tip_radius(*graph, *tip))
+            graph = centerlines_of(surface, {.ends = {*options.tip}}, progress.part(0.7, 0.9));
     }
-    OpeningPlan plan = plan_openings(surface, graph, options);
+    OpeningPlan plan = plan_openings(surface, *graph, options);
     const auto kind = arguments.optional_text("kind");
     const auto name = arguments.optional_text("name");
     if (kind || name)
