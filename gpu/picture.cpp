@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -101,12 +102,11 @@ void draw_edges(GLsizei count, const Camera& camera, float pull) {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-void draw_corners(const std::vector<Corner>& list, const Camera& camera,
+void draw_corners(const Program& surface, const std::vector<Corner>& list, const Camera& camera,
                   const PictureOptions& options) {
     const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "surface corners");
     const VertexArray array = describe_corners();
     const auto count = static_cast<GLsizei>(list.size());
-    const Program surface = make_program("surface");
     set_matrices(surface, camera);
     glUniform3fv(glGetUniformLocation(surface.id(), "back_colour"), 1, options.back.data());
     glDrawArrays(GL_TRIANGLES, 0, count);
@@ -127,23 +127,35 @@ void check(const Surface& surface, const PictureOptions& options) {
         throw InvalidInput("there must be one colour per vertex");
 }
 
+Picture drawn(const Surface& surface, const PictureOptions& options, const Program& program) {
+    const Surface& frame = options.frame ? *options.frame : surface;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : frame.points()) box.extend(p);
+    const Camera camera = camera_for(frame.points(), box.center(), options);
+    const Canvas canvas(options.width, options.height);
+    draw_corners(program, corners(surface, box.center(), options), camera, options);
+    if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
+    return canvas.picture();
+}
+
 }  // namespace
 
 Vec3 upward_for(const Vec3& view) {
     return std::abs(view.z()) < 0.95 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
 }
 
-Picture draw(const Surface& surface, const PictureOptions& options) {
-    check(surface, options);
-    const Surface& frame = options.frame ? *options.frame : surface;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : frame.points()) box.extend(p);
-    const Camera camera = camera_for(frame.points(), box.center(), options);
+std::vector<Picture> draw_views(const Surface& surface, std::span<const PictureOptions> views) {
+    for (const PictureOptions& options : views) check(surface, options);
     const OffscreenContext context;
-    const Canvas canvas(options.width, options.height);
-    draw_corners(corners(surface, box.center(), options), camera, options);
-    if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
-    return canvas.picture();
+    const Program program = make_program("surface");
+    std::vector<Picture> pictures;
+    for (const PictureOptions& options : views)
+        pictures.push_back(drawn(surface, options, program));
+    return pictures;
+}
+
+Picture draw(const Surface& surface, const PictureOptions& options) {
+    return std::move(draw_views(surface, std::span(&options, 1)).front());
 }
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct PictureOptions {
 /// \throw GpuUnavailable if there is no usable OpenGL; InvalidInput for an empty surface or a size
 /// that is not usable
 [[nodiscard]] Picture draw(const Surface& surface, const PictureOptions& options = {});
+
+/// One picture per view, in one context, whose shaders are compiled once.
+[[nodiscard]] std::vector<Picture> draw_views(const Surface& surface,
+                                              std::span<const PictureOptions> views);
 
 /// What is up in a picture along a unit direction: the head, or, from above or below, the front.
 [[nodiscard]] Vec3 upward_for(const Vec3& view);

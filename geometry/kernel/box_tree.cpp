@@ -14,18 +14,43 @@ constexpr std::uint32_t kParallelSize = 20000;  ///< below it a task costs more 
 /// Nodes of a subtree over `count` items: known beforehand, so that subtrees can be filled in
 /// parallel.
 std::uint32_t node_count(std::uint32_t count) {
-    if (count <= kLeafSize) return 1;
-    const std::uint32_t left = count / 2;
-    return 1 + node_count(left) + node_count(count - left);
+    // On each level the subtrees have `size` items, or one more.
+    std::uint32_t nodes = 0, subtrees = 1, larger = 0;
+    for (std::uint32_t size = count; subtrees > 0; size /= 2) {
+        nodes += subtrees;
+        const std::uint32_t smaller = subtrees - larger;
+        if (size + 1 <= kLeafSize) break;  // all of them are leaves
+        const std::uint32_t split_smaller = size <= kLeafSize ? 0 : smaller;
+        // An even size gives two halves; an odd one gives a half and one with one item more.
+        subtrees = 2 * (split_smaller + larger);
+        larger = size % 2 == 0 ? larger : split_smaller + 2 * larger;
+    }
+    return nodes;
 }
 
 template <class Scalar>
 struct Builder {
     using Tree = BasicBoxTree<Scalar>;
 
+    /// An item and twice its box's centre along the axis of a split: side by side, as comparisons
+    /// would else look for each box in memory.
+    struct Placed {
+        Scalar place;
+        std::uint32_t item;
+
+        bool operator<(const Placed& other) const {  // equal places go by index
+            return place < other.place || (place == other.place && item < other.item);
+        }
+    };
+
     const std::vector<typename Tree::Box>& boxes;
     std::vector<typename Tree::Node>& nodes;
     std::vector<std::uint32_t>& items;
+    std::vector<Placed> placed;  ///< as many as items, for the splits
+
+    Builder(const std::vector<typename Tree::Box>& b, std::vector<typename Tree::Node>& n,
+            std::vector<std::uint32_t>& i)
+        : boxes(b), nodes(n), items(i), placed(i.size()) {}
 
     void build(std::uint32_t at, std::uint32_t begin, std::uint32_t end) {
         typename Tree::Node& node = nodes[at];
@@ -55,14 +80,13 @@ struct Builder {
         for (std::uint32_t i = begin; i < end; ++i) centres.extend(boxes[items[i]].center());
         int axis = 0;
         centres.sizes().maxCoeff(&axis);
-        const auto key = [&](std::uint32_t i) {
-            return boxes[i].min()[axis] + boxes[i].max()[axis];
-        };
-        std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                             const Scalar ka = key(a), kb = key(b);
-                             return ka < kb || (ka == kb && a < b);
-                         });
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const auto& box = boxes[items[i]];
+            placed[i] = {box.min()[axis] + box.max()[axis], items[i]};
+        }
+        const auto first = placed.begin();
+        std::nth_element(first + begin, first + middle, first + end);
+        for (std::uint32_t i = begin; i < end; ++i) items[i] = placed[i].item;
     }
 };
 
@@ -75,7 +99,7 @@ BasicBoxTree<Scalar>::BasicBoxTree(const std::vector<Box>& boxes) {
     items_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) items_[i] = i;
     nodes_.resize(node_count(count));
-    Builder<Scalar>{boxes, nodes_, items_}.build(0, 0, count);
+    Builder<Scalar>(boxes, nodes_, items_).build(0, 0, count);
 }
 
 template class BasicBoxTree<double>;

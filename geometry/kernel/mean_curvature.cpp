@@ -31,10 +31,8 @@ void add_triangle(const Positions& points, const Triangle& t, Positions& normals
     }
 }
 
-}  // namespace
-
-MeanCurvature mean_curvature(const Surface& surface) {
-    const Positions outward = vertex_normals(surface);
+/// \param outward unit normals that give the sign, #V
+MeanCurvature signed_curvature(const Surface& surface, const Positions& outward) {
     Positions normals(surface.vertex_count(), Vec3::Zero());
     MeanCurvature result;
     result.areas.assign(surface.vertex_count(), 0.0);
@@ -48,6 +46,23 @@ MeanCurvature mean_curvature(const Surface& surface) {
         result.values[v] = normals[v].dot(outward[v]) < 0.0 ? -size : size;
     }
     return result;
+}
+
+}  // namespace
+
+MeanCurvature mean_curvature(const Surface& surface) {
+    return signed_curvature(surface, vertex_normals(surface));
+}
+
+std::shared_ptr<const MeanCurvature> mean_curvature_of(const Surface& surface,
+                                                       DerivedCache& cache) {
+    return cache.find_or_make<MeanCurvature>(
+        "mean curvature", cache.shape_key(surface),
+        [&] { return signed_curvature(surface, *vertex_normals_of(surface, cache)); },
+        [](const MeanCurvature& made) {
+            return std::as_bytes(std::span(made.values)).size() +
+                   std::as_bytes(std::span(made.areas)).size();
+        });
 }
 
 }  // namespace vesselbench

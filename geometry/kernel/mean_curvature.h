@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -15,5 +17,10 @@ struct MeanCurvature {
 };
 
 [[nodiscard]] MeanCurvature mean_curvature(const Surface& surface);
+
+/// The same, made once for each shape (derived_cache.h).
+/// \throw InvalidInput if the surface has no triangle
+[[nodiscard]] std::shared_ptr<const MeanCurvature> mean_curvature_of(
+    const Surface& surface, DerivedCache& cache = derived_cache());
 
 }  // namespace vesselbench

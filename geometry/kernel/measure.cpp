@@ -226,8 +226,16 @@ Positions vertex_normals(const Surface& surface) {
     return normals;
 }
 
-std::vector<double> normal_curvature(const Surface& surface) {
-    const Positions normals = vertex_normals(surface);
+std::shared_ptr<const Positions> vertex_normals_of(const Surface& surface, DerivedCache& cache) {
+    if (surface.empty()) return std::make_shared<const Positions>(vertex_normals(surface));
+    return cache.find_or_make<Positions>(
+        "vertex normals", cache.shape_key(surface), [&] { return vertex_normals(surface); },
+        [](const Positions& normals) { return std::as_bytes(std::span(normals)).size(); });
+}
+
+std::vector<double> normal_curvature(const Surface& surface, DerivedCache& cache) {
+    const std::shared_ptr<const Positions> shared = vertex_normals_of(surface, cache);
+    const Positions& normals = *shared;
     std::vector<double> largest(normals.size(), 0.0);
     visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId t) {
         const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
@@ -273,29 +281,43 @@ Connectivity connectivity(const Topology& topology) {
     return connectivity(topology, edge_table(topology));
 }
 
-SurfaceMeasures measure(const Surface& surface) {
-    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to measure");
+namespace {
+
+SurfaceMeasures measured(const Surface& surface, DerivedCache& cache) {
     SurfaceMeasures result;
     result.vertices = surface.vertex_count();
     result.triangles = surface.triangle_count();
     const EdgeTable table = edge_table(*surface.topology);
     result.connectivity = connectivity(*surface.topology, table);
-    result.self_intersections = self_intersections(surface).size();
+    result.self_intersections = self_intersections(surface, {}, cache).size();
     result.area = area(surface);
     result.volume = volume(surface);
     result.bounds = bounds(surface);
     result.edge_length = edge_lengths(surface, table);
     result.equiangle_skewness = over_triangles(surface, equiangle_skewness);
     result.radius_ratio = over_triangles(surface, radius_ratio);
-    for (const double angle : normal_curvature(surface)) result.normal_curvature_deg += angle;
+    for (const double angle : normal_curvature(surface, cache))
+        result.normal_curvature_deg += angle;
     result.normal_curvature_deg /= static_cast<double>(result.vertices);
-    const MeanCurvature curvature = mean_curvature(surface);
+    const std::shared_ptr<const MeanCurvature> shared = mean_curvature_of(surface, cache);
+    const MeanCurvature& curvature = *shared;
     for (std::size_t v = 0; v < curvature.values.size(); ++v) {
         result.mean_curvature_integral += curvature.values[v] * curvature.areas[v];
         result.mean_curvature_integral_abs += std::abs(curvature.values[v]) * curvature.areas[v];
     }
     result.patches = measure_patches(surface);
     return result;
+}
+
+}  // namespace
+
+SurfaceMeasures measure(const Surface& surface, DerivedCache& cache) {
+    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to measure");
+    return *cache.find_or_make<SurfaceMeasures>(
+        "measures", cache.surface_key(surface), [&] { return measured(surface, cache); },
+        [](const SurfaceMeasures& made) {
+            return sizeof made + made.patches.size() * sizeof(PatchMeasures);
+        });
 }
 
 }  // namespace vesselbench

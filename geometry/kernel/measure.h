@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -58,9 +60,14 @@ struct Spread {
 /// polygonal facets", 1998.
 [[nodiscard]] Positions vertex_normals(const Surface& surface);
 
+/// The same, made once for each shape (derived_cache.h).
+[[nodiscard]] std::shared_ptr<const Positions> vertex_normals_of(
+    const Surface& surface, DerivedCache& cache = derived_cache());
+
 /// Per vertex the largest angle [deg] between the vertex normal and the normals of its triangles
 /// (thesis 5.4.1).
-[[nodiscard]] std::vector<double> normal_curvature(const Surface& surface);
+[[nodiscard]] std::vector<double> normal_curvature(const Surface& surface,
+                                                   DerivedCache& cache = derived_cache());
 
 struct PatchMeasures {
     std::string name;
@@ -109,6 +116,8 @@ struct SurfaceMeasures {
 };
 
 /// \throw InvalidInput if the surface has no triangle
-[[nodiscard]] SurfaceMeasures measure(const Surface& surface);
+/// \throw InvalidInput if the surface has no triangle
+[[nodiscard]] SurfaceMeasures measure(const Surface& surface,
+                                      DerivedCache& cache = derived_cache());
 
 }  // namespace vesselbench

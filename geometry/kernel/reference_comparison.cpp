@@ -33,9 +33,9 @@ bool same_triangles(const Surface& a, const Surface& b) {
 ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference) {
     const double spacing = sample_spacing(surface, reference);
     const SampledDistance there =
-        sampled_distance(surface_samples(surface, spacing), SurfaceDistance(reference));
+        sampled_distance(surface_samples(surface, spacing), distance_to(reference));
     const SampledDistance back =
-        sampled_distance(surface_samples(reference, spacing), SurfaceDistance(surface));
+        sampled_distance(surface_samples(reference, spacing), distance_to(surface));
     ReferenceComparison result;
     result.hausdorff = std::max(there.largest, back.largest);
     result.hausdorff_to_reference = there.largest;
@@ -65,11 +65,11 @@ WeighedComparison compare_by_weight(const Surface& surface, const Surface& refer
     };
     SampledDistance inside, outside;
     const SurfaceSamples here = surface_samples(surface, spacing);
-    const auto there = SurfaceDistance(reference).closest_points(here.points);
+    const auto there = distance_to(reference).closest_points(here.points);
     for (std::size_t i = 0; i < there.size(); ++i)
         (weighs_much(there[i].triangle) ? inside : outside).add(there[i].distance, here.areas[i]);
     const SurfaceSamples references = surface_samples(reference, spacing);
-    const auto back = SurfaceDistance(surface).closest_points(references.points);
+    const auto back = distance_to(surface).closest_points(references.points);
     for (std::size_t i = 0; i < back.size(); ++i)
         (weighs_much(references.triangles[i]) ? inside : outside)
             .add(back[i].distance, references.areas[i]);

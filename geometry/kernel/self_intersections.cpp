@@ -233,8 +233,33 @@ std::vector<TrianglePair> self_intersections(const Positions& positions,
                                    std::vector<std::uint8_t>(triangles.size(), 1), progress);
 }
 
-std::vector<TrianglePair> self_intersections(const Surface& surface, const Progress& progress) {
-    return self_intersections(surface.points(), surface.triangles(), progress);
+namespace {
+
+template <class Make>
+std::vector<TrianglePair> known_pairs(const ContentKey& key, const Make& make, DerivedCache& cache,
+                                      const Progress& progress) {
+    using Pairs = std::vector<TrianglePair>;
+    return *cache.find_or_make<Pairs>(
+        "self-intersections", key, make,
+        [](const Pairs& pairs) { return sizeof(Pairs) + std::as_bytes(std::span(pairs)).size(); },
+        progress);
+}
+
+}  // namespace
+
+std::vector<TrianglePair> self_intersections(const Surface& surface, const Progress& progress,
+                                             DerivedCache& cache) {
+    if (surface.empty()) return {};
+    const auto search = [&] {
+        return self_intersections(surface.points(), surface.triangles(), progress);
+    };
+    return known_pairs(cache.shape_key(surface), search, cache, progress);
+}
+
+void remember_no_self_intersections(const Topology& topology, const Positions& positions,
+                                    DerivedCache& cache) {
+    static_cast<void>(known_pairs(shape_key(topology, positions),
+                                  [] { return std::vector<TrianglePair>(); }, cache, {}));
 }
 
 }  // namespace vesselbench

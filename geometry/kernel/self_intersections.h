@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
@@ -26,7 +27,13 @@ using TrianglePair = std::pair<TriangleId, TriangleId>;
     const Positions& positions, std::span<const Triangle> triangles,
     std::span<const std::uint8_t> chosen, const Progress& progress = {});
 
+/// The same pairs of a whole surface, searched once for each shape (derived_cache.h).
 [[nodiscard]] std::vector<TrianglePair> self_intersections(const Surface& surface,
-                                                           const Progress& progress = {});
+                                                           const Progress& progress = {},
+                                                           DerivedCache& cache = derived_cache());
+
+/// Enters a shape of which it is known that no triangles meet, so that nobody searches it again.
+void remember_no_self_intersections(const Topology& topology, const Positions& positions,
+                                    DerivedCache& cache = derived_cache());
 
 }  // namespace vesselbench

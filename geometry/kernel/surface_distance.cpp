@@ -270,4 +270,32 @@ std::vector<double> SurfaceDistance::signed_distances(std::span<const Vec3> poin
     return found;
 }
 
+std::size_t SurfaceDistance::bytes() const {
+    return std::as_bytes(data_->tree.nodes()).size() + std::as_bytes(data_->tree.items()).size() +
+           std::as_bytes(std::span(data_->corners)).size() +
+           std::as_bytes(std::span(data_->dipoles)).size();
+}
+
+namespace {
+
+template <class Make>
+SurfaceDistance known_distance(const ContentKey& key, const Make& make, DerivedCache& cache) {
+    return *cache.find_or_make<SurfaceDistance>(
+        "distance", key, make, [](const SurfaceDistance& made) { return made.bytes(); });
+}
+
+}  // namespace
+
+SurfaceDistance distance_to(const Surface& surface, DerivedCache& cache) {
+    return known_distance(
+        cache.shape_key(surface), [&] { return SurfaceDistance(surface); }, cache);
+}
+
+SurfaceDistance distance_to(const Positions& positions, std::span<const Triangle> triangles,
+                            DerivedCache& cache) {
+    return known_distance(
+        shape_key(positions, triangles), [&] { return SurfaceDistance(positions, triangles); },
+        cache);
+}
+
 }  // namespace vesselbench

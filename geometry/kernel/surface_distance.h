@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -25,7 +26,8 @@ struct SurfaceHit {
     bool from_inside = false;  ///< the ray meets the triangle's inner side
 };
 
-/// Distances, rays and inside tests on a surface: build once, ask often, from any thread.
+/// Distances, rays and inside tests on a surface: build once, ask often, from any thread. A copy
+/// shares what was built.
 /// Works on any triangles; the inside test is exact for closed outward surfaces and sensible for
 /// surfaces with openings. Equal distances resolve to the lowest triangle index.
 class SurfaceDistance {
@@ -69,10 +71,23 @@ public:
     [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const Vec3> points) const;
     [[nodiscard]] std::vector<double> signed_distances(std::span<const Vec3> points) const;
 
+    /// [bytes] that it takes
+    [[nodiscard]] std::size_t bytes() const;
+
 private:
     struct Data;
     std::shared_ptr<const Data> data_;
 };
+
+/// The same as SurfaceDistance(surface), but built once for a shape that is asked again, by anyone:
+/// found in the cache, or built and kept there. For surfaces that live on; one that is thrown away
+/// at once would only drive others out.
+/// \throw InvalidInput if the surface has no triangle
+[[nodiscard]] SurfaceDistance distance_to(const Surface& surface,
+                                          DerivedCache& cache = derived_cache());
+[[nodiscard]] SurfaceDistance distance_to(const Positions& positions,
+                                          std::span<const Triangle> triangles,
+                                          DerivedCache& cache = derived_cache());
 
 /// The point of triangle a, b, c nearest to p.
 /// Source: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5.

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/one_rings.h"
 #include "geometry/kernel/vertex_corners.h"
@@ -68,10 +69,17 @@ Topology::Topology(std::vector<Triangle> triangles, std::size_t vertex_count)
                                    std::to_string(vertex_count_));
 }
 
+const ContentKey& Topology::key() const {
+    std::call_once(key_once_, [this] { key_ = topology_key(triangles_, vertex_count_); });
+    return key_;
+}
+
 const OneRings& Topology::one_rings() const {
     std::call_once(rings_once_, [this] {
-        one_rings_ =
-            std::make_unique<const OneRings>(vesselbench::one_rings(triangles_, vertex_count_));
+        one_rings_ = derived_cache().find_or_make<OneRings>(
+            "one-rings", key(),
+            [this] { return vesselbench::one_rings(triangles_, vertex_count_); },
+            [](const OneRings& rings) { return rings.rows.bytes() + rings.boundary.size(); });
     });
     return *one_rings_;
 }
@@ -86,10 +94,16 @@ const std::vector<std::uint8_t>& Topology::boundary_vertices() const {
 
 const CompressedRows& Topology::triangles_at() const {
     std::call_once(triangles_once_, [this] {
-        triangles_at_ =
-            std::make_unique<const CompressedRows>(triangles_by_vertex(triangles_, vertex_count_));
+        triangles_at_ = derived_cache().find_or_make<CompressedRows>(
+            "triangles at vertices", key(),
+            [this] { return triangles_by_vertex(triangles_, vertex_count_); },
+            [](const CompressedRows& rows) { return rows.bytes(); });
     });
     return *triangles_at_;
+}
+
+ContentKey topology_key(std::span<const Triangle> triangles, std::size_t vertex_count) {
+    return content_key({content_key(triangles), ContentKey{0, vertex_count}});
 }
 
 std::vector<std::vector<VertexId>> Topology::boundary_loops() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/content_key.h"
 #include "geometry/kernel/triangles.h"
 
 namespace vesselbench {
@@ -13,7 +14,8 @@ namespace vesselbench {
 struct OneRings;
 
 /// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
-/// Neighbour arrays are made on first use, once, from any thread. Degenerate and non-manifold
+/// Neighbour arrays are found on first use, once, from any thread; topologies of the same content
+/// share them (derived_cache.h). Degenerate and non-manifold
 /// triangles are allowed here; what needs a manifold says so.
 class Topology {
 public:
@@ -26,6 +28,9 @@ public:
     [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
 
     [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
+
+    /// Stands for the triangles and the number of vertices; read from them on first use.
+    [[nodiscard]] const ContentKey& key() const;
 
     /// One-ring neighbours of every vertex, each row ascending and without repetition.
     [[nodiscard]] const CompressedRows& rings() const;
@@ -45,9 +50,14 @@ private:
 
     std::vector<Triangle> triangles_;
     std::size_t vertex_count_ = 0;
-    mutable std::once_flag rings_once_, triangles_once_;
-    mutable std::unique_ptr<const OneRings> one_rings_;
-    mutable std::unique_ptr<const CompressedRows> triangles_at_;
+    mutable std::once_flag key_once_, rings_once_, triangles_once_;
+    mutable ContentKey key_;
+    mutable std::shared_ptr<const OneRings> one_rings_;
+    mutable std::shared_ptr<const CompressedRows> triangles_at_;
 };
+
+/// The key of a topology of these triangles.
+[[nodiscard]] ContentKey topology_key(std::span<const Triangle> triangles,
+                                      std::size_t vertex_count);
 
 }  // namespace vesselbench

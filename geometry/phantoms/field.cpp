@@ -67,6 +67,11 @@ std::vector<Eigen::Vector4d> dense_curve(const VesselShape& vessel) {
 class RoundCones {
 public:
     explicit RoundCones(std::vector<Eigen::Vector4d> curve) : curve_(std::move(curve)) {
+        for (std::size_t i = 0; i + 1 < curve_.size(); ++i) {
+            const Vec3 axis = (curve_[i + 1] - curve_[i]).head<3>();
+            pieces_.push_back({curve_[i].head<3>(), axis, axis.squaredNorm(), curve_[i][3],
+                               curve_[i + 1][3] - curve_[i][3]});
+        }
         for (std::size_t first = 0; first + 1 < curve_.size(); first += kGroup) {
             const std::size_t last = std::min(first + kGroup, curve_.size() - 1);
             Eigen::AlignedBox3d box;
@@ -75,16 +80,27 @@ public:
                 box.extend(Vec3(curve_[i].head<3>()));
                 thickest = std::max(thickest, curve_[i][3]);
             }
-            groups_.push_back({first, last, box.center(), 0.5 * box.diagonal().norm() + thickest});
+            const double reach = 0.5 * box.diagonal().norm() + thickest;
+            groups_.push_back({first, last, box.center(), reach * kSlack});
         }
     }
 
     [[nodiscard]] double distance(const Vec3& p) const {
-        double nearest = std::numeric_limits<double>::infinity();
+        // The nearest sphere first: what it holds is nearer than most of the others.
+        const Group* first = &groups_.front();
+        double least = std::numeric_limits<double>::infinity();
         for (const Group& group : groups_) {
-            if ((p - group.centre).norm() - group.reach >= nearest) continue;
-            for (std::size_t i = group.first; i < group.last; ++i)
-                nearest = std::min(nearest, distance_to_piece(i, p));
+            const double power = (p - group.centre).squaredNorm() - group.reach * group.reach;
+            if (power >= least) continue;
+            least = power;
+            first = &group;
+        }
+        double nearest = distance_to_group(*first, p);
+        for (const Group& group : groups_) {
+            // not negative: no piece is deeper than its own radius
+            const double within = nearest + group.reach;
+            if (&group != first && (p - group.centre).squaredNorm() < within * within)
+                nearest = std::min(nearest, distance_to_group(group, p));
         }
         return nearest;
     }
@@ -100,6 +116,7 @@ public:
 
 private:
     static constexpr std::size_t kGroup = 8;
+    static constexpr double kSlack = 1.0 + 1e-12;  ///< rounding must not leave out a piece
 
     struct Group {
         std::size_t first, last;
@@ -107,13 +124,27 @@ private:
         double reach;
     };
 
-    [[nodiscard]] double distance_to_piece(std::size_t i, const Vec3& p) const {
-        const Vec3 a = curve_[i].head<3>(), axis = (curve_[i + 1] - curve_[i]).head<3>();
-        const double u = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
-        return (p - a - u * axis).norm() - (curve_[i][3] + u * (curve_[i + 1][3] - curve_[i][3]));
+    struct Piece {
+        Vec3 start, axis;  ///< [mm], from start to the end
+        double squared;    ///< of the axis' length [mm^2]
+        double radius;     ///< at the start [mm]
+        double widening;   ///< from start to end [mm]
+    };
+
+    [[nodiscard]] static double distance_to_piece(const Piece& piece, const Vec3& p) {
+        const double u = std::clamp((p - piece.start).dot(piece.axis) / piece.squared, 0.0, 1.0);
+        return (p - piece.start - u * piece.axis).norm() - (piece.radius + u * piece.widening);
+    }
+
+    [[nodiscard]] double distance_to_group(const Group& group, const Vec3& p) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = group.first; i < group.last; ++i)
+            nearest = std::min(nearest, distance_to_piece(pieces_[i], p));
+        return nearest;
     }
 
     std::vector<Eigen::Vector4d> curve_;
+    std::vector<Piece> pieces_;
     std::vector<Group> groups_;
 };
 

@@ -110,7 +110,7 @@ PrintCheck print_check(const Surface& surface, const Progress& progress) {
     check.volume = volume(surface);
     check.area = area(surface);
     progress.report(0.5, "measuring walls and gaps");
-    const SurfaceDistance search(surface);
+    const SurfaceDistance search = distance_to(surface);
     const auto across = facing_walls(surface, search, -1.0);
     if (!across.empty()) check.lumen = places_of(surface, across.front());
     for (const Candidate& candidate : facing_walls(surface, search, 1.0)) {

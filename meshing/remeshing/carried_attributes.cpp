@@ -12,7 +12,7 @@ namespace vesselbench {
 
 Surface with_attributes_of(const Surface& source, Surface result) {
     if (source.attributes.empty()) return result;
-    const SurfaceDistance search(source);
+    const SurfaceDistance search = distance_to(source);
     std::map<std::string, std::vector<double>> values;
     for (const Vec3& p : result.points()) {
         const SurfacePoint at = search.closest_point(p);

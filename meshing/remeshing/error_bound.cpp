@@ -22,7 +22,7 @@ ErrorBound::ErrorBound(const Surface& source, std::span<const double> weights, d
       weights_(weights.begin(), weights.end()),
       max_error_(max_error),
       spacing_(0.5 * mean_edge_length(source)),
-      search_(source),
+      search_(distance_to(source)),
       samples_of_(source.triangle_count()) {
     weights_.resize(points_.size(), 1.0);
     std::vector<std::uint8_t> seen(points_.size(), 0);

@@ -145,7 +145,7 @@ double radius_from_rays(const SurfaceDistance& search, const Vec3& at, const Vec
 }
 
 std::vector<double> radii_from_rays(const Surface& surface, double limit) {
-    const SurfaceDistance search(surface);
+    const SurfaceDistance search = distance_to(surface);
     const Positions normals = wall_normals(surface);
     const double farthest = bounds(surface).diagonal();
     const std::size_t stride = surface.vertex_count() / kMostRayVertices + 1;

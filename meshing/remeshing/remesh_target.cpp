@@ -29,7 +29,8 @@ RemeshTarget::RemeshTarget(const Surface& surface, std::span<const double> sizes
     find_planes();
     flatten();
     for (PatchTarget& patch : patches_)
-        if (!patch.triangles.empty()) patch.search.emplace(surface_.points(), patch.triangles);
+        if (!patch.triangles.empty())
+            patch.search = distance_to(surface_.points(), patch.triangles);
     find_rims();
 }
 

@@ -78,7 +78,7 @@ std::vector<double> curvatures(const Surface& surface, double edge) {
 /// that do not face each other are the same wall with a bump.
 std::vector<double> outer_gaps(const Surface& surface, double reach) {
     constexpr double kFacing = -0.7;
-    const SurfaceDistance search(surface);
+    const SurfaceDistance search = distance_to(surface);
     const double skin = 1e-6 * reach;  // leaves the wall that the ray starts on behind
     const Positions normals = wall_normals(surface);
     const CapVertices caps = cap_vertices(surface);

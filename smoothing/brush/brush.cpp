@@ -79,7 +79,8 @@ BrushStroke::BrushStroke(Surface surface, BrushSettings settings,
                          std::shared_ptr<const SurfaceDistance> places)
     : start_(checked(surface)),
       settings_(std::move(settings)),
-      places_(places ? std::move(places) : std::make_shared<const SurfaceDistance>(start_)),
+      places_(places ? std::move(places)
+                     : std::make_shared<const SurfaceDistance>(distance_to(start_))),
       neighbourhood_(*start_.topology),
       fixed_(kept_vertices(start_)),
       now_(start_.points()) {

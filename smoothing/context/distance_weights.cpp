@@ -34,7 +34,7 @@ std::vector<double> neighbour_distances(const Positions& positions,
     require_neighbours(neighbours);
     std::vector<double> distances(positions.size(), std::numeric_limits<double>::infinity());
     for (const Surface& neighbour : neighbours) {
-        const SurfaceDistance surface(neighbour);
+        const SurfaceDistance surface = distance_to(neighbour);
         const bool closed = is_closed(neighbour);
         for_each_vertex(positions.size(), [&](std::size_t v) {
             const double distance = closed ? std::max(0.0, surface.signed_distance(positions[v]))

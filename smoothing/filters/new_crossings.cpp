@@ -53,6 +53,8 @@ TakenBack take_back_crossings(const Surface& surface, Positions& moved, const Pr
         return self_intersections_with(moved, surface.triangles(), suspects, progress);
     };
     auto pairs = crossings();
+    if (pairs.empty() && std::ranges::count(suspects, 0) == 0)
+        remember_no_self_intersections(*surface.topology, moved);
     if (pairs.empty() || !self_intersections(surface, progress).empty()) return taken;
     taken.place = moved[surface.triangles()[pairs.front().first][0]];
     const Positions wanted = moved;

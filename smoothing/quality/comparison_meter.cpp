@@ -30,7 +30,7 @@ QualityMeasures shape_of(const Surface& surface) {
 ComparisonMeter::ComparisonMeter(Surface original)
     : original_(std::move(original)),
       original_measures_(shape_of(original_)),
-      distance_(original_),
+      distance_(distance_to(original_)),
       mean_edge_(mean_edge_length(original_)),
       samples_(surface_samples(original_, mean_edge_)) {}
 

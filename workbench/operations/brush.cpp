@@ -89,7 +89,7 @@ public:
         : use_(std::move(use)),
           settings_(settings),
           before_(scene),
-          places_(std::make_shared<const SurfaceDistance>(surface_of(scene))),
+          places_(std::make_shared<const SurfaceDistance>(distance_to(surface_of(scene)))),
           stroke_(std::make_unique<Stroke>(
               Stroke{.brush = {surface_of(scene), settings, places_}, .resolved = arguments})) {}
 

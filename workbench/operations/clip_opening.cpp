@@ -1,3 +1,4 @@
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -40,11 +41,11 @@ public:
 
     /// Of all vessel ends; if none of them is at the tip, a line to it as well.
     const CenterlineGraph& with_tip(const std::optional<Vec3>& tip, const Progress& progress) {
-        if (!automatic_) automatic_ = compute_centerlines(surface_, {}, progress.part(0.0, 0.7));
+        if (!automatic_) automatic_ = centerlines_of(surface_, {}, progress.part(0.0, 0.7));
         if (!tip || is_tip(*automatic_, *tip)) return *automatic_;
         // A stub or a sac that the automatic search leaves out.
         if (!own_ || tip_ != *tip)
-            own_ = compute_centerlines(surface_, {.ends = {*tip}}, progress.part(0.7, 0.9));
+            own_ = centerlines_of(surface_, {.ends = {*tip}}, progress.part(0.7, 0.9));
         tip_ = *tip;
         return *own_;
     }
@@ -56,8 +57,8 @@ private:
     }
 
     Surface surface_;
-    std::optional<CenterlineGraph> automatic_;
-    std::optional<CenterlineGraph> own_;  ///< with the line to tip_
+    std::shared_ptr<const CenterlineGraph> automatic_;
+    std::shared_ptr<const CenterlineGraph> own_;  ///< with the line to tip_
     Vec3 tip_ = Vec3::Zero();
 };
 

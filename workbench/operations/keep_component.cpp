@@ -26,7 +26,7 @@ std::vector<bool> wanted_parts(const Surface& surface, const Components& parts,
                                const Arguments& arguments) {
     std::vector<bool> wanted(parts.count(), false);
     if (const auto seed = arguments.optional_point("seed")) {
-        wanted[parts.of_triangle[SurfaceDistance(surface).closest_point(*seed).triangle]] = true;
+        wanted[parts.of_triangle[distance_to(surface).closest_point(*seed).triangle]] = true;
         return wanted;
     }
     const auto order = by_size(parts);

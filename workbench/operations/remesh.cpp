@@ -1,6 +1,7 @@
 #include "meshing/remeshing/remesh.h"
 
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -44,12 +45,12 @@ Report report_from(const RemeshReport& figures) {
 }
 
 /// The lines, if they are wanted and can be found; what was used is resolved.
-std::optional<CenterlineGraph> centerlines(const Surface& surface, Outcome& outcome,
-                                           const Progress& progress) {
-    if (outcome.resolved.text("radius") != "centerlines") return std::nullopt;
+std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outcome& outcome,
+                                                   const Progress& progress) {
+    if (outcome.resolved.text("radius") != "centerlines") return nullptr;
     std::string reason;
     try {
-        return compute_centerlines(surface, {}, progress);
+        return centerlines_of(surface, {}, progress);
     } catch (const AlgorithmFailure& failure) {
         reason = failure.what();
     } catch (const InvalidInput& failure) {
@@ -60,7 +61,7 @@ std::optional<CenterlineGraph> centerlines(const Surface& surface, Outcome& outc
         "remesh measured the radius by rays across the lumen, for there are "
         "no centerlines: " +
         reason);
-    return std::nullopt;
+    return nullptr;
 }
 
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -68,8 +69,8 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     Outcome outcome;
     outcome.resolved = arguments;
     const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.3));
-    Remeshed remeshed = remesh(surface, parameters_from(arguments), lines ? &*lines : nullptr,
-                               progress.part(0.3, 1.0));
+    Remeshed remeshed =
+        remesh(surface, parameters_from(arguments), lines.get(), progress.part(0.3, 1.0));
     const RemeshReport& figures = remeshed.report;
     outcome.resolved.set("edge", figures.edge);
     if (arguments.text("mode") == "graded") {

@@ -1,6 +1,7 @@
 #include "geometry/vessel/openings/remove_branch.h"
 
 #include <limits>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
@@ -21,7 +22,7 @@ using nlohmann::ordered_json;
 constexpr double kTipReach = 3.0;
 
 struct NamedBranch {
-    CenterlineGraph graph;
+    std::shared_ptr<const CenterlineGraph> graph;
     std::size_t tip = 0;
 };
 
@@ -34,12 +35,12 @@ double distance_to_tip(const CenterlineGraph& graph, const Vec3& point) {
 /// The branch with its tip at a point; what the automatic search leaves out (a sac) gets a line of
 /// its own.
 NamedBranch branch_at(const Surface& surface, const Vec3& point, Progress& progress) {
-    CenterlineGraph graph = compute_centerlines(surface, {}, progress.part(0.0, 0.4));
-    const auto found = nearest_tip(graph, point);
-    if (!found || distance_to_tip(graph, point) > tip_radius(graph, *found))
-        graph = compute_centerlines(surface, {.ends = {point}}, progress.part(0.4, 0.8));
-    const auto tip = nearest_tip(graph, point);
-    if (!tip || distance_to_tip(graph, point) > kTipReach * tip_radius(graph, *tip))
+    auto graph = centerlines_of(surface, {}, progress.part(0.0, 0.4));
+    const auto found = nearest_tip(*graph, point);
+    if (!found || distance_to_tip(*graph, point) > tip_radius(*graph, *found))
+        graph = centerlines_of(surface, {.ends = {point}}, progress.part(0.4, 0.8));
+    const auto tip = nearest_tip(*graph, point);
+    if (!tip || distance_to_tip(*graph, point) > kTipReach * tip_radius(*graph, *tip))
         throw AlgorithmFailure("remove-branch: no branch has its tip near " + place_text(point));
     return {std::move(graph), *tip};
 }
@@ -49,7 +50,7 @@ Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progres
     const NamedBranch branch = branch_at(surface, arguments.point("tip"), progress);
     progress.report(0.8, "removing the branch");
     const BranchRemoval removal =
-        remove_branch(surface, branch.graph, branch.tip,
+        remove_branch(surface, *branch.graph, branch.tip,
                       {.margin = arguments.real("margin"),
                        .continuity = static_cast<int>(arguments.integer("continuity"))});
     Outcome outcome;

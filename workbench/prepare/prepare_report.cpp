@@ -68,7 +68,7 @@ Json distance_json(const Surface& surface, const Surface& reference,
     if (points.empty()) return nullptr;
     std::vector<double> distances;
     double sum = 0.0;
-    for (const SurfacePoint& found : SurfaceDistance(reference).closest_points(points)) {
+    for (const SurfacePoint& found : distance_to(reference).closest_points(points)) {
         distances.push_back(found.distance);
         sum += found.distance;
     }

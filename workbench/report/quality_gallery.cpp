@@ -116,7 +116,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
         most_lines = std::max(most_lines, model.captions.size());
     const int caption = kLine * (static_cast<int>(most_lines) + 1);
     Picture page = blank(count * (kCell + kGap) + kGap, kHead + 2 * kCell + caption + kFoot);
-    const SurfaceDistance distance(original);
+    const SurfaceDistance distance = distance_to(original);
     std::vector<std::vector<double>> deviations;
     for (const GalleryModel& model : models)
         deviations.push_back(distance.signed_distances(model.surface.points()));

@@ -28,32 +28,41 @@ const std::array<View, 3> kViews = {{{"from the front", Vec3(0, 1, 0), Vec3(0, 0
 
 constexpr int kPixels = 700;
 
-std::string drawn(const Surface& surface, const View& view, std::vector<Colour> colours) {
-    return png(draw(surface, {.width = kPixels,
-                              .height = kPixels,
-                              .view = view.direction,
-                              .up = view.up,
-                              .vertex_colours = std::move(colours)}));
+PictureOptions options_for(const View& view, std::vector<Colour> colours) {
+    return {.width = kPixels,
+            .height = kPixels,
+            .view = view.direction,
+            .up = view.up,
+            .vertex_colours = std::move(colours)};
 }
 
 }  // namespace
 
 std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source,
                                            const std::vector<std::uint8_t>& comparable) {
-    std::vector<ReportPicture> pictures;
-    try {
-        for (const View& view : kViews)
-            pictures.push_back({std::string("Patches, ") + view.name, drawn(surface, view, {})});
-        if (source == nullptr) return pictures;
+    std::vector<std::string> titles;
+    std::vector<PictureOptions> views;
+    for (const View& view : kViews) {
+        titles.push_back(std::string("Patches, ") + view.name);
+        views.push_back(options_for(view, {}));
+    }
+    if (source != nullptr) {
         const auto [colours, full] = deviation_colours(surface, *source, comparable);
-        for (const View& view : kViews)
-            pictures.push_back({std::string("Deviation from the source, ") + view.name + ": " +
-                                    deviation_legend(full),
-                                drawn(surface, view, colours)});
+        for (const View& view : kViews) {
+            titles.push_back(std::string("Deviation from the source, ") + view.name + ": " +
+                             deviation_legend(full));
+            views.push_back(options_for(view, colours));
+        }
+    }
+    try {
+        const std::vector<Picture> drawn = draw_views(surface, views);
+        std::vector<ReportPicture> pictures;
+        for (std::size_t i = 0; i < drawn.size(); ++i)
+            pictures.push_back({titles[i], png(drawn[i])});
+        return pictures;
     } catch (const GpuUnavailable&) {
         return {};
     }
-    return pictures;
 }
 
 double deviation_of_full_colour(std::vector<double> deviations) {
@@ -75,7 +84,7 @@ std::vector<Colour> colours_of(const std::vector<double>& deviations, double ful
 DeviationColours deviation_colours(const Surface& surface, const Surface& source,
                                    const std::vector<std::uint8_t>& comparable,
                                    double full_colour) {
-    std::vector<double> deviations = SurfaceDistance(source).signed_distances(surface.points());
+    std::vector<double> deviations = distance_to(source).signed_distances(surface.points());
     const auto counts = [&](std::size_t v) { return comparable.empty() || comparable[v] != 0; };
     std::vector<double> compared;
     for (std::size_t v = 0; v < deviations.size(); ++v)

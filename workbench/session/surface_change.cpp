@@ -1,8 +1,12 @@
 #include "workbench/session/surface_change.h"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
+#include <unordered_set>
 #include <vector>
 
+#include "geometry/kernel/content_key.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 
@@ -25,9 +29,12 @@ struct Deviations {
     }
 };
 
-bool comes_before(const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
+struct PlaceHash {
+    std::size_t operator()(const Vec3& p) const {
+        const Vec3 place = p + Vec3::Zero();  // 0.0 and -0.0 are the same place
+        return content_key(std::as_bytes(std::span(&place, 1))).low;
+    }
+};
 
 Deviations deviations_in_place(const Positions& before, const Positions& after) {
     Deviations found;
@@ -40,12 +47,14 @@ Deviations deviations_in_place(const Positions& before, const Positions& after) 
 /// search.
 Deviations deviations_from(const Positions& points, const Surface& other,
                            const Progress& progress) {
-    Positions sorted = other.points();
-    std::sort(sorted.begin(), sorted.end(), comes_before);
     progress.check_cancelled();
     Positions away;
-    for (const Vec3& p : points)
-        if (!std::binary_search(sorted.begin(), sorted.end(), p, comes_before)) away.push_back(p);
+    if (points != other.points()) {
+        const std::unordered_set<Vec3, PlaceHash> known(other.points().begin(),
+                                                        other.points().end());
+        std::ranges::copy_if(points, std::back_inserter(away),
+                             [&](const Vec3& p) { return !known.contains(p); });
+    }
     Deviations found;
     found.count = static_cast<double>(points.size() - away.size());
     if (away.empty()) return found;
@@ -54,7 +63,7 @@ Deviations deviations_from(const Positions& points, const Surface& other,
     Positions sample;
     for (std::size_t i = 0; i < all; i += stride) sample.push_back(away[i]);
     const double weight = static_cast<double>(all) / static_cast<double>(sample.size());
-    const SurfaceDistance distance(other);
+    const SurfaceDistance distance = distance_to(other);
     progress.check_cancelled();
     for (const SurfacePoint& nearest : distance.closest_points(sample))
         found.add(nearest.distance, weight);

@@ -238,4 +238,35 @@ CenterlineGraph compute_centerlines(const Surface& surface, const CenterlinePara
     return refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0));
 }
 
+namespace {
+
+ContentKey key_of(const CenterlineParameters& p) {
+    const double numbers[] = {p.find_blind_ends ? 1.0 : 0.0, p.blind_beyond_parent,
+                              p.blind_slenderness, p.spacing};
+    return content_key({content_key(std::as_bytes(std::span<const Vec3>(p.ends))),
+                        content_key(std::span<const double>(numbers))});
+}
+
+std::size_t bytes_of(const CenterlineGraph& graph) {
+    std::size_t bytes = sizeof graph + graph.nodes.size() * sizeof(CenterlineNode) +
+                        graph.branches.size() * sizeof(CenterlineBranch);
+    for (const CenterlineNode& node : graph.nodes)
+        bytes += node.branches.size() * sizeof(std::size_t);
+    for (const CenterlineBranch& branch : graph.branches)
+        bytes += branch.points.size() * (sizeof(Vec3) + sizeof(double));
+    return bytes;
+}
+
+}  // namespace
+
+std::shared_ptr<const CenterlineGraph> centerlines_of(const Surface& surface,
+                                                      const CenterlineParameters& parameters,
+                                                      const Progress& progress,
+                                                      DerivedCache& cache) {
+    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    return cache.find_or_make<CenterlineGraph>(
+        "centerlines", content_key({cache.surface_key(surface), key_of(parameters)}),
+        [&] { return compute_centerlines(surface, parameters, progress); }, &bytes_of, progress);
+}
+
 }  // namespace vesselbench

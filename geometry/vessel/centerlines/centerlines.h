@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
@@ -49,5 +51,11 @@ struct CenterlineParameters {
 [[nodiscard]] CenterlineGraph compute_centerlines(const Surface& surface,
                                                   const CenterlineParameters& parameters = {},
                                                   const Progress& progress = {});
+
+/// The same, computed once for each surface and parameters (derived_cache.h).
+/// \throw what compute_centerlines throws, each time
+[[nodiscard]] std::shared_ptr<const CenterlineGraph> centerlines_of(
+    const Surface& surface, const CenterlineParameters& parameters = {},
+    const Progress& progress = {}, DerivedCache& cache = derived_cache());
 
 }  // namespace vesselbench

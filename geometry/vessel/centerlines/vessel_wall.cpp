@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 
@@ -110,10 +111,11 @@ void judge_connectivity(VesselWall& wall) {
                                       DirectedEdge(edges[i].second, edges[i].first));
     }
     if (!manifold) return;
-    std::set<VertexId> used;
-    for (const Triangle& t : wall.closed) used.insert(t.begin(), t.end());
-    const auto euler = static_cast<long>(used.size()) - static_cast<long>(edges.size() / 2) +
-                       static_cast<long>(wall.closed.size());
+    std::vector<std::uint8_t> used(wall.points.size(), 0);
+    for (const Triangle& t : wall.closed)
+        for (const VertexId v : t) used[v] = 1;
+    const auto euler = static_cast<long>(std::ranges::count(used, 1)) -
+                       static_cast<long>(edges.size() / 2) + static_cast<long>(wall.closed.size());
     const auto components = static_cast<long>(component_count(wall.points.size(), wall.closed));
     wall.handles = static_cast<int>(components - euler / 2);
 }
@@ -171,7 +173,7 @@ VesselWall vessel_wall_of(const Surface& surface) {
         throw InvalidInput("the surface has no wall; all of its triangles are flat closures");
     }
     judge_connectivity(wall);
-    wall.distance = std::make_shared<const SurfaceDistance>(wall.points, wall.closed);
+    wall.distance = std::make_shared<const SurfaceDistance>(distance_to(wall.points, wall.closed));
     if (wall.ends.empty()) separate_flat_closures(wall);
     return wall;
 }

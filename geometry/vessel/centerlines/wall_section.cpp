@@ -139,7 +139,7 @@ double circle_radius(const std::array<Sector, kSectors>& sectors, const Vec2& ce
 
 WallSections::WallSections(const VesselWall& wall, double finest)
     : distance_(wall.wall.size() == wall.closed.size() ? *wall.distance
-                                                       : SurfaceDistance(wall.points, wall.wall)),
+                                                       : distance_to(wall.points, wall.wall)),
       closed_(*wall.distance) {
     std::vector<Sample> between;
     samples_.resize(wall.points.size());

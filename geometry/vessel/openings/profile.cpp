@@ -30,10 +30,10 @@ ClosedProfile::ClosedProfile(Positions corners, const Plane& plane)
         slopes_.push_back((b * back + a * forth) / (a + b));
     }
     const auto [u, v] = plane_axes(plane_.normal);
-    const Vec3 centre = centroid();
+    centroid_ = polygon_area(corners_, plane_.normal).second;
     double along = 0.0, across = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec3 p = corners_[i] - centre;
+        const Vec3 p = corners_[i] - centroid_;
         const double angle = 2.0 * std::numbers::pi * shares_[i],
                      weight = step(i) + step((i + n - 1) % n);
         const double x = u.dot(p), y = v.dot(p);
@@ -64,14 +64,10 @@ double ClosedProfile::area() const {
     return polygon_area(corners_, plane_.normal).first;
 }
 
-Vec3 ClosedProfile::centroid() const {
-    return polygon_area(corners_, plane_.normal).second;
-}
-
 Vec3 ClosedProfile::on_circle(double share, double radius) const {
     const auto [u, v] = plane_axes(plane_.normal);
     const double angle = start_angle_ + 2.0 * std::numbers::pi * share;
-    return centroid() + radius * (std::cos(angle) * u + std::sin(angle) * v);
+    return centroid_ + radius * (std::cos(angle) * u + std::sin(angle) * v);
 }
 
 std::pair<double, Vec3> polygon_area(const Positions& corners, const Vec3& normal) {

@@ -25,7 +25,8 @@ public:
 
     /// Of the polygon of the corners [mm^2].
     [[nodiscard]] double area() const;
-    [[nodiscard]] Vec3 centroid() const;
+
+    [[nodiscard]] const Vec3& centroid() const { return centroid_; }
 
     /// The point of a circle with a given radius round the centroid that belongs to a share of the
     /// perimeter: turned so that corresponding points are as near as can be.
@@ -37,7 +38,8 @@ private:
     Positions slopes_;  ///< derivative by share at each corner [mm]
     std::vector<double> shares_;
     double perimeter_ = 0.0;
-    double start_angle_ = 0.0;  ///< of share 0 on the circle [rad]
+    Vec3 centroid_ = Vec3::Zero();  ///< [mm]
+    double start_angle_ = 0.0;      ///< of share 0 on the circle [rad]
 };
 
 /// Signed area and centroid of a planar polygon, counter-clockwise round the normal [mm^2], [mm].

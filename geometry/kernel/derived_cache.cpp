@@ -1,0 +1,210 @@
+#include "geometry/kernel/derived_cache.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <list>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include <tbb/task_arena.h>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// How long a cancelled waiter may go on waiting.
+constexpr std::chrono::milliseconds kLookAround{20};
+
+ContentKey key_of_positions(const Positions& positions) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    return content_key(std::as_bytes(std::span<const Vec3>(positions)));
+}
+
+/// Keys of shared arrays, so that each is read once. An array's address may be used again after it
+/// is gone; its owner's may not while a weak pointer to it is kept.
+class ArrayKeys {
+public:
+    template <class Array, class Read>
+    ContentKey key_of(const std::shared_ptr<const Array>& array, const Read& read) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto found = keys_.find(array); found != keys_.end()) return found->second;
+        }
+        const ContentKey key = read(*array);  // without the lock: others need not wait
+        const std::lock_guard lock(mutex_);
+        if (keys_.size() >= limit_) drop_gone();
+        keys_.emplace(array, key);
+        return key;
+    }
+
+private:
+    void drop_gone() {
+        std::erase_if(keys_, [](const auto& entry) { return entry.first.expired(); });
+        limit_ = std::max(kFewest, 2 * keys_.size());
+    }
+
+    static constexpr std::size_t kFewest = 64;
+
+    std::mutex mutex_;
+    std::map<std::weak_ptr<const void>, ContentKey, std::owner_less<>> keys_;
+    std::size_t limit_ = kFewest;
+};
+
+ContentKey key_of_patches(const std::vector<Patch>& patches) {
+    std::string text;
+    for (const Patch& patch : patches) text += to_string(patch.kind) + ' ' + patch.name + '\0';
+    return content_key(std::span<const char>(text));
+}
+
+}  // namespace
+
+struct DerivedCache::Parts {
+    struct Entry {
+        Key key;
+        Sized made;
+    };
+
+    using Place = std::list<Entry>::iterator;
+
+    explicit Parts(std::size_t most) : budget(most) {}
+
+    std::shared_ptr<const void> find(const Key& key) {
+        const auto found = places.find(key);
+        if (found == places.end()) return nullptr;
+        entries.splice(entries.begin(), entries, found->second);
+        return found->second->made.value;
+    }
+
+    /// Moves what goes beyond the budget to `dropped`, whose owner frees it without the lock.
+    void shrink_to(std::size_t most, std::list<Entry>& dropped) {
+        while (total > most) {
+            total -= entries.back().made.bytes;
+            places.erase(entries.back().key);
+            dropped.splice(dropped.end(), entries, std::prev(entries.end()));
+        }
+    }
+
+    void keep(const Key& key, const Sized& made, std::list<Entry>& dropped) {
+        if (made.bytes > budget || places.contains(key)) return;
+        shrink_to(budget - made.bytes, dropped);
+        entries.push_front({key, made});
+        places.emplace(key, entries.begin());
+        total += made.bytes;
+    }
+
+    mutable std::mutex mutex;
+    std::condition_variable over;  ///< something is in the making no longer
+    std::size_t budget;
+    std::size_t total = 0;
+    std::list<Entry> entries;  ///< the one used last in front
+    std::map<Key, Place> places;
+    /// In the making: each maker's place for what it made, which those that wait hold as well, so
+    /// that they get it even if it is too large to be kept.
+    std::map<Key, std::shared_ptr<std::shared_ptr<const void>>> making;
+    ArrayKeys array_keys;
+};
+
+DerivedCache::DerivedCache(std::size_t budget) : parts_(std::make_unique<Parts>(budget)) {}
+
+DerivedCache::~DerivedCache() = default;
+
+std::shared_ptr<const void> DerivedCache::find_or_make(const Key& key,
+                                                       const std::function<Sized()>& make,
+                                                       const Progress& progress) {
+    Parts& parts = *parts_;
+    const auto result = std::make_shared<std::shared_ptr<const void>>();
+    std::list<Parts::Entry> dropped;  // freed last, without the lock
+    {
+        std::unique_lock lock(parts.mutex);
+        for (;;) {
+            if (auto known = parts.find(key)) return known;
+            const auto [maker, first] = parts.making.try_emplace(key, result);
+            if (first) break;
+            const auto theirs = maker->second;
+            const auto still = [&] {
+                const auto now = parts.making.find(key);
+                return now != parts.making.end() && now->second == theirs;
+            };
+            while (still()) {
+                parts.over.wait_for(lock, kLookAround);
+                progress.check_cancelled();
+            }
+            if (*theirs) return *theirs;
+        }
+    }
+    const auto finish = [&](const Sized& made) {
+        const std::lock_guard lock(parts.mutex);
+        *result = made.value;
+        if (made.value) parts.keep(key, made, dropped);
+        parts.making.erase(key);
+        parts.over.notify_all();
+    };
+    try {
+        // While it waits for its own tasks, this thread must not take up one that asks for the key.
+        const Sized made = tbb::this_task_arena::isolate(make);
+        finish(made);
+        return made.value;
+    } catch (...) {
+        finish({});
+        throw;
+    }
+}
+
+ContentKey DerivedCache::shape_key(const Surface& surface) {
+    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    return content_key(
+        {surface.topology->key(), parts_->array_keys.key_of(surface.positions, &key_of_positions)});
+}
+
+ContentKey shape_key(const Topology& topology, const Positions& positions) {
+    return content_key({topology.key(), key_of_positions(positions)});
+}
+
+ContentKey shape_key(const Positions& positions, std::span<const Triangle> triangles) {
+    return content_key({topology_key(triangles, positions.size()), key_of_positions(positions)});
+}
+
+ContentKey DerivedCache::surface_key(const Surface& surface) {
+    const ContentKey shape = shape_key(surface);
+    const ContentKey labels = parts_->array_keys.key_of(
+        surface.patch_labels,
+        [](const PatchLabels& all) { return content_key(std::span<const std::uint16_t>(all)); });
+    return content_key({shape, labels, key_of_patches(surface.patches)});
+}
+
+std::size_t DerivedCache::bytes() const {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->total;
+}
+
+std::size_t DerivedCache::size() const {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->entries.size();
+}
+
+void DerivedCache::set_budget(std::size_t budget) {
+    std::list<Parts::Entry> dropped;
+    const std::lock_guard lock(parts_->mutex);
+    parts_->budget = budget;
+    parts_->shrink_to(budget, dropped);
+}
+
+void DerivedCache::clear() {
+    std::list<Parts::Entry> dropped;
+    const std::lock_guard lock(parts_->mutex);
+    dropped.swap(parts_->entries);
+    parts_->places.clear();
+    parts_->total = 0;
+}
+
+DerivedCache& derived_cache() {
+    static DerivedCache& cache =
+        *new DerivedCache;  // outlives whatever asks while the program ends
+    return cache;
+}
+
+}  // namespace vesselbench
