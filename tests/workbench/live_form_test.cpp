@@ -268,11 +268,14 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
         }
     }
     WHEN("a dab is given by a point") {
-        live->add({{"at", Vec3(2, 0, 6)}, {"radius", 1.0}}, progress);
-        THEN("it is replayed among the others") {
-            const Outcome outcome = live->outcome(progress);
-            CHECK_FALSE(outcome.resolved.has("at"));
+        const Arguments dab = {{"at", Vec3(2, 0, 6)}, {"radius", 1.0}};
+        THEN("it makes a stroke of its own, which is not continued") {
+            CHECK_THROWS_WITH(live->add(dab, progress), Contains("stroke of one dab"));
+            const auto other = operation.start(scene, checked_arguments(operation, dab), progress);
+            const Outcome outcome = other->outcome(progress);
             require_same(outcome, run_here(operation, scene, outcome.resolved, progress));
+            CHECK_THROWS_AS(other->add({{"dabs", any_dab(random)}}, progress), UsageError);
+            require_same(other->outcome(progress), outcome);
         }
     }
     WHEN("something else of the stroke is to change") {

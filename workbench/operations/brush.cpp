@@ -98,6 +98,7 @@ public:
             if (!is_dab_argument(name))
                 throw UsageError(use_.operation + ": " + name +
                                  " stays through a stroke; start another one");
+        check_continued(more);
         Outcome read;
         read.resolved = more;
         const auto dabs = resolved_dabs(use_, surface_of(before_), *places_, read);
@@ -108,7 +109,7 @@ public:
             brush(*longer, dabs, progress);
             stroke_ = std::move(longer);
         }
-        append_dabs(stroke_->resolved, read.resolved, stroke_->dabs == dabs.size());
+        append_dabs(stroke_->resolved, read.resolved);
         stroke_->warnings.insert(stroke_->warnings.end(), read.warnings.begin(),
                                  read.warnings.end());
         scene_.reset();
@@ -166,6 +167,14 @@ private:
             }
             ++stroke.dabs;
         }
+    }
+
+    /// `at` and what belongs to it make one dab; a stroke of several is given by `dabs` alone.
+    void check_continued(const Arguments& more) const {
+        const bool by_dabs = more.values().size() == 1 && more.has("dabs");
+        if (stroke_->dabs > 0 && (!by_dabs || stroke_->resolved.has("at")))
+            throw UsageError(use_.operation +
+                             ": at makes a stroke of one dab; a longer one is given by dabs alone");
     }
 
     [[nodiscard]] Scene scene_with(Surface surface) const {

@@ -93,17 +93,11 @@ bool is_dab_argument(const std::string& name) {
     return std::ranges::count(kNames, name) > 0;
 }
 
-void append_dabs(Arguments& stroke, const Arguments& more, bool first) {
-    if (first) {
-        for (const char* name : kNames)
-            if (const auto at = more.values().find(name); at != more.values().end())
-                stroke.set(name, at->second);
-        return;
-    }
-    std::vector<double> all = stroke.list("dabs");
+void append_dabs(Arguments& stroke, const Arguments& more) {
+    std::vector<double> all = stroke.has("dabs") ? stroke.list("dabs") : std::vector<double>();
     const std::vector<double>& added = more.list("dabs");
     all.insert(all.end(), added.begin(), added.end());
-    for (const char* name : kNames) stroke.remove(name);
+    for (const auto& [name, value] : more.values()) stroke.set(name, value);
     stroke.set("dabs", std::move(all));
 }
 

@@ -32,9 +32,9 @@ struct DabUse {
 /// True for the names of dab_parameters.
 [[nodiscard]] bool is_dab_argument(const std::string& name);
 
-/// Appends the resolved dabs of `more` to those of a stroke.
-/// \param first the stroke had none: `at` and what belongs to it stay beside the one they made
-void append_dabs(Arguments& stroke, const Arguments& more, bool first);
+/// Appends the resolved dabs of `more` to those of a stroke; where it had none, `at` and what
+/// belongs to it come along.
+void append_dabs(Arguments& stroke, const Arguments& more);
 
 /// \throw UsageError that says how dabs are given
 [[noreturn]] void throw_without_dabs(const DabUse& use);
