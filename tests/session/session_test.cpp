@@ -370,7 +370,7 @@ SCENARIO("A preview is shown first and entered later", "[session][preview]") {
         CHECK(entry.result->resolved == preview.result().resolved);
         CHECK(session.scene().surface->positions == preview.scene().surface->positions);
         CHECK(session.replay()[1].differences.empty());
-        THEN("it cannot be committed twice: it would stand on itself") {
+        THEN("it cannot be committed twice: it would precede itself") {
             CHECK_THROWS_AS(session.commit(preview), UsageError);
         }
         THEN("after an undo it can") {
@@ -378,7 +378,7 @@ SCENARIO("A preview is shown first and entered later", "[session][preview]") {
             CHECK(session.commit(preview).edit.edit.id == 3);
         }
     }
-    WHEN("what stands before it has changed") {
+    WHEN("an edit before it has changed") {
         session.change_edit(1, {{"radius", 10.5}});
         THEN("it is refused, and nothing is entered") {
             const auto now = session.snapshot();

@@ -109,15 +109,16 @@ public:
             heights_.resize(count);
             throw;
         }
+        arguments_.set("heights", heights_);
     }
 
     [[nodiscard]] const Scene& scene() const override { return scene_; }
 
+    [[nodiscard]] virtual const Arguments& resolved() const { return arguments_; }
+
     [[nodiscard]] Outcome outcome(Progress& progress) override {
         progress.report(0.9, "measuring");
-        Arguments arguments = arguments_;
-        arguments.set("heights", heights_);
-        return made(scene_, arguments);
+        return made(scene_, arguments_);
     }
 
 private:

@@ -30,7 +30,7 @@ EditPlace place_of(const Operation& operation, const EditOptions& options) {
     return place;
 }
 
-/// The entries that stand before a new edit of this place.
+/// The entries that precede a new edit of this place.
 std::vector<HistoryEntry> entries_before(const History& history, const EditPlace& place) {
     std::vector<HistoryEntry> before = history.line(place.variant);
     std::erase_if(before, [&](const HistoryEntry& e) { return e.place.step > place.step; });

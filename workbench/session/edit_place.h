@@ -11,7 +11,7 @@ namespace vesselbench {
 /// \throw UsageError if the step is not allowed, or belongs to a variant and none is named
 [[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options);
 
-/// The entries that stand before a new edit of this place.
+/// The entries that precede a new edit of this place.
 [[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history,
                                                        const EditPlace& place);
 

@@ -105,7 +105,7 @@ ResultId enter(EvaluatedLine& line, History& next, std::vector<NewResult>& resul
         }
         if (!link.run)
             throw UsageError("edit " + std::to_string(link.edit.id) +
-                             " stood on other edits when this was previewed");
+                             " followed other edits when this was previewed");
         ResultRecord& record = link.run->record;
         record.edit = link.edit;
         record.input = end;

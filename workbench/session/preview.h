@@ -36,7 +36,7 @@ private:
     struct Data {
         EditRecord edit;
         EditRun run;
-        EvaluatedLine before;             ///< the edits that stand before it
+        EvaluatedLine before;             ///< the edits that precede it
         std::vector<SourceFile> sources;  ///< that it read
     };
 

@@ -111,7 +111,7 @@ struct Session::Parts {
         return data;
     }
 
-    /// The edits that stand before the previewed one now.
+    /// The edits that precede the previewed one now.
     /// \throw UsageError if they are others than those it ran on
     void check_same_input(const Preview::Data& data) const {
         const EditRecord& edit = data.edit;

@@ -65,7 +65,7 @@ public:
                                          const EditOptions& options = {}, Progress progress = {});
 
     /// Enters what was previewed, without running it again.
-    /// \throw UsageError if other edits stand before it by now than those it ran on; IoError if the
+    /// \throw UsageError if other edits precede it by now than those it ran on; IoError if the
     /// session only reads or the project cannot be written
     LogEntry commit(const Preview& preview);
 
