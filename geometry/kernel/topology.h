@@ -15,8 +15,8 @@ struct OneRings;
 
 /// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
 /// Neighbour arrays are found on first use, once, from any thread; topologies of the same content
-/// share them (derived_cache.h). Degenerate and non-manifold
-/// triangles are allowed here; what needs a manifold says so.
+/// share them (derived_cache.h). Degenerate and non-manifold triangles are allowed here; what needs
+/// a manifold says so.
 class Topology {
 public:
     /// \throw InvalidInput if a triangle names a vertex >= vertex_count

@@ -135,12 +135,12 @@ SCENARIO("What the cache gives is what would be made without it", "[geometry][de
         const auto known = distance_to(same, cache).closest_points(places);
         const auto plain = SurfaceDistance(tube).closest_points(places);
         for (std::size_t i = 0; i < places.size(); ++i) {
-            CHECK(known[i].point == plain[i].point);
+            CHECK((known[i].point == plain[i].point));
             CHECK(known[i].triangle == plain[i].triangle);
         }
         CHECK(distance_to(same, cache).signed_distances(places) ==
               SurfaceDistance(tube).signed_distances(places));
-        CHECK(*vertex_normals_of(same, cache) == vertex_normals(tube));
+        CHECK((*vertex_normals_of(same, cache) == vertex_normals(tube)));
         CHECK(mean_curvature_of(same, cache)->values == mean_curvature(tube).values);
         CHECK(self_intersections(same, {}, cache) ==
               self_intersections(tube.points(), tube.triangles()));
@@ -150,7 +150,7 @@ SCENARIO("What the cache gives is what would be made without it", "[geometry][de
         const auto lines = centerlines_of(same, {}, {}, cache);
         const CenterlineGraph own = compute_centerlines(tube);
         REQUIRE(lines->branches.size() == own.branches.size());
-        CHECK(lines->branches[0].points == own.branches[0].points);
+        CHECK((lines->branches[0].points == own.branches[0].points));
         CHECK(lines->branches[0].radii == own.branches[0].radii);
         CHECK(centerlines_of(same, {.spacing = 0.4}, {}, cache) != lines);
     }
