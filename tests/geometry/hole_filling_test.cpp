@@ -1,11 +1,10 @@
-#include "geometry/vessel/openings/hole_filling.h"
+#include "geometry/editing/hole_filling.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/vessel/openings/surface_parts.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -19,7 +18,9 @@ Surface without(const Surface& surface, const std::function<bool(const Vec3&)>& 
     for (const auto& [a, b, c] : surface.triangles())
         removed.push_back(
             gone((surface.points()[a] + surface.points()[b] + surface.points()[c]) / 3.0));
-    return put_together(take_apart(surface), removed);
+    EditableSurface edited(surface);
+    edited.remove(removed);
+    return edited.to_surface();
 }
 
 }  // namespace

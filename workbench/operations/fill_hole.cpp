@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/vessel/openings/hole_filling.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/editing/editable_surface.h"
 #include "geometry/kernel/cross_section.h"
 
 namespace vesselbench {
@@ -9,7 +10,7 @@ namespace vesselbench {
 /// A surface with one branch cut off; `rim` is the new border: a closed, planar loop in the
 /// direction of the surface's half-edges (clockwise seen from the removed side).
 struct OpenedSurface {
-    Surface surface;
+    EditableSurface surface;
     std::vector<VertexId> rim;
 };
 
@@ -25,7 +26,7 @@ struct OpenedSurface {
 /// Corners are projected onto the plane.
 /// \param rim as cut_branch returns it
 /// \throw AlgorithmFailure if the rim crosses itself
-[[nodiscard]] Surface cap_rim(const OpenedSurface& opened, const Plane& plane, const Patch& patch);
+void cap_rim(OpenedSurface& opened, const Plane& plane, const Patch& patch);
 
 /// Both: cut, then cap.
 [[nodiscard]] Surface clip_branch(const Surface& surface, const Plane& plane, const Patch& patch);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/vessel/openings/surface_parts.h"
 
 namespace vesselbench {
 
@@ -47,15 +47,15 @@ Limit sphere_limit(const Vec3& centre, double radius) {
 /// Cuts all triangles at one limit and keeps what is inside.
 class Cutter {
 public:
-    Cutter(SurfaceParts& parts, const Limit& limit) : parts_(parts), limit_(limit) {
-        for (const Vec3& p : parts.positions) outside_.push_back(limit.outside(p));
+    Cutter(TriangleSoup& soup, const Limit& limit) : soup_(soup), limit_(limit) {
+        for (const Vec3& p : soup.points) outside_.push_back(limit.outside(p));
     }
 
     void cut() {
-        const auto triangles = std::move(parts_.triangles);
-        const auto labels = std::move(parts_.labels);
-        parts_.triangles.clear();
-        parts_.labels.clear();
+        const auto triangles = std::move(soup_.triangles);
+        const auto labels = std::move(soup_.labels);
+        soup_.triangles.clear();
+        soup_.labels.clear();
         for (std::size_t t = 0; t < triangles.size(); ++t) cut_triangle(triangles[t], labels[t]);
     }
 
@@ -77,36 +77,43 @@ private:
                 polygon.push_back(crossing(a, b));
         }
         for (std::size_t c = 2; c < polygon.size(); ++c)
-            parts_.add_triangle({polygon[0], polygon[c - 1], polygon[c]}, label);
+            soup_.add_triangle({polygon[0], polygon[c - 1], polygon[c]}, label);
     }
 
     VertexId crossing(VertexId a, VertexId b) {
         const auto known = crossings_.find(std::minmax(a, b));
         if (known != crossings_.end()) return known->second;
         const VertexId from = is_inside(a) ? a : b, to = is_inside(a) ? b : a;
-        const double t = limit_.crossing(parts_.positions[from], parts_.positions[to]);
-        const Vec3 p = parts_.positions[from] + t * (parts_.positions[to] - parts_.positions[from]);
+        const double t = limit_.crossing(soup_.points[from], soup_.points[to]);
+        const Vec3 p = soup_.points[from] + t * (soup_.points[to] - soup_.points[from]);
         const std::array<VertexId, 2> sources = {from, to};
         const std::array<double, 2> weights = {1.0 - t, t};
-        const VertexId made = parts_.add_vertex(p, sources, weights);
+        const VertexId made = soup_.add_vertex(p, sources, weights);
         crossings_[std::minmax(a, b)] = made;
         return made;
     }
 
-    SurfaceParts& parts_;
+    TriangleSoup& soup_;
     const Limit& limit_;
     std::vector<double> outside_;
     std::map<std::pair<VertexId, VertexId>, VertexId> crossings_;
 };
 
+/// Without vertices and patches that have no triangle.
+Surface without_unused(TriangleSoup soup) {
+    soup.remove_unused_vertices();
+    soup.remove_unused_patches();
+    return surface_from(std::move(soup));
+}
+
 Surface cropped(const Surface& surface, const std::vector<Limit>& limits) {
-    SurfaceParts parts = take_apart(surface);
-    for (const Limit& limit : limits) Cutter(parts, limit).cut();
-    if (parts.triangles.empty())
+    TriangleSoup soup = soup_from(surface);
+    for (const Limit& limit : limits) Cutter(soup, limit).cut();
+    if (soup.triangles.empty())
         throw AlgorithmFailure(
             "nothing of the surface lies in the region to crop; give it in mm "
             "in patient coordinates (LPS)");
-    return put_together(parts);
+    return without_unused(std::move(soup));
 }
 
 }  // namespace
@@ -138,7 +145,9 @@ LargestPiece largest_piece(const Surface& surface) {
     std::vector<std::uint8_t> removed;
     removed.reserve(surface.triangle_count());
     for (const std::uint32_t c : components.of_triangle) removed.push_back(c == largest ? 0 : 1);
-    return {put_together(take_apart(surface), removed), components.count()};
+    TriangleSoup soup = soup_from(surface);
+    soup.remove_triangles(removed);
+    return {without_unused(std::move(soup)), components.count()};
 }
 
 }  // namespace vesselbench

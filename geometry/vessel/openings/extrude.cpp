@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/editing/editable_surface.h"
+#include "geometry/editing/rims.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/collision.h"
-#include "geometry/vessel/openings/flat_cap.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/patch_rim.h"
 #include "geometry/vessel/openings/profile.h"
-#include "geometry/vessel/openings/surface_parts.h"
 
 namespace vesselbench {
 
@@ -92,61 +92,49 @@ private:
     std::size_t corners_;
 };
 
-/// Triangles between two rings, by the order of their points' shares; indices of the lower ring,
-/// then those of the upper one. Outward when the rings run counter-clockwise and the upper one lies
-/// on the normal's side.
-std::vector<Triangle> zip(const std::vector<double>& lower, const std::vector<double>& upper) {
-    std::vector<Triangle> triangles;
-    const auto n = static_cast<VertexId>(lower.size()), m = static_cast<VertexId>(upper.size());
-    const auto share = [](const std::vector<double>& shares, VertexId i) {
-        const auto size = static_cast<VertexId>(shares.size());
-        return shares[i % size] + (i >= size ? 1.0 : 0.0);
-    };
-    for (VertexId i = 0, j = 0; i < n || j < m;) {
-        const VertexId a = i % n, b = n + j % m;
-        // Advance on the ring the middle of whose next edge comes first.
-        const bool below = j == m || (i < n && share(lower, i + 1) + share(lower, i) <
-                                                   share(upper, j + 1) + share(upper, j));
-        if (below)
-            triangles.push_back({a, ++i % n, b});
-        else
-            triangles.push_back({a, n + ++j % m, b});
+/// Triangles that the tube would need free, layer by layer.
+struct Probes {
+    std::vector<Corners> triangles;
+    std::vector<int> layers;  ///< from 1, of each triangle
+};
+
+/// \param margins share of the free space (kFreeInFront, kFreeAtSides) that is wanted, 0 or 1
+Probes probes_of(const Tube& tube, int layers, double layer_height, double margins) {
+    const auto shares = tube.shares(2);
+    const std::vector<Triangle> band = band_between(shares, shares);
+    Probes probes;
+    Positions lower;
+    for (int k = 1; k <= layers; ++k) {
+        const double z = k * layer_height;
+        const double grown = margins * std::min(1.0, z / tube.diameter()) * kFreeAtSides;
+        const Positions upper = tube.ring(shares, z, (1.0 + grown) * (1.0 + grown));
+        const auto at = [&](VertexId v) {
+            return v < shares.size() ? lower[v] : upper[v - shares.size()];
+        };
+        if (!lower.empty())
+            for (const Triangle& t : band)
+                probes.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
+        // A fan across finds what would lie inside the tube.
+        const Vec3 middle = tube.centre(z);
+        for (std::size_t i = 0; i < upper.size(); ++i)
+            probes.triangles.push_back({middle, upper[i], upper[(i + 1) % upper.size()]});
+        probes.layers.resize(probes.triangles.size(), k);
+        lower = upper;
     }
-    return triangles;
+    return probes;
 }
 
 /// Length that is free in front of the opening [mm].
-/// \param margins share of the free space (kFreeInFront, kFreeAtSides) that is wanted, 0 or 1
+/// \param margins as probes_of takes them
 double free_length(const Surface& without_cap, const Tube& tube, double wanted, double margins) {
     const double in_front = margins * kFreeInFront * tube.diameter();
     const double end = wanted + in_front;
     const int layers = tube.layers(end);
     const double dz = end / layers;
-    const auto shares = tube.shares(2);
-    std::vector<Corners> probes;
-    std::vector<int> layer_of;
-    Positions lower;
-    for (int k = 1; k <= layers; ++k) {
-        const double grown = margins * std::min(1.0, k * dz / tube.diameter()) * kFreeAtSides;
-        const Positions upper = tube.ring(shares, k * dz, (1.0 + grown) * (1.0 + grown));
-        for (const Triangle& t : lower.empty() ? std::vector<Triangle>{} : zip(shares, shares)) {
-            const auto at = [&](VertexId v) {
-                return v < shares.size() ? lower[v] : upper[v - shares.size()];
-            };
-            probes.push_back({at(t[0]), at(t[1]), at(t[2])});
-            layer_of.push_back(k);
-        }
-        // A fan across finds what would lie inside the tube.
-        const Vec3 middle = tube.centre(k * dz);
-        for (std::size_t i = 0; i < upper.size(); ++i) {
-            probes.push_back({middle, upper[i], upper[(i + 1) % upper.size()]});
-            layer_of.push_back(k);
-        }
-        lower = upper;
-    }
-    const auto hits = touching(without_cap, probes);
+    const Probes probes = probes_of(tube, layers, dz, margins);
+    const auto hits = touching(without_cap, probes.triangles);
     for (std::size_t i = 0; i < hits.size(); ++i)
-        if (hits[i]) return (layer_of[i] - 1) * dz - in_front;
+        if (hits[i]) return (probes.layers[i] - 1) * dz - in_front;
     return wanted;
 }
 
@@ -165,63 +153,43 @@ void check(const Surface& surface, std::size_t patch, const PatchShape& shape,
 class Extruder {
 public:
     Extruder(const Surface& surface, std::size_t patch, const PatchRim& rim)
-        : parts_(take_apart(surface)),
-          rim_(rim),
-          label_(static_cast<std::uint16_t>(patch)),
-          removed_(surface.triangle_count(), 0) {
+        : surface_(surface), rim_(rim), label_(static_cast<std::uint16_t>(patch)) {
         for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-            if ((*surface.patch_labels)[t] == patch) removed_[t] = 1;
+            if ((*surface.patch_labels)[t] == patch) surface_.remove(t);
     }
 
-    Surface without_cap() const { return put_together(parts_, removed_); }
+    Surface without_cap() const { return surface_.to_surface(); }
 
     Surface with_tube(const Tube& tube, const ClosedProfile& profile, const Plane& plane,
                       double length) {
         const int layers = tube.layers(length);
-        std::vector<VertexId> lower = rim_.loop;
-        std::vector<double> lower_shares = tube.shares(0);
-        Positions points;
+        Ring lower{rim_.loop, tube.shares(0)};
         for (int k = 1; k <= layers; ++k) {
-            const auto shares = tube.shares(k);
-            points = tube.ring(shares, length * k / layers);
-            std::vector<VertexId> upper;
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const auto [corner, t] = profile.segment(shares[i]);
-                const VertexId sources[] = {rim_.loop[corner],
-                                            rim_.loop[(corner + 1) % rim_.loop.size()]};
-                const double weights[] = {1.0 - t, t};
-                upper.push_back(parts_.add_vertex(points[i], sources, weights));
-            }
-            add(zip(lower_shares, shares), lower, upper, rim_.wall_label);
+            Ring upper{{}, tube.shares(k)};
+            const Positions points = tube.ring(upper.shares, length * k / layers);
+            for (std::size_t i = 0; i < points.size(); ++i)
+                upper.vertices.push_back(add_vertex(points[i], profile.segment(upper.shares[i])));
+            join_rings(surface_, lower, upper, rim_.wall_label);
             lower = std::move(upper);
-            lower_shares = shares;
         }
-        add_cap(points, {plane.point + length * plane.normal, plane.normal}, lower, tube.edge());
-        removed_.resize(parts_.triangles.size(), 0);
-        return put_together(parts_, removed_);
+        close_flat(surface_, lower.vertices, {plane.point + length * plane.normal, plane.normal},
+                   tube.edge(), label_);
+        return surface_.to_surface();
     }
 
 private:
-    void add(const std::vector<Triangle>& triangles, std::vector<VertexId> ids,
-             const std::vector<VertexId>& more, std::uint16_t label) {
-        ids.insert(ids.end(), more.begin(), more.end());
-        for (const auto& [a, b, c] : triangles)
-            parts_.add_triangle({ids[a], ids[b], ids[c]}, label);
+    /// Attributes come from the rim: from its corner and how far the point is on the way to the
+    /// next one.
+    VertexId add_vertex(const Vec3& point, const std::pair<std::size_t, double>& place) {
+        const auto& [corner, t] = place;
+        const VertexId sources[] = {rim_.loop[corner], rim_.loop[(corner + 1) % rim_.loop.size()]};
+        const double weights[] = {1.0 - t, t};
+        return surface_.add_vertex(point, sources, weights);
     }
 
-    void add_cap(const Positions& corners, const Plane& plane, const std::vector<VertexId>& ring,
-                 double edge) {
-        const FlatCap cap = fill_flat(corners, plane, edge);
-        const std::vector<double> equal(ring.size(), 1.0 / static_cast<double>(ring.size()));
-        std::vector<VertexId> inner;
-        for (const Vec3& p : cap.inner) inner.push_back(parts_.add_vertex(p, ring, equal));
-        add(cap.triangles, ring, inner, label_);
-    }
-
-    SurfaceParts parts_;
+    EditableSurface surface_;
     const PatchRim& rim_;
     std::uint16_t label_;
-    std::vector<std::uint8_t> removed_;
 };
 
 }  // namespace

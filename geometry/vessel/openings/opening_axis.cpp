@@ -7,8 +7,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/vessel/openings/surface_parts.h"
 
 namespace vesselbench {
 
@@ -128,19 +128,11 @@ PatchShape patch_shape(const Surface& surface, std::size_t patch) {
 }
 
 Surface part_near(const Surface& surface, const Vec3& centre, double radius) {
-    SurfaceParts parts{.positions = surface.points(),
-                       .triangles = {},
-                       .labels = {},
-                       .patches = surface.patches,
-                       .attributes = {}};
-    std::vector<std::uint8_t> near(parts.positions.size());
-    for (std::size_t v = 0; v < near.size(); ++v)
-        near[v] = (parts.positions[v] - centre).squaredNorm() <= radius * radius ? 1 : 0;
-    const auto triangles = surface.triangles();
-    for (TriangleId t = 0; t < triangles.size(); ++t)
-        if (near[triangles[t][0]] || near[triangles[t][1]] || near[triangles[t][2]])
-            parts.add_triangle(triangles[t], (*surface.patch_labels)[t]);
-    return put_together(parts);
+    std::vector<bool> near, keep;
+    for (const Vec3& p : surface.points())
+        near.push_back((p - centre).squaredNorm() <= radius * radius);
+    for (const auto& [a, b, c] : surface.triangles()) keep.push_back(near[a] || near[b] || near[c]);
+    return select_triangles(surface, keep);
 }
 
 }  // namespace vesselbench

@@ -9,13 +9,12 @@
 #include <set>
 #include <utility>
 
+#include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/clip.h"
-#include "geometry/vessel/openings/hole_filling.h"
 #include "geometry/vessel/openings/opening_axis.h"
-#include "geometry/vessel/openings/surface_parts.h"
 
 namespace vesselbench {
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/editing/editable_surface.h"
+#include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/openings/hole_filling.h"
-#include "geometry/vessel/openings/surface_parts.h"
 #include "geometry/vessel/openings/vessel_tube.h"
 
 namespace vesselbench {
@@ -170,6 +170,27 @@ double length_of(const Surface& surface, const std::vector<VertexId>& loop) {
     return mean_edge(surface.points(), loop) * static_cast<double>(loop.size());
 }
 
+/// What hangs together with a rim of the hole, over triangles that stay; none if that is where the
+/// largest rim lies, too.
+std::optional<std::vector<TriangleId>> island_at(const Surface& surface,
+                                                 const std::vector<VertexId>& rim,
+                                                 const std::vector<VertexId>& largest,
+                                                 const std::vector<std::uint8_t>& removed) {
+    std::vector<TriangleId> island;
+    std::vector<std::uint8_t> seen = removed;
+    const auto visit = [&](VertexId v) {
+        for (const TriangleId t : surface.topology->triangles_at().row(v))
+            if (!std::exchange(seen[t], 1)) island.push_back(t);
+    };
+    for (const VertexId v : rim) visit(v);
+    for (std::size_t i = 0; i < island.size(); ++i)
+        for (const VertexId v : surface.triangles()[island[i]]) {
+            if (std::find(largest.begin(), largest.end(), v) != largest.end()) return std::nullopt;
+            visit(v);
+        }
+    return island;
+}
+
 /// Removes what hangs on the smaller rims only: islands in the hole. The one rim that is left.
 std::vector<VertexId> single_rim(const Surface& surface, std::vector<std::uint8_t>& removed) {
     for (int round = 0; round < 8; ++round) {
@@ -182,39 +203,19 @@ std::vector<VertexId> single_rim(const Surface& surface, std::vector<std::uint8_
             });
         for (auto rim = rims.begin(); rim != rims.end(); ++rim) {
             if (rim == largest) continue;
-            std::vector<TriangleId> open;
-            std::vector<TriangleId> island;
-            std::vector<std::uint8_t> seen(removed.begin(), removed.end());
-            const auto visit = [&](VertexId v) {
-                for (const TriangleId t : surface.topology->triangles_at().row(v))
-                    if (!std::exchange(seen[t], 1)) open.push_back(t);
-            };
-            for (const VertexId v : *rim) visit(v);
-            bool meets_largest = false;
-            while (!open.empty()) {
-                const TriangleId t = open.back();
-                open.pop_back();
-                island.push_back(t);
-                for (const VertexId v : surface.triangles()[t]) {
-                    if (std::find(largest->begin(), largest->end(), v) != largest->end())
-                        meets_largest = true;
-                    visit(v);
-                }
-                if (meets_largest) break;
-            }
-            if (meets_largest) return {};
-            for (const TriangleId t : island) removed[t] = 1;
+            const auto island = island_at(surface, *rim, *largest, removed);
+            if (!island) return {};
+            for (const TriangleId t : *island) removed[t] = 1;
         }
     }
     return {};
 }
 
 /// The tube as a chart if the rim lies round its side; coordinates (out, round, along).
-std::optional<HoleChart> chart_on(const VesselTube& tube, const Surface& surface,
-                                  const std::vector<VertexId>& rim, const Vec3& mouth) {
+std::optional<HoleChart> chart_on(const VesselTube& tube, const Positions& rim, const Vec3& mouth) {
     const double radius = tube.radius(tube.coordinates(mouth).along);
-    for (const VertexId v : rim) {
-        const auto at = tube.coordinates(surface.points()[v]);
+    for (const Vec3& x : rim) {
+        const auto at = tube.coordinates(x);
         if (std::abs(at.height) > kLargestHeight * radius || std::abs(at.angle) > kLargestAngle ||
             at.along < 0.05 * radius || at.along > tube.length() - 0.05 * radius)
             return std::nullopt;
@@ -234,41 +235,48 @@ double area_of(const Surface& surface, const std::vector<std::uint8_t>& chosen) 
     return sum;
 }
 
-}  // namespace
-
-BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph, std::size_t tip,
-                            const BranchRemovalParameters& parameters) {
-    const BranchRoot root = branch_root(graph, tip);
+/// The triangles of the branch, its fillet and a margin around them.
+/// \param margin in radii of the branch [-]
+/// \throw AlgorithmFailure if the branch does not stand out of its parent
+std::vector<std::uint8_t> triangles_to_remove(const Surface& surface, const BranchRoot& root,
+                                              const Vec3& tip, double margin) {
     const Foot foot(surface, root);
-    const Vec3 at = graph.nodes[tip].position;
-    auto vertices = foot.branch_vertices(at);
+    auto vertices = foot.branch_vertices(tip);
     if (vertices.empty())
-        throw AlgorithmFailure("the branch with its tip at " + place_text(at) +
+        throw AlgorithmFailure("the branch with its tip at " + place_text(tip) +
                                " does not stand out of its parent: there is nothing to remove");
     vertices = foot.with_fillet(std::move(vertices),
                                 kWidestFillet * std::min(root.branch_radius, root.parent_radius));
-    const auto chosen = foot.widened(vertices, std::min(parameters.margin * root.branch_radius,
-                                                        kWidestMargin * root.parent_radius));
+    const auto chosen = foot.widened(
+        vertices, std::min(margin * root.branch_radius, kWidestMargin * root.parent_radius));
     std::vector<std::uint8_t> removed(surface.triangle_count(), 0);
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const auto& [a, b, c] = surface.triangles()[t];
         removed[t] = chosen[a] || chosen[b] || chosen[c] ? 1 : 0;
     }
+    return removed;
+}
+
+}  // namespace
+
+BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph, std::size_t tip,
+                            const BranchRemovalParameters& parameters) {
+    const BranchRoot root = branch_root(graph, tip);
+    const Vec3 at = graph.nodes[tip].position;
+    auto removed = triangles_to_remove(surface, root, at, parameters.margin);
     const auto rim = single_rim(surface, removed);
     if (rim.size() < 3)
         throw AlgorithmFailure("the branch with its tip at " + place_text(at) +
                                " is as wide as the vessel it stands on: cut it there by "
                                "clip-opening instead");
     BranchRemoval result{.mouth = root.mouth, .removed_area = area_of(surface, removed)};
-    std::vector<VertexId> ids, loop;
-    const Surface holed = put_together(take_apart(surface), removed, &ids);
-    for (const VertexId v : rim) loop.push_back(ids[v]);
+    EditableSurface edited(surface);
+    edited.remove(removed);
     std::optional<HoleChart> chart;
-    if (root.parents.size() == 1) chart = chart_on(root.parents[0], holed, loop, root.mouth);
-    const FilledHole filled =
-        fill_hole(holed, loop, parameters.continuity, chart ? &*chart : nullptr);
-    result.surface = filled.surface;
-    result.new_triangles = filled.surface.triangle_count() - filled.first_new_triangle;
+    if (root.parents.size() == 1)
+        chart = chart_on(root.parents[0], edited.points_of(rim), root.mouth);
+    result.new_triangles = fill_rim(edited, rim, parameters.continuity, chart ? &*chart : nullptr);
+    result.surface = edited.to_surface();
     result.follows_parent = chart.has_value();
     return result;
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/repair/repair_mesh.h"
 #include "geometry/vessel/repair/sheets.h"
 #include "geometry/vessel/repair/slivers.h"
 #include "geometry/vessel/repair/soup.h"
@@ -31,7 +31,8 @@ void check_input(const Surface& surface) {
 }
 
 /// Manifold, one component, stray holes closed.
-void restore_manifold(RepairMesh& mesh, const RepairParameters& parameters, RepairReport& report) {
+void restore_manifold(TriangleSoup& mesh, const RepairParameters& parameters,
+                      RepairReport& report) {
     make_manifold(mesh, false, report);
     keep_largest_components(mesh, parameters.keep_components, report);
     face_outward(mesh, report);
@@ -42,13 +43,11 @@ void restore_manifold(RepairMesh& mesh, const RepairParameters& parameters, Repa
     make_manifold(mesh, true, report);
     keep_largest_components(mesh, parameters.keep_components, report);
     remove_degenerate_and_duplicate(mesh, report);
-    std::fill(mesh.cut.begin(), mesh.cut.end(), std::uint8_t{0});
-    constexpr int kMostPasses = 5;  // the mean edge grows a little each time
-    for (int pass = 0; pass < kMostPasses; ++pass)
-        if (!remove_slivers(mesh, parameters.smallest_feature * mean_side(mesh), report)) break;
+    std::fill(mesh.marks.begin(), mesh.marks.end(), std::uint8_t{0});
+    remove_slivers(mesh, parameters.smallest_feature, report);
 }
 
-void note_intersections(const RepairMesh& mesh, const std::vector<TrianglePair>& pairs,
+void note_intersections(const TriangleSoup& mesh, const std::vector<TrianglePair>& pairs,
                         RepairReport& report) {
     report.self_intersections = pairs.size();
     for (const auto& [a, b] : pairs)
@@ -56,7 +55,7 @@ void note_intersections(const RepairMesh& mesh, const std::vector<TrianglePair>&
             {RepairKind::SelfIntersection, centroid(mesh, mesh.triangles[a]), 0.0});
 }
 
-[[noreturn]] void fail_tangled(const RepairMesh& mesh, const std::vector<TrianglePair>& pairs) {
+[[noreturn]] void fail_tangled(const TriangleSoup& mesh, const std::vector<TrianglePair>& pairs) {
     throw AlgorithmFailure(
         std::to_string(pairs.size()) + " self-intersections could not be removed, one near " +
         place_text(centroid(mesh, mesh.triangles[pairs.front().first])) +
@@ -64,14 +63,8 @@ void note_intersections(const RepairMesh& mesh, const std::vector<TrianglePair>&
         "image");
 }
 
-double area_of(const RepairMesh& mesh) {
-    double sum = 0.0;
-    for (const Triangle& t : mesh.triangles) sum += triangle_area(mesh.points, t);
-    return sum;
-}
-
 /// Bodies that pass through each other fall apart when the place is cut out: never silently.
-void check_nothing_lost(const RepairMesh& mesh, double area_before, const Vec3& place) {
+void check_nothing_lost(const TriangleSoup& mesh, double area_before, const Vec3& place) {
     const double lost = 1.0 - area_of(mesh) / area_before;
     if (lost > kMostLost)
         throw AlgorithmFailure(
@@ -81,7 +74,7 @@ void check_nothing_lost(const RepairMesh& mesh, double area_before, const Vec3& 
             "image");
 }
 
-void untangle_all(RepairMesh& mesh, const RepairParameters& parameters, const Progress& progress,
+void untangle_all(TriangleSoup& mesh, const RepairParameters& parameters, const Progress& progress,
                   RepairReport& report) {
     const double area_before = area_of(mesh);
     auto pairs = self_intersections(mesh.points, mesh.triangles, progress.part(0.0, 0.5));
@@ -98,7 +91,7 @@ void untangle_all(RepairMesh& mesh, const RepairParameters& parameters, const Pr
     }
 }
 
-void check_result(const RepairMesh& mesh) {
+void check_result(const TriangleSoup& mesh) {
     const ManifoldDefects defects = manifold_defects(Topology(mesh.triangles, mesh.points.size()));
     if (defects.none()) return;
     const VertexId at = !defects.edges.empty()      ? defects.edges[0][0]
@@ -117,7 +110,7 @@ Repaired repair(const Surface& surface, const RepairParameters& parameters,
                 const Progress& progress) {
     check_input(surface);
     RepairReport report;
-    RepairMesh mesh = repair_mesh_from(surface);
+    TriangleSoup mesh = soup_from(surface);
     progress.report(0.0, "welding");
     weld(mesh, parameters.smallest_feature * mean_side(mesh), report);
     remove_degenerate_and_duplicate(mesh, report);
@@ -133,7 +126,7 @@ Repaired repair(const Surface& surface, const RepairParameters& parameters,
     check_result(mesh);
     progress.report(1.0, "repaired");
     if (!report.changed()) return {surface, std::move(report)};
-    return {surface_from(std::move(mesh), surface.patches), std::move(report)};
+    return {surface_from(std::move(mesh)), std::move(report)};
 }
 
 }  // namespace vesselbench

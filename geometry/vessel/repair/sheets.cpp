@@ -11,6 +11,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/repair/soup.h"
 
 namespace vesselbench {
 
@@ -31,12 +32,12 @@ struct Around {
     bool forward = false;  ///< runs from the edge's low to its high vertex
 };
 
-VertexId apex(const RepairMesh& mesh, std::uint32_t half_edge) {
+VertexId apex(const TriangleSoup& mesh, std::uint32_t half_edge) {
     return mesh.triangles[half_edge / 3][(half_edge % 3 + 2) % 3];
 }
 
 /// The half-edges of an edge by the angle of their triangles around it.
-std::vector<Around> sorted_around(const RepairMesh& mesh, const std::array<VertexId, 2>& edge,
+std::vector<Around> sorted_around(const TriangleSoup& mesh, const std::array<VertexId, 2>& edge,
                                   std::span<const std::uint32_t> half_edges) {
     const Vec3 origin = mesh.points[edge[0]];
     const Vec3 axis = (mesh.points[edge[1]] - origin).normalized();
@@ -83,7 +84,7 @@ struct Sheets {
     std::size_t crossings = 0;
 };
 
-Sheets sheets_of(const RepairMesh& mesh, RepairReport& report) {
+Sheets sheets_of(const TriangleSoup& mesh, RepairReport& report) {
     const EdgeTable table = edge_table(Topology(mesh.triangles, mesh.points.size()));
     Sheets sheets;
     sheets.mates.assign(3 * mesh.triangles.size(), kNone);
@@ -108,12 +109,12 @@ Sheets sheets_of(const RepairMesh& mesh, RepairReport& report) {
 }
 
 /// True if both triangles run the shared edge the same way.
-bool disagree(const RepairMesh& mesh, std::uint32_t h, std::uint32_t mate) {
+bool disagree(const TriangleSoup& mesh, std::uint32_t h, std::uint32_t mate) {
     return mesh.triangles[h / 3][h % 3] == mesh.triangles[mate / 3][mate % 3];
 }
 
 /// Which triangles to turn so that neighbours agree; each connected sheet turns as few as it can.
-std::vector<std::uint8_t> turns(const RepairMesh& mesh, const Mates& mates) {
+std::vector<std::uint8_t> turns(const TriangleSoup& mesh, const Mates& mates) {
     constexpr std::uint8_t kUnseen = 2;
     std::vector<std::uint8_t> turn(mesh.triangles.size(), kUnseen);
     std::vector<TriangleId> sheet;
@@ -137,7 +138,7 @@ std::vector<std::uint8_t> turns(const RepairMesh& mesh, const Mates& mates) {
 }
 
 /// Triangles at edges that still disagree after all turns: the sheet is one-sided there.
-std::vector<std::uint8_t> contradictions(const RepairMesh& mesh, const Mates& mates,
+std::vector<std::uint8_t> contradictions(const TriangleSoup& mesh, const Mates& mates,
                                          const std::vector<std::uint8_t>& turn) {
     std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
     for (std::uint32_t h = 0; h < mates.size(); ++h) {
@@ -149,7 +150,7 @@ std::vector<std::uint8_t> contradictions(const RepairMesh& mesh, const Mates& ma
 }
 
 /// Cuts out contradictory triangles. \return true if there were any
-bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marked,
+bool cut_contradictions(TriangleSoup& mesh, const std::vector<std::uint8_t>& marked,
                         RepairReport& report) {
     const auto count = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
     if (count == 0) return false;
@@ -158,7 +159,7 @@ bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marke
         if (marked[t]) {
             place = centroid(mesh, mesh.triangles[t]);
             report.places.push_back({RepairKind::Orientation, place, 0.0});
-            for (const VertexId v : mesh.triangles[t]) mesh.cut[v] = 1;
+            for (const VertexId v : mesh.triangles[t]) mesh.marks[v] = 1;
         }
     if (static_cast<double>(count) > kMostContradictions * static_cast<double>(marked.size()))
         throw AlgorithmFailure(
@@ -173,7 +174,7 @@ bool cut_contradictions(RepairMesh& mesh, const std::vector<std::uint8_t>& marke
 /// Corners of triangles joined along the sheets: each set at a vertex is one fan.
 class Fans {
 public:
-    Fans(const RepairMesh& mesh, const Mates& mates)
+    Fans(const TriangleSoup& mesh, const Mates& mates)
         : mesh_(mesh), sets_(3 * mesh.triangles.size()) {
         for (std::uint32_t h = 0; h < mates.size(); ++h) {
             if (mates[h] == kNone || mates[h] < h) continue;
@@ -190,12 +191,12 @@ private:
         return 3 * triangle + corner_of(mesh_.triangles[triangle], v);
     }
 
-    const RepairMesh& mesh_;
+    const TriangleSoup& mesh_;
     DisjointSets sets_;
 };
 
 /// Gives every fan but the first its own copy of the vertex.
-void part_fans(RepairMesh& mesh, const Sheets& sheets, bool part_rims, RepairReport& report) {
+void part_fans(TriangleSoup& mesh, const Sheets& sheets, bool part_rims, RepairReport& report) {
     Fans fans(mesh, sheets.mates);
     // A fan is open if one of its corners stands at an unmated half-edge.
     std::vector<std::uint8_t> open(3 * mesh.triangles.size(), 0);
@@ -230,7 +231,7 @@ void part_fans(RepairMesh& mesh, const Sheets& sheets, bool part_rims, RepairRep
 
 /// Sheets that are joined elsewhere at both ends of an edge cannot be parted there: their triangles
 /// at that edge are cut out. \return true if there were any
-bool cut_remaining_crossings(RepairMesh& mesh) {
+bool cut_remaining_crossings(TriangleSoup& mesh) {
     const EdgeTable table = edge_table(Topology(mesh.triangles, mesh.points.size()));
     std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
     bool any = false;
@@ -240,7 +241,7 @@ bool cut_remaining_crossings(RepairMesh& mesh) {
         any = true;
         for (const std::uint32_t h : row) {
             marked[h / 3] = 1;
-            for (const VertexId v : mesh.triangles[h / 3]) mesh.cut[v] = 1;
+            for (const VertexId v : mesh.triangles[h / 3]) mesh.marks[v] = 1;
         }
     }
     if (any) mesh.remove_triangles(marked);
@@ -249,7 +250,7 @@ bool cut_remaining_crossings(RepairMesh& mesh) {
 
 }  // namespace
 
-void make_manifold(RepairMesh& mesh, bool part_rims, RepairReport& report) {
+void make_manifold(TriangleSoup& mesh, bool part_rims, RepairReport& report) {
     constexpr int kMostCuts = 10;
     for (int cuts = 0; cuts < kMostCuts; ++cuts) {
         RepairReport found;  // counted once, from the last pass
@@ -274,7 +275,7 @@ void make_manifold(RepairMesh& mesh, bool part_rims, RepairReport& report) {
         "surface again, or rebuild it from its image");
 }
 
-void face_outward(RepairMesh& mesh, RepairReport& report) {
+void face_outward(TriangleSoup& mesh, RepairReport& report) {
     const Surface whole = make_surface(mesh.points, mesh.triangles);
     const Components parts = connected_components(*whole.topology);
     std::vector<std::uint8_t> inward(parts.count(), 0);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/vessel/repair/repair_mesh.h"
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/vessel/repair/repair_report.h"
 
 namespace vesselbench {
@@ -9,10 +9,10 @@ namespace vesselbench {
 /// neighbours agree. Vertices where only open rims meet stay whole unless `part_rims`: closing the
 /// holes beside them mends them better.
 /// \throw AlgorithmFailure if the surface cannot be oriented (a Moebius strip)
-void make_manifold(RepairMesh& mesh, bool part_rims, RepairReport& report);
+void make_manifold(TriangleSoup& mesh, bool part_rims, RepairReport& report);
 
 /// Turns the whole surface over if it faces inward (enclosed volume below 0, each component by
 /// itself).
-void face_outward(RepairMesh& mesh, RepairReport& report);
+void face_outward(TriangleSoup& mesh, RepairReport& report);
 
 }  // namespace vesselbench

@@ -1,13 +1,17 @@
 #include "geometry/vessel/repair/slivers.h"
 
 #include <algorithm>
-#include <optional>
+#include <array>
+
+#include "geometry/editing/editable_surface.h"
+#include "geometry/vessel/repair/soup.h"
 
 namespace vesselbench {
 
 namespace {
 
 constexpr int kMostPasses = 20;
+constexpr int kMostRounds = 5;  ///< the mean edge grows a little each time
 
 /// A turned normal beyond this cosine [-] spoils the surface; triangles that are slivers themselves
 /// have no say.
@@ -18,61 +22,64 @@ struct Shape {
     int short_side = 0, long_side = 0;    ///< side k runs from corner k to k + 1
 };
 
+using Corners = std::array<Vec3, 3>;
+
+Vec3 normal_of(const Corners& c) {
+    return (c[1] - c[0]).cross(c[2] - c[0]);
+}
+
+Shape shape_of(const Corners& corners) {
+    Shape shape;
+    double length[3];
+    for (int k = 0; k < 3; ++k) length[k] = (corners[(k + 1) % 3] - corners[k]).norm();
+    shape.short_side = static_cast<int>(std::min_element(length, length + 3) - length);
+    shape.long_side = static_cast<int>(std::max_element(length, length + 3) - length);
+    shape.shortest = length[shape.short_side];
+    const double longest = length[shape.long_side];
+    if (longest > 0.0) shape.height = normal_of(corners).norm() / longest;
+    return shape;
+}
+
+/// Works on what is manifold by now; a vertex' triangles and neighbours are the half-edges' matter.
 class SliverRemover {
 public:
-    SliverRemover(RepairMesh& mesh, double smallest, RepairReport& report)
-        : mesh_(mesh), smallest_(smallest), report_(report) {}
+    SliverRemover(EditableSurface& surface, double smallest, RepairReport& report)
+        : surface_(surface), smallest_(smallest), report_(report) {}
 
     bool run() {
         bool any = false;
         for (int pass = 0; pass < kMostPasses; ++pass) {
-            const std::vector<TriangleId> bad = find_bad();
-            if (bad.empty()) break;
-            if (pass == 0) prepare();
             bool changed = false;
-            for (const TriangleId t : bad)
-                if (!dead_[t]) changed = mend(t) || changed;
+            for (const TriangleId t : find_bad())
+                if (!surface_.is_removed(t)) changed = mend(t) || changed;
             any = any || changed;
             if (!changed) break;
         }
-        if (any) mesh_.remove_triangles(dead_);
         return any;
     }
 
 private:
     [[nodiscard]] Shape shape_of(const Triangle& t) const {
-        Shape shape;
-        double length[3];
-        for (int k = 0; k < 3; ++k)
-            length[k] = (mesh_.points[t[(k + 1) % 3]] - mesh_.points[t[k]]).norm();
-        shape.short_side = static_cast<int>(std::min_element(length, length + 3) - length);
-        shape.long_side = static_cast<int>(std::max_element(length, length + 3) - length);
-        shape.shortest = length[shape.short_side];
-        const double longest = length[shape.long_side];
-        if (longest > 0.0) shape.height = area_normal(mesh_.points, t).norm() / longest;
-        return shape;
+        return vesselbench::shape_of(corners_of(t));
+    }
+
+    [[nodiscard]] Corners corners_of(const Triangle& t) const {
+        return {surface_.point(t[0]), surface_.point(t[1]), surface_.point(t[2])};
     }
 
     [[nodiscard]] bool is_sliver(const Triangle& t) const { return shape_of(t).height < smallest_; }
 
     [[nodiscard]] std::vector<TriangleId> find_bad() const {
         std::vector<TriangleId> bad;
-        for (TriangleId t = 0; t < mesh_.triangles.size(); ++t)
-            if ((dead_.empty() || !dead_[t]) && is_sliver(mesh_.triangles[t])) bad.push_back(t);
+        for (TriangleId t = 0; t < surface_.triangle_count(); ++t)
+            if (!surface_.is_removed(t) && is_sliver(surface_.triangle(t))) bad.push_back(t);
         return bad;
     }
 
-    void prepare() {
-        dead_.assign(mesh_.triangles.size(), 0);
-        at_.resize(mesh_.points.size());
-        for (TriangleId t = 0; t < mesh_.triangles.size(); ++t)
-            for (const VertexId v : mesh_.triangles[t]) at_[v].push_back(t);
-    }
-
     bool mend(TriangleId t) {
-        const Shape shape = shape_of(mesh_.triangles[t]);
+        const Triangle corners = surface_.triangle(t);
+        const Shape shape = shape_of(corners);
         if (shape.height >= smallest_) return false;
-        const Triangle& corners = mesh_.triangles[t];
         if (shape.shortest < smallest_) {
             const VertexId a = corners[shape.short_side], b = corners[(shape.short_side + 1) % 3];
             if (collapse(a, b)) return true;
@@ -80,31 +87,11 @@ private:
         return flip(t, shape.long_side);
     }
 
-    [[nodiscard]] std::vector<TriangleId> triangles_on(VertexId a, VertexId b) const {
-        std::vector<TriangleId> found;
-        for (const TriangleId t : at_[a])
-            for (const VertexId v : mesh_.triangles[t])
-                if (v == b) found.push_back(t);
-        return found;
-    }
-
-    [[nodiscard]] std::vector<VertexId> ring(VertexId v) const {
-        std::vector<VertexId> around;
-        for (const TriangleId t : at_[v])
-            for (const VertexId u : mesh_.triangles[t])
-                if (u != v) around.push_back(u);
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
-        return around;
-    }
-
-    [[nodiscard]] bool on_rim(VertexId v) const { return ring(v).size() != at_[v].size(); }
-
     /// 0: inside of a patch; 1: between two patches; 2: where three meet; 3: on an open rim.
     [[nodiscard]] int rank(VertexId v) const {
-        if (on_rim(v)) return 3;
+        if (surface_.on_rim(v)) return 3;
         std::vector<std::uint16_t> labels;
-        for (const TriangleId t : at_[v]) labels.push_back(mesh_.labels[t]);
+        for (const TriangleId t : surface_.triangles_at(v)) labels.push_back(surface_.label(t));
         std::sort(labels.begin(), labels.end());
         labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
         return std::min<int>(static_cast<int>(labels.size()) - 1, 2);
@@ -115,33 +102,16 @@ private:
         const int rank_a = rank(a), rank_b = rank(b);
         const bool keep_a = rank_a > rank_b || (rank_a == rank_b && a < b);
         const VertexId keep = keep_a ? a : b, gone = keep_a ? b : a;
-        const auto shared = triangles_on(a, b);
-        if (!may_collapse(keep, gone, shared)) return false;
-        for (const TriangleId t : shared) remove(t);
-        for (const TriangleId t : at_[gone]) {
-            for (VertexId& v : mesh_.triangles[t])
-                if (v == gone) v = keep;
-            at_[keep].push_back(t);
-        }
-        at_[gone].clear();
+        if (!may_collapse(keep, gone) || !surface_.collapse(gone, keep)) return false;
         ++report_.collapsed_edges;
-        report_.places.push_back({RepairKind::ShortEdge, mesh_.points[keep], 0.0});
+        report_.places.push_back({RepairKind::ShortEdge, surface_.point(keep), 0.0});
         return true;
     }
 
-    [[nodiscard]] bool may_collapse(VertexId keep, VertexId gone,
-                                    const std::vector<TriangleId>& shared) const {
-        if (shared.empty() || shared.size() > 2) return false;
-        // Link condition: the only common neighbours stand opposite of the edge.
-        const auto mine = ring(keep), theirs = ring(gone);
-        std::vector<VertexId> common;
-        std::set_intersection(mine.begin(), mine.end(), theirs.begin(), theirs.end(),
-                              std::back_inserter(common));
-        if (common.size() != shared.size() || mine.size() <= 3 || theirs.size() <= 3) return false;
-        const bool inner_edge = shared.size() == 2;
-        if (inner_edge && on_rim(keep) && on_rim(gone)) return false;
-        for (const TriangleId t : at_[gone]) {
-            const Triangle& before = mesh_.triangles[t];
+    [[nodiscard]] bool may_collapse(VertexId keep, VertexId gone) const {
+        if (surface_.ring(keep).size() <= 3 || surface_.ring(gone).size() <= 3) return false;
+        for (const TriangleId t : surface_.triangles_at(gone)) {
+            const Triangle before = surface_.triangle(t);
             if (std::find(before.begin(), before.end(), keep) != before.end()) continue;
             Triangle after = before;
             for (VertexId& v : after)
@@ -152,66 +122,79 @@ private:
     }
 
     [[nodiscard]] bool turns_over(const Triangle& before, const Triangle& after) const {
-        const Vec3 n = area_normal(mesh_.points, before), m = area_normal(mesh_.points, after);
+        const Vec3 n = normal_of(corners_of(before)), m = normal_of(corners_of(after));
         return !(n.dot(m) > kLeastCosine * n.norm() * m.norm());
     }
 
     /// Swaps the longest side of a cap; on an open rim the cap itself goes.
     bool flip(TriangleId t, int long_side) {
-        const Triangle cap = mesh_.triangles[t];
+        const Triangle cap = surface_.triangle(t);
         const VertexId a = cap[long_side], b = cap[(long_side + 1) % 3],
                        c = cap[(long_side + 2) % 3];
-        const auto shared = triangles_on(a, b);
-        if (shared.size() == 1) {
-            if (on_rim(c) || at_[a].size() < 2 || at_[b].size() < 2) return false;
-            remove(t);
-            ++report_.degenerate_triangles;
-            return true;
-        }
-        if (shared.size() != 2) return false;
-        const TriangleId other = shared[0] == t ? shared[1] : shared[0];
-        const Triangle& wing = mesh_.triangles[other];
+        const auto beyond = surface_.across(t, long_side);
+        if (beyond.empty()) return remove_at_rim(t, a, b, c);
+        if (beyond.size() > 1) return false;
+        const Triangle wing = surface_.triangle(beyond[0]);
         VertexId d = c;
         for (const VertexId v : wing)
             if (v != a && v != b) d = v;
-        if (d == c || !triangles_on(c, d).empty()) return false;
         const Triangle first = {c, a, d}, second = {c, d, b};
         if (!is_sliver(wing) && (turns_over(wing, first) || turns_over(wing, second))) return false;
         if (std::min(shape_of(first).height, shape_of(second).height) <=
             std::min(shape_of(cap).height, shape_of(wing).height))
             return false;
-        const std::uint16_t label = mesh_.labels[other];
-        remove(t);
-        remove(other);
-        place(t, first, label);
-        place(other, second, label);
+        if (!surface_.flip(t, long_side)) return false;
+        surface_.set_label(t, surface_.label(beyond[0]));
         ++report_.flipped_edges;
         return true;
     }
 
-    void remove(TriangleId t) {
-        for (const VertexId v : mesh_.triangles[t]) std::erase(at_[v], t);
-        dead_[t] = 1;
+    /// The cap a, b, c has its longest side a-b on an open rim.
+    bool remove_at_rim(TriangleId t, VertexId a, VertexId b, VertexId c) {
+        if (surface_.on_rim(c) || surface_.triangles_at(a).size() < 2 ||
+            surface_.triangles_at(b).size() < 2)
+            return false;
+        surface_.remove(t);
+        ++report_.degenerate_triangles;
+        return true;
     }
 
-    void place(TriangleId t, const Triangle& triangle, std::uint16_t label) {
-        mesh_.triangles[t] = triangle;
-        mesh_.labels[t] = label;
-        dead_[t] = 0;
-        for (const VertexId v : triangle) at_[v].push_back(t);
-    }
-
-    RepairMesh& mesh_;
+    EditableSurface& surface_;
     double smallest_;
     RepairReport& report_;
-    std::vector<std::uint8_t> dead_;
-    std::vector<std::vector<TriangleId>> at_;
 };
+
+bool has_sliver(const TriangleSoup& soup, double smallest) {
+    return std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const Triangle& t) {
+        return shape_of({soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]}).height <
+               smallest;
+    });
+}
+
+double mean_side(const EditableSurface& surface) {
+    double sum = 0.0, count = 0.0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        if (surface.is_removed(t)) continue;
+        const Triangle c = surface.triangle(t);
+        for (int k = 0; k < 3; ++k)
+            sum += (surface.point(c[k]) - surface.point(c[(k + 1) % 3])).norm();
+        count += 3.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
 
 }  // namespace
 
-bool remove_slivers(RepairMesh& mesh, double smallest, RepairReport& report) {
-    return SliverRemover(mesh, smallest, report).run();
+void remove_slivers(TriangleSoup& soup, double smallest_feature, RepairReport& report) {
+    if (!has_sliver(soup, smallest_feature * mean_side(soup))) return;
+    EditableSurface surface(soup);
+    bool changed = false;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const double smallest = smallest_feature * mean_side(surface);
+        if (!SliverRemover(surface, smallest, report).run()) break;
+        changed = true;
+    }
+    if (changed) soup = surface.to_soup();
 }
 
 }  // namespace vesselbench

@@ -22,7 +22,7 @@ bool names_vertex_twice(const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-std::size_t weld_equal_points(RepairMesh& mesh) {
+std::size_t weld_equal_points(TriangleSoup& mesh) {
     PointWelder welder(mesh.points.size());
     std::vector<VertexId> first, target(mesh.points.size());
     std::size_t welded = 0;
@@ -39,7 +39,7 @@ std::size_t weld_equal_points(RepairMesh& mesh) {
 }
 
 /// Rim points near each other, found by sorting along x: rims are small.
-std::size_t weld_rims(RepairMesh& mesh, double tolerance) {
+std::size_t weld_rims(TriangleSoup& mesh, double tolerance) {
     const Topology topology(mesh.triangles, mesh.points.size());
     const auto& boundary = topology.boundary_vertices();
     std::vector<VertexId> rim;
@@ -65,14 +65,62 @@ std::size_t weld_rims(RepairMesh& mesh, double tolerance) {
     return welded;
 }
 
+/// A connected component.
+struct Part {
+    double area = 0.0;           ///< [mm^2]
+    Vec3 centre = Vec3::Zero();  ///< weighted by area [mm^3]
+    std::size_t number = 0;
+};
+
+/// The largest first.
+std::vector<Part> parts_by_area(const TriangleSoup& mesh, const Components& parts) {
+    std::vector<Part> order(parts.count());
+    for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+        const double its = triangle_area(mesh.points, mesh.triangles[t]);
+        Part& part = order[parts.of_triangle[t]];
+        part.area += its;
+        part.centre += its * centroid(mesh, mesh.triangles[t]);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) order[i].number = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Part& a, const Part& b) { return a.area > b.area; });
+    return order;
+}
+
+void check_main_part(const std::vector<Part>& order, double whole) {
+    if (order[0].area >= kSmallestMainPart * whole) return;
+    throw AlgorithmFailure(
+        "the triangles fall into " + std::to_string(order.size()) +
+        " unconnected pieces, the largest of which has only " +
+        std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
+        " % of the area: this is no connected surface; export it again with shared points");
+}
+
 }  // namespace
 
-void weld(RepairMesh& mesh, double tolerance, RepairReport& report) {
+double mean_side(const TriangleSoup& mesh) {
+    double sum = 0.0;
+    for (const Triangle& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k) sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
+    return mesh.triangles.empty() ? 0.0 : sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+}
+
+double area_of(const TriangleSoup& mesh) {
+    double sum = 0.0;
+    for (const Triangle& t : mesh.triangles) sum += triangle_area(mesh.points, t);
+    return sum;
+}
+
+Vec3 centroid(const TriangleSoup& mesh, const Triangle& triangle) {
+    return (mesh.points[triangle[0]] + mesh.points[triangle[1]] + mesh.points[triangle[2]]) / 3.0;
+}
+
+void weld(TriangleSoup& mesh, double tolerance, RepairReport& report) {
     report.welded_vertices += weld_equal_points(mesh);
     report.welded_vertices += weld_rims(mesh, tolerance);
 }
 
-void remove_degenerate_and_duplicate(RepairMesh& mesh, RepairReport& report) {
+void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report) {
     struct Key {
         Triangle sorted;
         TriangleId triangle;
@@ -106,34 +154,11 @@ void remove_degenerate_and_duplicate(RepairMesh& mesh, RepairReport& report) {
     mesh.remove_triangles(marked);
 }
 
-void keep_largest_components(RepairMesh& mesh, std::size_t count, RepairReport& report) {
+void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report) {
     const Components parts = connected_components(Topology(mesh.triangles, mesh.points.size()));
     if (parts.count() <= 1) return;
-
-    struct Part {
-        double area = 0.0;
-        Vec3 centre = Vec3::Zero();
-        std::size_t number = 0;
-    };
-
-    std::vector<Part> order(parts.count());
-    double whole = 0.0;
-    for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
-        const double its = triangle_area(mesh.points, mesh.triangles[t]);
-        Part& part = order[parts.of_triangle[t]];
-        part.area += its;
-        part.centre += its * centroid(mesh, mesh.triangles[t]);
-        whole += its;
-    }
-    for (std::size_t i = 0; i < order.size(); ++i) order[i].number = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [](const Part& a, const Part& b) { return a.area > b.area; });
-    if (order[0].area < kSmallestMainPart * whole)
-        throw AlgorithmFailure(
-            "the triangles fall into " + std::to_string(parts.count()) +
-            " unconnected pieces, the largest of which has only " +
-            std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
-            " % of the area: this is no connected surface; export it again with shared points");
+    const std::vector<Part> order = parts_by_area(mesh, parts);
+    check_main_part(order, area_of(mesh));
     std::vector<std::uint8_t> drop(parts.count(), 0);
     for (std::size_t i = count; i < order.size(); ++i) {
         drop[order[i].number] = 1;

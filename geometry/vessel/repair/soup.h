@@ -1,20 +1,29 @@
 #pragma once
 
-#include "geometry/vessel/repair/repair_mesh.h"
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/vessel/repair/repair_report.h"
 
 namespace vesselbench {
 
+// The soup's marks: 1 at the rim of what repair itself cut out.
+
+/// Mean edge length over all triangle sides [mm].
+[[nodiscard]] double mean_side(const TriangleSoup& mesh);
+
+[[nodiscard]] double area_of(const TriangleSoup& mesh);  ///< [mm^2]
+
+[[nodiscard]] Vec3 centroid(const TriangleSoup& mesh, const Triangle& triangle);
+
 /// Makes equal points one, and rim points that lie within `tolerance` [mm] of each other.
-void weld(RepairMesh& mesh, double tolerance, RepairReport& report);
+void weld(TriangleSoup& mesh, double tolerance, RepairReport& report);
 
 /// Removes triangles that name a vertex twice, and all but the first of those with the same three
 /// vertices.
-void remove_degenerate_and_duplicate(RepairMesh& mesh, RepairReport& report);
+void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report);
 
 /// Keeps the `count` components of largest area.
 /// \throw AlgorithmFailure if the largest one is only a small part of everything: scattered
 ///        triangles are no surface
-void keep_largest_components(RepairMesh& mesh, std::size_t count, RepairReport& report);
+void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report);
 
 }  // namespace vesselbench

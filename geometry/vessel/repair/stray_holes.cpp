@@ -6,8 +6,9 @@
 #include <map>
 #include <numbers>
 
+#include "geometry/editing/hole_patch.h"
 #include "geometry/kernel/surface_distance.h"
-#include "geometry/vessel/repair/hole_patch.h"
+#include "geometry/vessel/repair/soup.h"
 
 namespace vesselbench {
 
@@ -27,13 +28,13 @@ constexpr double kCutRound = 0.85;
 /// Rings of triangles around a hole that lead the bending of its patch.
 constexpr int kRings = 3;
 
-double cut_part(const RepairMesh& mesh, const std::vector<VertexId>& loop) {
+double cut_part(const TriangleSoup& mesh, const std::vector<VertexId>& loop) {
     std::size_t cut = 0;
-    for (const VertexId v : loop) cut += mesh.cut[v];
+    for (const VertexId v : loop) cut += mesh.marks[v];
     return static_cast<double>(cut) / static_cast<double>(loop.size());
 }
 
-OpenLoop shape_of(const RepairMesh& mesh, std::vector<VertexId> vertices) {
+OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     OpenLoop loop;
     loop.vertices = std::move(vertices);
     const std::size_t n = loop.vertices.size();
@@ -60,7 +61,7 @@ OpenLoop shape_of(const RepairMesh& mesh, std::vector<VertexId> vertices) {
 }
 
 /// Half the distance from the inner side of the wall beside the rim to what lies opposite.
-double lumen_radius(const RepairMesh& mesh, const SurfaceDistance& distance,
+double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
                     const std::vector<TriangleId>& rim_triangles) {
     std::vector<double> widths;
     for (const TriangleId t : rim_triangles) {
@@ -78,29 +79,8 @@ double lumen_radius(const RepairMesh& mesh, const SurfaceDistance& distance,
     return 0.5 * *middle;
 }
 
-/// Triangles within some rings of the loop's vertices, ascending.
-std::vector<Triangle> triangles_around(const RepairMesh& mesh, const Topology& topology,
-                                       const std::vector<VertexId>& loop) {
-    std::vector<VertexId> front = loop;
-    std::vector<TriangleId> found;
-    for (int ring = 0; ring < kRings; ++ring) {
-        for (const VertexId v : front)
-            for (const TriangleId t : topology.triangles_at().row(v)) found.push_back(t);
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
-        front.clear();
-        for (const TriangleId t : found)
-            front.insert(front.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-        std::sort(front.begin(), front.end());
-        front.erase(std::unique(front.begin(), front.end()), front.end());
-    }
-    std::vector<Triangle> triangles;
-    for (const TriangleId t : found) triangles.push_back(mesh.triangles[t]);
-    return triangles;
-}
-
 /// The patch label that most rim triangles have.
-std::uint16_t label_around(const RepairMesh& mesh, const Topology& topology,
+std::uint16_t label_around(const TriangleSoup& mesh, const Topology& topology,
                            const std::vector<VertexId>& loop) {
     std::map<std::uint16_t, int> votes;
     for (const VertexId v : loop)
@@ -111,14 +91,30 @@ std::uint16_t label_around(const RepairMesh& mesh, const Topology& topology,
     return most == votes.end() ? std::uint16_t{0} : most->first;
 }
 
-void close_loop(RepairMesh& mesh, const Topology& topology, const std::vector<VertexId>& loop) {
-    const HolePatch patch =
-        fill_hole_smoothly(mesh.points, triangles_around(mesh, topology, loop), loop);
+Hole hole_in(const TriangleSoup& mesh, const Topology& topology,
+             const std::vector<VertexId>& loop) {
+    Hole hole{.loop = loop,
+              .around = {},
+              .point = [&mesh](VertexId v) { return mesh.points[v]; },
+              .first_new = static_cast<VertexId>(mesh.points.size())};
+    const auto at = [&](VertexId v) {
+        const auto row = topology.triangles_at().row(v);
+        return std::vector<TriangleId>(row.begin(), row.end());
+    };
+    const auto corners = [&](TriangleId t) { return mesh.triangles[t]; };
+    for (const TriangleId t : triangles_around(loop, kRings, at, corners))
+        hole.around.push_back(mesh.triangles[t]);
+    return hole;
+}
+
+void close_loop(TriangleSoup& mesh, const Topology& topology, const std::vector<VertexId>& loop) {
+    const Hole hole = hole_in(mesh, topology, loop);
+    HolePatch patch =
+        loop.size() <= 3 ? fill_plainly(hole) : fill_smoothly(hole, 1, PatchOrder::AsReported);
+    if (patch.result != HolePatch::Result::Filled) patch = fill_plainly(hole);
     const std::uint16_t label = label_around(mesh, topology, loop);
-    std::vector<VertexId> number = loop;
-    for (const Vec3& p : patch.points) number.push_back(mesh.add_vertex(p, loop));
-    for (const Triangle& t : patch.triangles)
-        mesh.add_triangle({number[t[0]], number[t[1]], number[t[2]]}, label);
+    for (const Vec3& p : patch.points) mesh.add_vertex_between(p, loop);
+    for (const Triangle& t : patch.triangles) mesh.add_triangle(t, label);
 }
 
 bool stays_open(const OpenLoop& loop, const RepairParameters& parameters) {
@@ -129,7 +125,7 @@ bool stays_open(const OpenLoop& loop, const RepairParameters& parameters) {
 
 }  // namespace
 
-std::vector<OpenLoop> open_loops(const RepairMesh& mesh) {
+std::vector<OpenLoop> open_loops(const TriangleSoup& mesh) {
     const Topology topology(mesh.triangles, mesh.points.size());
     std::vector<OpenLoop> loops;
     for (auto& vertices : topology.boundary_loops())
@@ -157,7 +153,8 @@ bool is_vessel_end(const OpenLoop& loop) {
     return loop.roundness > kLeastRound && loop.radius > kWideAsLumen * loop.lumen_radius;
 }
 
-bool close_stray_holes(RepairMesh& mesh, const RepairParameters& parameters, RepairReport& report) {
+bool close_stray_holes(TriangleSoup& mesh, const RepairParameters& parameters,
+                       RepairReport& report) {
     const Topology topology(mesh.triangles, mesh.points.size());
     report.openings.clear();
     double largest_closed = 0.0, smallest_kept = std::numeric_limits<double>::infinity();

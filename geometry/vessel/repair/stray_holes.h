@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/vessel/repair/repair_mesh.h"
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/vessel/repair/repair_parameters.h"
 #include "geometry/vessel/repair/repair_report.h"
 
@@ -18,13 +18,14 @@ struct OpenLoop {
 };
 
 /// The loops of a manifold surface. Loops cut by repair get no lumen radius.
-[[nodiscard]] std::vector<OpenLoop> open_loops(const RepairMesh& mesh);
+[[nodiscard]] std::vector<OpenLoop> open_loops(const TriangleSoup& mesh);
 
 /// True for a vessel's end: about as wide as the lumen behind it, or a flat round cut.
 [[nodiscard]] bool is_vessel_end(const OpenLoop& loop);
 
 /// Closes the stray holes, and all loops that repair cut itself. Fills `report.openings`.
 /// \return true if something was closed
-bool close_stray_holes(RepairMesh& mesh, const RepairParameters& parameters, RepairReport& report);
+bool close_stray_holes(TriangleSoup& mesh, const RepairParameters& parameters,
+                       RepairReport& report);
 
 }  // namespace vesselbench

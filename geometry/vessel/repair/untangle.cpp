@@ -13,7 +13,7 @@ constexpr int kSmoothingSteps = 5;
 constexpr double kStep = 0.5;  ///< of the way to the mean of the neighbours [-]
 
 /// Marks the triangles of the pairs and `rings` rings of triangles around them.
-std::vector<std::uint8_t> marked_around(const RepairMesh& mesh, const Topology& topology,
+std::vector<std::uint8_t> marked_around(const TriangleSoup& mesh, const Topology& topology,
                                         const std::vector<TrianglePair>& pairs, int rings) {
     std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
     std::vector<TriangleId> front;
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> marked_around(const RepairMesh& mesh, const Topology& 
     return marked;
 }
 
-void smooth(RepairMesh& mesh, const Topology& topology, const std::vector<std::uint8_t>& marked,
+void smooth(TriangleSoup& mesh, const Topology& topology, const std::vector<std::uint8_t>& marked,
             RepairReport& report) {
     std::vector<VertexId> moving;
     for (TriangleId t = 0; t < marked.size(); ++t)
@@ -57,10 +57,10 @@ void smooth(RepairMesh& mesh, const Topology& topology, const std::vector<std::u
     report.smoothed_vertices += moving.size();
 }
 
-void cut_out(RepairMesh& mesh, const std::vector<std::uint8_t>& marked, RepairReport& report) {
+void cut_out(TriangleSoup& mesh, const std::vector<std::uint8_t>& marked, RepairReport& report) {
     for (TriangleId t = 0; t < marked.size(); ++t)
         if (marked[t]) {
-            for (const VertexId v : mesh.triangles[t]) mesh.cut[v] = 1;
+            for (const VertexId v : mesh.triangles[t]) mesh.marks[v] = 1;
             ++report.refilled_triangles;
         }
     mesh.remove_triangles(marked);
@@ -71,7 +71,7 @@ BoxTree::Box inflated(const BoxTree::Box& box) {
     return {Vec3(box.min() - margin), Vec3(box.max() + margin)};
 }
 
-Regions regions_of(const RepairMesh& mesh, const std::vector<std::uint8_t>& marked) {
+Regions regions_of(const TriangleSoup& mesh, const std::vector<std::uint8_t>& marked) {
     Regions regions;
     for (TriangleId t = 0; t < marked.size(); ++t) {
         if (!marked[t]) continue;
@@ -84,7 +84,7 @@ Regions regions_of(const RepairMesh& mesh, const std::vector<std::uint8_t>& mark
 
 }  // namespace
 
-std::vector<TrianglePair> self_intersections_in(const RepairMesh& mesh, const Regions& regions,
+std::vector<TrianglePair> self_intersections_in(const TriangleSoup& mesh, const Regions& regions,
                                                 const Progress& progress) {
     if (regions.empty()) return {};
     const BoxTree tree(regions);
@@ -108,7 +108,7 @@ std::vector<TrianglePair> self_intersections_in(const RepairMesh& mesh, const Re
     return pairs;
 }
 
-Regions untangle(RepairMesh& mesh, const std::vector<TrianglePair>& pairs, int attempt,
+Regions untangle(TriangleSoup& mesh, const std::vector<TrianglePair>& pairs, int attempt,
                  RepairReport& report) {
     const Topology topology(mesh.triangles, mesh.points.size());
     const bool smoothing = attempt < kSmoothingAttempts;

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "geometry/editing/triangle_soup.h"
 #include "geometry/kernel/box_tree.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/self_intersections.h"
-#include "geometry/vessel/repair/repair_mesh.h"
 #include "geometry/vessel/repair/repair_report.h"
 
 namespace vesselbench {
@@ -12,7 +12,7 @@ namespace vesselbench {
 using Regions = std::vector<BoxTree::Box>;
 
 /// Self-intersecting pairs among the triangles that touch one of the regions.
-[[nodiscard]] std::vector<TrianglePair> self_intersections_in(const RepairMesh& mesh,
+[[nodiscard]] std::vector<TrianglePair> self_intersections_in(const TriangleSoup& mesh,
                                                               const Regions& regions,
                                                               const Progress& progress);
 
@@ -20,7 +20,7 @@ using Regions = std::vector<BoxTree::Box>;
 /// the vertices around, later ones cut the triangles out, each time a ring more; the rims are
 /// marked as cut, to be closed again.
 /// \return the regions changed
-[[nodiscard]] Regions untangle(RepairMesh& mesh, const std::vector<TrianglePair>& pairs,
+[[nodiscard]] Regions untangle(TriangleSoup& mesh, const std::vector<TrianglePair>& pairs,
                                int attempt, RepairReport& report);
 
 /// The attempts that are worth making.

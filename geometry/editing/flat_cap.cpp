@@ -1,4 +1,4 @@
-#include "geometry/vessel/openings/flat_cap.h"
+#include "geometry/editing/flat_cap.h"
 
 #include <cmath>
 #include <cstdint>
