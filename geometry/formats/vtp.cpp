@@ -20,6 +20,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "geometry/formats/whole_file.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {

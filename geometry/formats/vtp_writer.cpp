@@ -1,8 +1,8 @@
 #include <cstdint>
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/formats/vtk_xml.h"
 #include "geometry/formats/vtp.h"
+#include "geometry/formats/whole_file.h"
 
 namespace vesselbench {
 

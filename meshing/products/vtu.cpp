@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/formats/vtk_xml.h"
+#include "geometry/formats/whole_file.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -36,7 +36,7 @@ VtkCells cells_of(const VolumeMesh& mesh) {
 
 }  // namespace
 
-void write_vtu(const VolumeMesh& mesh, const std::filesystem::path& path) {
+void write_vtu(const VolumeMesh& mesh, const std::string& path) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("VTU: the volume mesh has no cells");
     const VtkCells cells = cells_of(mesh);
     std::vector<std::string> names;
@@ -60,7 +60,7 @@ void write_vtu(const VolumeMesh& mesh, const std::filesystem::path& path) {
     xml.array("offsets", "Int64", 1, cells.offsets);
     xml.array("types", "UInt8", 1, cells.types);
     xml.tag("</Cells>\n</Piece>\n</UnstructuredGrid>");
-    write_file(path.string(), [&](std::ostream& out) { xml.write(out); });
+    write_file(path, [&](std::ostream& out) { xml.write(out); });
 }
 
 }  // namespace vesselbench

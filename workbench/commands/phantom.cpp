@@ -16,11 +16,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Names of the files in the folder; their suffixes choose the formats.
+constexpr const char *kImage = "image.nii.gz", *kMask = "mask.nii.gz", *kExact = "exact.vtp",
+                     *kNoisy = "noisy.vtp", *kNeighbour = "neighbour.vtp";
+
 /// A case description, so that the folder is an INPUT of its own. It uses the mask only where an
 /// expert had to part vessels that blend in the image; elsewhere the intensities are more accurate.
 std::string case_text(const PhantomDescription& description) {
-    Json json = {{"name", description.name}, {"image", "image.nii.gz"}, {"exact", "exact.vtp"}};
-    if (!description.imaging.kept_apart.empty()) json["mask"] = "mask.nii.gz";
+    Json json = {{"name", description.name}, {"image", kImage}, {"exact", kExact}};
+    if (!description.imaging.kept_apart.empty()) json["mask"] = kMask;
     return json.dump(2) + "\n";
 }
 
@@ -34,18 +38,17 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     const std::filesystem::path out = options.out;
     make_folder(out);
     PendingFiles files;
-    write_image(files.add(out / "image.nii.gz").string(), phantom.image);
-    write_image(files.add(out / "mask.nii.gz").string(), phantom.mask);
-    write_surface(phantom.exact, files.add(out / "exact.vtp").string());
-    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / "noisy.vtp").string());
-    if (phantom.neighbour)
-        write_surface(*phantom.neighbour, files.add(out / "neighbour.vtp").string());
+    write_image(files.add(out / kImage).string(), phantom.image);
+    write_image(files.add(out / kMask).string(), phantom.mask);
+    write_surface(phantom.exact, files.add(out / kExact).string());
+    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / kNoisy).string());
+    if (phantom.neighbour) write_surface(*phantom.neighbour, files.add(out / kNeighbour).string());
     files.add_text(out / "case.json", case_text(description));
     progress.check_cancelled();
     files.commit();
-    std::cout << description.name << ": image.nii.gz, mask.nii.gz"
-              << (phantom.neighbour ? ", neighbour.vtp" : "") << " and exact.vtp are in "
-              << options.out << "\n'vesselbench prepare " << options.out
+    std::cout << description.name << ": " << kImage << ", " << kMask
+              << (phantom.neighbour ? std::string(", ") + kNeighbour : "") << " and " << kExact
+              << " are in " << options.out << "\n'vesselbench prepare " << options.out
               << " --for cfd --out RESULT' takes the folder as it is.\n";
 }
 

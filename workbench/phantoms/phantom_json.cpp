@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/formats/pending_files.h"
+#include "geometry/formats/whole_file.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/case/near_names.h"
 #include "workbench/phantoms/builtin.h"
@@ -208,7 +208,7 @@ std::vector<std::string> phantom_names() {
 }
 
 PhantomDescription phantom_named(const std::string& name) {
-    if (name.ends_with(".json")) return phantom_from_json(read_text_file(name));
+    if (name.ends_with(".json")) return phantom_from_json(file_content(name));
     return builtin_phantom(name);
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/pending_files.h"
+#include "geometry/formats/whole_file.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/export/products.h"
@@ -62,7 +63,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
     if (!options.recipe.empty()) {
         const std::string name = fs::path(options.recipe).filename().string();
         try {
-            return Json::parse(read_text_file(options.recipe));
+            return Json::parse(file_content(options.recipe));
         } catch (const nlohmann::json::exception& error) {
             throw UsageError("recipe '" + name + "' is no JSON: " + error.what());
         }
