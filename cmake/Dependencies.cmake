@@ -12,12 +12,18 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(SQLite3 REQUIRED)
 find_package(zstd CONFIG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(PNG REQUIRED)
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Catch2 2 CONFIG REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS EGL)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
+
+# stb is headers only, on the compiler's own path; the font of labels is embedded.
+find_path(STB_INCLUDE_DIR stb/stb_truetype.h REQUIRED)
+find_file(LABEL_FONT DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu REQUIRED)
 
 # xxHash is used from its header only (content_key.cpp), and has no CMake configuration.
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)

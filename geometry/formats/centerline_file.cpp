@@ -16,8 +16,8 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 
 namespace vesselbench {
@@ -171,11 +171,22 @@ void find_nodes(vtkPolyData* data, CenterlineGraph& graph) {
 
 }  // namespace
 
+const Format& centerline_format() {
+    static const Format row = {.name = "VTP",
+                               .kind = FormatKind::Centerlines,
+                               .suffixes = {".vtp"},
+                               .content = "a polyline per branch, with radii"};
+    return row;
+}
+
+void check_centerline_name(const std::string& path) {
+    if (is_named_for_writing(centerline_format(), path)) return;
+    throw UsageError("OUT '" + bare_name(path) + "' does not end in " +
+                     centerline_format().suffixes[0]);
+}
+
 void write_centerlines(const CenterlineGraph& graph, const std::string& path) {
-    const std::filesystem::path file(path);
-    if (file.extension() != ".vtp") {
-        throw UsageError("centerlines are written as .vtp, not as " + file.filename().string());
-    }
+    check_centerline_name(path);
     if (graph.branches.empty()) throw InvalidInput("there is no centerline to write");
     vtkNew<vtkPolyData> lines;
     add_points(graph, lines);
@@ -186,7 +197,7 @@ void write_centerlines(const CenterlineGraph& graph, const std::string& path) {
     writer->SetHeaderTypeToUInt64();
     if (writer->Write() == 0) throw IoError("the centerlines could not be encoded as VTP");
     const std::string text = writer->GetOutputString();
-    write_file(path, [&](std::ostream& out) { out << text; });
+    write_file(path, text);
 }
 
 CenterlineGraph read_centerlines(const std::string& path) {

@@ -2,9 +2,16 @@
 
 #include <string>
 
+#include "geometry/formats/format.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 
 namespace vesselbench {
+
+/// The format of centerlines, a row like those of surfaces and images.
+[[nodiscard]] const Format& centerline_format();
+
+/// \throw UsageError unless write_centerlines can write a file of this name
+void check_centerline_name(const std::string& path);
 
 /// Writes a centerline graph as a VTP file in mm, whole or not at all: one polyline per branch.
 /// Point arrays: `MaximumInscribedSphereRadius` [mm], `Abscissas` [mm] from the branch's start,

@@ -7,10 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -22,8 +19,6 @@
 namespace vesselbench {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little, "stored_bytes writes native floats");
 
@@ -134,25 +129,6 @@ std::size_t bytes_of(VoxelType type) {
 
 void bad_file(const std::string& name, const std::string& cause, const std::string& remedy) {
     throw InvalidInput(name + ": " + cause + "; " + remedy);
-}
-
-std::string file_name(const std::string& path) {
-    fs::path p(path);
-    if (p.filename().empty()) p = p.parent_path();
-    return p.filename().string();
-}
-
-std::string file_bytes(const std::string& path) {
-    std::error_code error;
-    const auto size = fs::file_size(path, error);
-    if (error)
-        throw IoError(file_name(path) + ": cannot be read (" + error.message() +
-                      "); check the name");
-    std::ifstream in(path, std::ios::binary);
-    std::string bytes(size, '\0');
-    if (!in || !in.read(bytes.data(), static_cast<std::streamsize>(size)))
-        throw IoError(file_name(path) + ": cannot be read; check its permissions");
-    return bytes;
 }
 
 std::size_t checked_voxel_count(const std::array<long long, 3>& size, const std::string& name) {

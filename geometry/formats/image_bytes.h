@@ -34,12 +34,6 @@ struct ImageHeader {
 [[noreturn]] void bad_file(const std::string& name, const std::string& cause,
                            const std::string& remedy);
 
-/// A file's name without its folder.
-[[nodiscard]] std::string file_name(const std::string& path);
-
-/// All bytes of a file. \throw IoError if it cannot be read
-[[nodiscard]] std::string file_bytes(const std::string& path);
-
 /// Voxels of a volume.
 /// \throw InvalidInput if a size is below 1 or the volume has more than 2^30 voxels
 [[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -341,6 +342,10 @@ private:
 RawSurface read_legacy_vtk(const std::string& path) {
     const std::string bytes = file_content(path);
     return Reader(bytes, bare_name(path)).read();
+}
+
+bool is_legacy_poly_data(std::string_view head) {
+    return head.find("POLYDATA") != std::string_view::npos;
 }
 
 }  // namespace vesselbench

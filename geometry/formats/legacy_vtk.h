@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "geometry/formats/raw_surface.h"
 
@@ -11,5 +12,8 @@ namespace vesselbench {
 /// parser of its own, since VTK's crashes on files that were cut off.
 /// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_legacy_vtk(const std::string& path);
+
+/// True if a legacy VTK file that begins with these bytes holds poly data.
+[[nodiscard]] bool is_legacy_poly_data(std::string_view head);
 
 }  // namespace vesselbench

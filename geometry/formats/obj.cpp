@@ -1,8 +1,8 @@
 #include "geometry/formats/obj.h"
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -92,7 +92,7 @@ void write_obj(const Surface& surface, const std::string& path) {
             text += "\n";
         }
     }
-    write_file(path, [&](std::ostream& out) { out << text; });
+    write_file(path, text);
 }
 
 }  // namespace vesselbench

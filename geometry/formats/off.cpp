@@ -1,8 +1,8 @@
 #include "geometry/formats/off.h"
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -89,7 +89,7 @@ void write_off(const Surface& surface, const std::string& path) {
     for (const Triangle& t : surface.triangles())
         text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " +
                 std::to_string(t[2]) + "\n";
-    write_file(path, [&](std::ostream& out) { out << text; });
+    write_file(path, text);
 }
 
 }  // namespace vesselbench

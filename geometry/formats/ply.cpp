@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -360,9 +360,7 @@ void write_ply(const Surface& surface, const std::string& path) {
         for (const VertexId v : surface.triangles()[t]) put(bytes, static_cast<std::int32_t>(v));
         put(bytes, static_cast<std::int32_t>((*surface.patch_labels)[t] + 1));
     }
-    write_file(path, [&](std::ostream& out) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    });
+    write_file(path, bytes);
 }
 
 }  // namespace vesselbench

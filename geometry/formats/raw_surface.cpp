@@ -2,8 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numeric>
 
 #include "geometry/kernel/errors.h"
@@ -43,29 +41,6 @@ struct EarCutter {
 };
 
 }  // namespace
-
-std::string bare_name(const std::string& path) {
-    return std::filesystem::path(path).filename().string();
-}
-
-std::string file_content(const std::string& path) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-        throw IoError(bare_name(path) + " is a folder, not a file");
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw IoError("cannot open " + bare_name(path) + ": does it exist, and may it be read?");
-    file.seekg(0, std::ios::end);
-    const auto size = file.tellg();
-    if (size < 0) throw IoError("cannot read " + bare_name(path));
-    std::string content(static_cast<std::size_t>(size), '\0');
-    file.seekg(0);
-    file.read(content.data(), size);
-    if (!file)
-        throw IoError("reading " + bare_name(path) + " stopped after " +
-                      std::to_string(file.gcount()) + " bytes");
-    return content;
-}
 
 std::optional<LengthUnit> stated_unit(std::string_view text) {
     const auto at = text.find("UNITS=");

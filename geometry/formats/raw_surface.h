@@ -23,12 +23,6 @@ struct RawSurface {
     std::vector<std::string> notes;                         ///< what was left out, for the report
 };
 
-/// Name of a file without its folders, for error texts.
-[[nodiscard]] std::string bare_name(const std::string& path);
-
-/// \throw IoError if the file cannot be opened or read
-[[nodiscard]] std::string file_content(const std::string& path);
-
 /// The unit after "UNITS=" in a header or comment, if there is one that we know.
 [[nodiscard]] std::optional<LengthUnit> stated_unit(std::string_view text);
 

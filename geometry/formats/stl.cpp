@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "geometry/formats/atomic_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/point_welder.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -166,9 +166,7 @@ void write_stl(const Surface& surface, const std::string& path) {
         }
         record += kRecord;
     }
-    write_file(path, [&](std::ostream& out) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    });
+    write_file(path, bytes);
 }
 
 }  // namespace vesselbench

@@ -1,44 +1,13 @@
 #include "geometry/formats/surface_file.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
 #include "geometry/formats/file_parts.h"
-#include "geometry/formats/legacy_vtk.h"
-#include "geometry/formats/obj.h"
-#include "geometry/formats/off.h"
-#include "geometry/formats/ply.h"
-#include "geometry/formats/stl.h"
-#include "geometry/formats/vtp.h"
+#include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
 namespace {
-
-struct Format {
-    const char* suffix;
-    RawSurface (*read)(const std::string&);
-    void (*write)(const Surface&, const std::string&);
-};
-
-constexpr Format kFormats[] = {{".stl", read_stl, write_stl}, {".ply", read_ply, write_ply},
-                               {".obj", read_obj, write_obj}, {".off", read_off, write_off},
-                               {".vtp", read_vtp, write_vtp}, {".vtk", read_legacy_vtk, nullptr}};
-
-std::string suffix_of(const std::string& path) {
-    std::string suffix = std::filesystem::path(path).extension().string();
-    for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return suffix;
-}
-
-const Format* format_of(const std::string& path) {
-    const std::string suffix = suffix_of(path);
-    for (const Format& format : kFormats)
-        if (suffix == format.suffix) return &format;
-    return nullptr;
-}
 
 void scale(Surface& surface, double factor) {
     if (factor == 1.0) return;
@@ -49,16 +18,16 @@ void scale(Surface& surface, double factor) {
 
 }  // namespace
 
-bool is_surface_file(const std::string& path) {
-    return format_of(path) != nullptr;
+bool holds_surface(const std::string& path) {
+    const SurfaceFormat* format = row_that_reads(surface_formats(), path);
+    return format && content_fits(*format, path);
 }
 
 SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit) {
-    const Format* format = format_of(path);
+    const SurfaceFormat* format = row_that_reads(surface_formats(), path);
     if (!format)
-        throw InvalidInput(bare_name(path) +
-                           ": surfaces are read from .stl, .ply, .obj, .off, .vtp "
-                           "and .vtk files");
+        throw InvalidInput(bare_name(path) + ": surfaces are read from " +
+                           enumerated(read_suffixes(surface_formats())) + " files");
     RawSurface raw = format->read(path);
     if (raw.triangles.empty())
         throw InvalidInput(bare_name(path) + " holds no triangles" +
@@ -85,11 +54,11 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
 }
 
 void write_surface(const Surface& surface, const std::string& path) {
-    const Format* format = format_of(path);
-    if (!format || !format->write)
-        throw UsageError("'" + suffix_of(path) +
-                         "' is no surface format that can be written: use "
-                         ".stl, .ply, .obj, .off or .vtp");
+    const SurfaceFormat* format = row_that_writes(surface_formats(), path);
+    if (!format)
+        throw UsageError("'" + lower_suffix(path) +
+                         "' is no surface format that can be written: use " +
+                         enumerated(written_suffixes(surface_formats()), "or"));
     if (surface.empty()) throw InvalidInput("there are no triangles to write");
     format->write(surface, path);
 }

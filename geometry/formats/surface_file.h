@@ -18,9 +18,9 @@ struct SurfaceFile {
     std::vector<std::string> notes;  ///< what was left out or decided
 };
 
-/// Reads STL, PLY, OBJ, OFF, VTP or legacy VTK, by the suffix. Parts that the file names or numbers
-/// become patches: those named wall, inlet..., outlet..., cut... by their names; unnamed flat ones
-/// become openings to be chosen ("cut_1" ...), all others belong to the wall.
+/// Reads a surface in a format of surface_formats(), chosen by the suffix. Parts that the file
+/// names or numbers become patches: those named wall, inlet..., outlet..., cut... by their names;
+/// unnamed flat ones become openings to be chosen ("cut_1" ...), all others belong to the wall.
 /// \param unit of the file; none: as the file states it, or guessed from the extent
 /// \throw InvalidInput for another suffix, a damaged file, NaN or infinite coordinates, no
 /// triangles; the text names the file without its folder, the place and the remedy
@@ -28,12 +28,13 @@ struct SurfaceFile {
 [[nodiscard]] SurfaceFile read_surface(const std::string& path,
                                        std::optional<LengthUnit> unit = std::nullopt);
 
-/// Writes .stl (binary), .ply, .obj, .off or .vtp, in mm, whole or not at all.
+/// Writes a surface [mm] in the format of the suffix, whole or not at all.
 /// \throw UsageError for another suffix, InvalidInput if there is no triangle, IoError if the file
 /// cannot be written
 void write_surface(const Surface& surface, const std::string& path);
 
-/// True if read_surface knows the suffix of this file name.
-[[nodiscard]] bool is_surface_file(const std::string& path);
+/// True if the file is a surface: by its suffix, and by its first bytes where image formats share
+/// that suffix.
+[[nodiscard]] bool holds_surface(const std::string& path);
 
 }  // namespace vesselbench

@@ -20,7 +20,9 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include "geometry/formats/vtk_mesh.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -214,6 +216,15 @@ RawSurface read_vtp(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw InvalidInput(file + " announces more data than it can hold: it is damaged");
     }
+}
+
+void write_vtp(const Surface& surface, const std::string& path) {
+    VtkMesh mesh{.points = surface.points()};
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        add_cell(mesh, surface.triangles()[t], (*surface.patch_labels)[t] + 1);
+    for (const Patch& patch : surface.patches) mesh.patch_names.push_back(patch.name);
+    for (const auto& [name, values] : surface.attributes) mesh.attributes[name] = values;
+    write_vtk_poly_data(mesh, path);
 }
 
 }  // namespace vesselbench

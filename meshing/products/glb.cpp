@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/whole_file.h"
 #include "meshing/products/text_buffer.h"
 
 namespace vesselbench {
@@ -137,9 +138,9 @@ private:
 
 }  // namespace
 
-void write_glb(const Surface& surface, const std::filesystem::path& path) {
+void write_glb(const Surface& surface, const std::string& path) {
     if (surface.empty()) throw InvalidInput("GLB: the surface has no triangles");
-    write_text(path, GlbBuilder(surface).bytes());
+    write_file(path, GlbBuilder(surface).bytes());
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "geometry/kernel/surface.h"
 
@@ -10,6 +10,6 @@ namespace vesselbench {
 /// Positions are floats about the bounding box's centre in mm; the node scales to glTF's metres and
 /// turns the patient's head (+z) up (+y).
 /// \throw InvalidInput if the surface has no triangle, IoError
-void write_glb(const Surface& surface, const std::filesystem::path& path);
+void write_glb(const Surface& surface, const std::string& path);
 
 }  // namespace vesselbench

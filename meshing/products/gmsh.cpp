@@ -1,6 +1,7 @@
 #include "meshing/products/gmsh.h"
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "meshing/products/text_buffer.h"
 
 namespace vesselbench {
@@ -47,14 +48,14 @@ void put_elements(TextBuffer& out, const VolumeMesh& mesh) {
 
 }  // namespace
 
-void write_msh(const VolumeMesh& mesh, const std::filesystem::path& path) {
+void write_msh(const VolumeMesh& mesh, const std::string& path) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("MSH: the volume mesh has no cells");
     TextBuffer out;
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     put_names(out, mesh);
     put_points(out, mesh);
     put_elements(out, mesh);
-    write_text(path, out.text());
+    write_file(path, out.text());
 }
 
 }  // namespace vesselbench

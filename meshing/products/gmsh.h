@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "meshing/tetrahedra/volume_mesh.h"
 
@@ -9,6 +9,6 @@ namespace vesselbench {
 /// Writes Gmsh's MSH 2.2 (ascii) [mm]: boundary triangles with the physical surfaces 1 (wall), 2...
 /// (openings) under their names, tetrahedra with the physical volume "lumen".
 /// \throw InvalidInput if there are no cells, IoError
-void write_msh(const VolumeMesh& mesh, const std::filesystem::path& path);
+void write_msh(const VolumeMesh& mesh, const std::string& path);
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "meshing/products/inflow.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "meshing/products/text_buffer.h"
@@ -329,7 +330,7 @@ void make_folders(const fs::path& folder) {
 }
 
 void write_script(const fs::path& path, bool parallel) {
-    write_text(path, script(parallel));
+    write_file(path, script(parallel));
     std::error_code ignored;
     fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                     fs::perm_options::add, ignored);
@@ -344,18 +345,18 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     writer.patches = foam_patches(mesh, writer.faces);
     make_folders(folder);
     write_poly_mesh(folder / "constant/polyMesh", mesh, writer.faces);
-    write_text(folder / "0/U", writer.velocity());
-    write_text(folder / "0/p", writer.pressure());
-    write_text(folder / "constant/transportProperties", writer.transport());
-    write_text(folder / "constant/turbulenceProperties", turbulence());
+    write_file(folder / "0/U", writer.velocity());
+    write_file(folder / "0/p", writer.pressure());
+    write_file(folder / "constant/transportProperties", writer.transport());
+    write_file(folder / "constant/turbulenceProperties", turbulence());
     const double angle = largest_non_orthogonality(mesh, writer.faces);
-    write_text(folder / "system/fvSchemes", schemes(angle));
-    write_text(folder / "system/fvSolution", solution(parameters, angle));
-    write_text(folder / "system/decomposeParDict", writer.decomposition());
+    write_file(folder / "system/fvSchemes", schemes(angle));
+    write_file(folder / "system/fvSolution", solution(parameters, angle));
+    write_file(folder / "system/decomposeParDict", writer.decomposition());
     write_script(folder / "Allrun", false);
     write_script(folder / "Allrun.parallel", true);
-    write_text(folder / "README", readme(mesh, parameters));
-    write_text(folder / "system/controlDict",
+    write_file(folder / "README", readme(mesh, parameters));
+    write_file(folder / "system/controlDict",
                writer.control());  // last: what makes it a case
 }
 

@@ -1,5 +1,6 @@
 #include "meshing/products/openfoam_mesh.h"
 
+#include "geometry/kernel/whole_file.h"
 #include "meshing/products/text_buffer.h"
 
 namespace vesselbench {
@@ -15,7 +16,7 @@ void write_points(const std::filesystem::path& folder, const VolumeMesh& mesh) {
     for (const Vec3& p : mesh.points)
         out << '(' << p.x() * kMetres << ' ' << p.y() * kMetres << ' ' << p.z() * kMetres << ")\n";
     out << ")\n";
-    write_text(folder / "points", out.text());
+    write_file(folder / "points", out.text());
 }
 
 void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace>& faces) {
@@ -24,7 +25,7 @@ void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace
     for (const MeshFace& f : faces)
         out << "3(" << f.corners[0] << ' ' << f.corners[1] << ' ' << f.corners[2] << ")\n";
     out << ")\n";
-    write_text(folder / "faces", out.text());
+    write_file(folder / "faces", out.text());
 }
 
 void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh& mesh,
@@ -47,8 +48,8 @@ void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh&
     neighbour << foam_header("labelList", "constant/polyMesh", "neighbour", note.text()) << inner
               << "\n(\n"
               << neighbours.text() << ")\n";
-    write_text(folder / "owner", owner.text());
-    write_text(folder / "neighbour", neighbour.text());
+    write_file(folder / "owner", owner.text());
+    write_file(folder / "neighbour", neighbour.text());
 }
 
 void write_boundary(const std::filesystem::path& folder, const std::vector<FoamPatch>& patches) {
@@ -64,7 +65,7 @@ void write_boundary(const std::filesystem::path& folder, const std::vector<FoamP
             << ";\n    }\n";
     }
     out << ")\n";
-    write_text(folder / "boundary", out.text());
+    write_file(folder / "boundary", out.text());
 }
 
 }  // namespace

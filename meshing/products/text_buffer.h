@@ -1,7 +1,6 @@
 #pragma once
 
 #include <charconv>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -46,8 +45,5 @@ public:
 private:
     std::string text_;
 };
-
-/// Writes a whole file or none (geometry/formats/atomic_file.h). \throw IoError
-void write_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/products/text_buffer.h"
 #include "meshing/products/zip.h"
@@ -67,10 +68,10 @@ void require_solid(const Surface& surface) {
 
 }  // namespace
 
-void write_3mf(const Surface& surface, const std::filesystem::path& path) {
+void write_3mf(const Surface& surface, const std::string& path) {
     if (surface.empty()) throw InvalidInput("3MF: the surface has no triangles");
     require_solid(surface);
-    write_text(path, zip_archive({{"[Content_Types].xml", content_types()},
+    write_file(path, zip_archive({{"[Content_Types].xml", content_types()},
                                   {"_rels/.rels", relationships()},
                                   {"3D/3dmodel.model", model(surface)}}));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "geometry/kernel/surface.h"
 
@@ -8,6 +8,6 @@ namespace vesselbench {
 
 /// Writes one object in millimetres as 3MF (3D Manufacturing Format, core specification 1.2).
 /// \throw InvalidInput if the surface has no triangle, or is not closed and oriented; IoError
-void write_3mf(const Surface& surface, const std::filesystem::path& path);
+void write_3mf(const Surface& surface, const std::string& path);
 
 }  // namespace vesselbench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "meshing/tetrahedra/volume_mesh.h"
 
@@ -10,6 +10,6 @@ namespace vesselbench {
 /// `CellEntityIds`: 0 for volume cells, 1 the wall, 2... the openings; names of 1, 2... in the
 /// field array `PatchNames`.
 /// \throw InvalidInput if there are no cells, IoError
-void write_vtu(const VolumeMesh& mesh, const std::filesystem::path& path);
+void write_vtu(const VolumeMesh& mesh, const std::string& path);
 
 }  // namespace vesselbench

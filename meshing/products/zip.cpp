@@ -1,9 +1,8 @@
 #include "meshing/products/zip.h"
 
-#include <cstdint>
-#include <stdexcept>
+#include <memory>
 
-#include <zlib.h>
+#include <zip.h>
 
 #include "geometry/kernel/errors.h"
 
@@ -11,80 +10,67 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::uint64_t kLargest = 0xFFFFFFFE;
-constexpr std::uint16_t kVersion = 20, kDeflated = 8, kMidnight = 0, kFirstOf1980 = 0x21;
+constexpr zip_uint16_t kMidnight = 0, kFirstOf1980 = 0x21;
+constexpr zip_uint64_t kLargest = 0xFFFFFFFE;
 
-void put16(std::string& out, std::uint16_t value) {
-    out += static_cast<char>(value & 0xFF);
-    out += static_cast<char>(value >> 8);
+struct SourceFree {
+    void operator()(zip_source_t* source) const { zip_source_free(source); }
+};
+
+using Source = std::unique_ptr<zip_source_t, SourceFree>;
+
+[[noreturn]] void fail(const std::string& what, const zip_error_t& error) {
+    zip_error_t copy = error;
+    throw AlgorithmFailure("ZIP: " + what + ": " + zip_error_strerror(&copy));
 }
 
-void put32(std::string& out, std::uint32_t value) {
-    put16(out, static_cast<std::uint16_t>(value & 0xFFFF));
-    put16(out, static_cast<std::uint16_t>(value >> 16));
+void add_part(zip_t* archive, const std::string& name, const std::string& bytes) {
+    if (bytes.size() > kLargest) throw InvalidInput("ZIP: " + name + " is too large");
+    zip_source_t* source = zip_source_buffer(archive, bytes.data(), bytes.size(), 0);
+    const zip_int64_t index = zip_file_add(archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) {
+        zip_source_free(source);
+        fail("'" + name + "' cannot be added", *zip_get_error(archive));
+    }
+    const auto part = static_cast<zip_uint64_t>(index);
+    zip_set_file_compression(archive, part, ZIP_CM_DEFLATE, 0);
+    zip_file_set_dostime(archive, part, kMidnight, kFirstOf1980, 0);
 }
 
-std::string deflated(const std::string& bytes) {
-    z_stream stream = {};
-    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL,
-                     Z_DEFAULT_STRATEGY) != Z_OK)
-        throw std::runtime_error("zlib does not start");
-    std::string packed(deflateBound(&stream, bytes.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    const int state = deflate(&stream, Z_FINISH);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    if (state != Z_STREAM_END) throw std::runtime_error("zlib cannot pack");
-    return packed;
-}
-
-// The fields that the local and the central header have in common.
-std::string common_fields(const std::string& name, const std::string& bytes,
-                          const std::string& packed) {
-    std::string fields;
-    for (const std::uint16_t field :
-         {kVersion, std::uint16_t{0}, kDeflated, kMidnight, kFirstOf1980})
-        put16(fields, field);
-    put32(fields, static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(bytes.data()),
-                                                   static_cast<uInt>(bytes.size()))));
-    put32(fields, static_cast<std::uint32_t>(packed.size()));
-    put32(fields, static_cast<std::uint32_t>(bytes.size()));
-    put16(fields, static_cast<std::uint16_t>(name.size()));
-    put16(fields, 0);  // no extra field
-    return fields;
+std::string content_of(zip_source_t* source) {
+    zip_stat_t stat;
+    zip_stat_init(&stat);
+    if (zip_source_open(source) != 0 || zip_source_stat(source, &stat) != 0)
+        fail("the archive cannot be read back", *zip_source_error(source));
+    std::string bytes(stat.size, '\0');
+    if (zip_source_read(source, bytes.data(), bytes.size()) !=
+        static_cast<zip_int64_t>(bytes.size()))
+        fail("the archive cannot be read back", *zip_source_error(source));
+    zip_source_close(source);
+    return bytes;
 }
 
 }  // namespace
 
 std::string zip_archive(const std::vector<std::pair<std::string, std::string>>& parts) {
-    std::string archive, directory;
-    for (const auto& [name, bytes] : parts) {
-        if (bytes.size() > kLargest || archive.size() > kLargest)
-            throw InvalidInput("ZIP: " + name + " is too large");
-        const std::string packed = deflated(bytes);
-        const std::string fields = common_fields(name, bytes, packed);
-        put32(directory, 0x02014B50);
-        put16(directory, kVersion);
-        directory += fields;
-        for (int k = 0; k < 3; ++k) put16(directory, 0);  // comment, disk, inner attributes
-        put32(directory, 0);                              // outer attributes
-        put32(directory, static_cast<std::uint32_t>(archive.size()));
-        directory += name;
-        put32(archive, 0x04034B50);
-        archive += fields + name + packed;
+    zip_error_t error;
+    zip_error_init(&error);
+    const Source source(zip_source_buffer_create(nullptr, 0, 0, &error));
+    if (!source) fail("no memory", error);
+    zip_source_keep(source.get());
+    zip_t* archive = zip_open_from_source(source.get(), ZIP_TRUNCATE, &error);
+    if (!archive) {
+        zip_source_free(source.get());
+        fail("no archive", error);
     }
-    const auto start = static_cast<std::uint32_t>(archive.size());
-    archive += directory;
-    put32(archive, 0x06054B50);
-    put32(archive, 0);  // disks
-    for (int k = 0; k < 2; ++k) put16(archive, static_cast<std::uint16_t>(parts.size()));
-    put32(archive, static_cast<std::uint32_t>(directory.size()));
-    put32(archive, start);
-    put16(archive, 0);  // no comment
-    return archive;
+    try {
+        for (const auto& [name, bytes] : parts) add_part(archive, name, bytes);
+        if (zip_close(archive) != 0) fail("the parts cannot be packed", *zip_get_error(archive));
+    } catch (...) {
+        zip_discard(archive);
+        throw;
+    }
+    return content_of(source.get());
 }
 
 }  // namespace vesselbench

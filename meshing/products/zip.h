@@ -1,15 +1,14 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace vesselbench {
 
-/// A ZIP archive of named parts, each deflated; no dates, so that the same parts give the same
-/// bytes. Source: PKWARE APPNOTE 6.3, sections 4.3.7, 4.3.12, 4.3.16.
-/// \throw InvalidInput if a part or the whole is 4 GiB or larger
+/// A ZIP archive of named parts, each deflated, by libzip; all parts are dated 1 January 1980, so
+/// that the same parts give the same bytes.
+/// \throw InvalidInput if a part is 4 GiB or larger, AlgorithmFailure if libzip fails
 [[nodiscard]] std::string zip_archive(
     const std::vector<std::pair<std::string, std::string>>& parts);
 

@@ -1,5 +1,3 @@
-#include "geometry/formats/dicom_file.h"
-
 #include <filesystem>
 #include <fstream>
 
@@ -10,6 +8,7 @@
 #include <gdcmMediaStorage.h>
 #include <gdcmUIDGenerator.h>
 
+#include "geometry/formats/dicom.h"
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 

@@ -12,7 +12,9 @@
 #include <vtkXMLImageDataWriter.h>
 
 #include "geometry/formats/image_bytes.h"
-#include "geometry/formats/nifti_file.h"
+#include "geometry/formats/image_formats.h"
+#include "geometry/formats/nifti.h"
+#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
@@ -74,7 +76,7 @@ std::string message_of(const std::string& path) {
 
 SCENARIO("An image keeps its place, direction and values through every written format",
          "[images][io]") {
-    const std::string suffix = GENERATE(".nii", ".nii.gz", ".mha", ".nrrd");
+    const std::string suffix = GENERATE(from_range(written_suffixes(image_formats())));
     const bool mirrored = GENERATE(false, true);
     GIVEN("an oblique, anisotropic image as " + suffix + (mirrored ? ", mirrored" : "")) {
         const Image image =
@@ -348,6 +350,6 @@ SCENARIO("Real images are read with their geometry", "[images][io][real-data]") 
     CHECK(*std::max_element(carotid.voxels->begin(), carotid.voxels->end()) == 580.0f);
     const Image mra = read_image(shared_data("images/niivue_tof_mra.nii.gz"));
     CHECK((mra.spacing() - Vec3(0.520833, 0.520833, 0.65)).norm() < 1e-4);
-    CHECK(looks_like_image(shared_data("images/vtk_carotid.vtk")));
-    CHECK_FALSE(looks_like_image(shared_data("surfaces/vampy_vein.stl")));
+    CHECK_FALSE(holds_surface(shared_data("images/vtk_carotid.vtk")));
+    CHECK(holds_surface(shared_data("surfaces/vampy_vein.stl")));
 }

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
 
+#include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
@@ -91,7 +92,7 @@ SCENARIO("A full disk is told, and nothing is left", "[geometry][io]") {
 SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry][io]") {
     const Surface tube = patient_tube();
     const std::string folder = temporary_folder();
-    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp"}) {
+    for (const std::string& suffix : written_suffixes(surface_formats())) {
         CAPTURE(suffix);
         write_surface(tube, folder + "/tube" + suffix);
         const SurfaceFile file = read_surface(folder + "/tube" + suffix);
@@ -250,7 +251,7 @@ SCENARIO("Files that are no surface are refused clearly", "[geometry][io]") {
     }
     CHECK_THROWS_AS(read_surface("no_such_file.stl"), IoError);
     CHECK_THROWS_AS(read_surface(written("a.docx", "x")), InvalidInput);
-    for (const std::string suffix : {".stl", ".ply", ".obj", ".off", ".vtp", ".vtk"}) {
+    for (const std::string& suffix : read_suffixes(surface_formats())) {
         CAPTURE(suffix);
         CHECK_THROWS_AS(read_surface(written("garbage" + suffix, "this is not a surface\n\1\2\3")),
                         InvalidInput);

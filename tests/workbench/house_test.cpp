@@ -41,7 +41,7 @@ const std::map<std::string, Names> kDoors = {
     {"meshing/tetrahedra", {"geometry/kernel"}},
     {"meshing/products", {"geometry/kernel", "geometry/formats", "meshing/tetrahedra"}},
     {"workbench/case", {"geometry/kernel", "geometry/image", "meshing/tetrahedra"}},
-    {"workbench/project", {"geometry/kernel", "geometry/formats", "workbench/case"}},
+    {"workbench/project", {"geometry/kernel", "workbench/case"}},
     {"workbench/worker", {"geometry/kernel", "workbench/case", "workbench/project"}},
     {"workbench/session",
      {"geometry/kernel", "workbench/case", "workbench/project", "workbench/worker"}},

@@ -1,8 +1,9 @@
-#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/pending_files.h"
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -26,7 +27,7 @@ SCENARIO("Files appear only when all of them are complete", "[workbench][pending
             THEN("they are there and nothing else is") {
                 CHECK(test::names_in(folder.string()) ==
                       std::vector<std::string>{"a.txt", "b.txt", "case"});
-                CHECK(read_text_file(folder / "a.txt") == "one");
+                CHECK(file_content(folder / "a.txt") == "one");
             }
         }
     }
@@ -47,7 +48,7 @@ SCENARIO("Files appear only when all of them are complete", "[workbench][pending
         fs::create_directory(files.add(folder / "case"));
         files.commit();
         THEN("they are replaced as a whole") {
-            CHECK(read_text_file(folder / "a.txt") == "new");
+            CHECK(file_content(folder / "a.txt") == "new");
             CHECK(test::names_in((folder / "case").string()).empty());
         }
     }
@@ -58,7 +59,7 @@ SCENARIO("Folders that cannot be used are refused by name", "[workbench][pending
     test::write_text((folder / "file").string(), "x");
     CHECK_THROWS_AS(make_folder(folder / "file"), IoError);
     CHECK_THROWS_WITH(make_folder(folder / "file" / "inner"), Catch::Contains("inner"));
-    CHECK_THROWS_AS(read_text_file(folder / "missing"), IoError);
+    CHECK_THROWS_AS(file_content(folder / "missing"), IoError);
     PendingFiles files;
     CHECK_THROWS_AS(files.add_text(folder / "no-such-folder" / "a.txt", "x"), IoError);
 }

@@ -77,8 +77,7 @@ void print_table(const CenterlineGraph& graph) {
 }  // namespace
 
 void find_centerlines(const CenterlineOptions& options, const Progress& progress) {
-    if (!options.out.ends_with(".vtp"))
-        throw UsageError("OUT '" + options.out + "' does not end in .vtp");
+    check_centerline_name(options.out);
     const Surface surface = read_foreign_surface(options.surface, options.units);
     const CenterlineGraph graph = compute_centerlines(surface, {}, progress);
     write_centerlines(graph, options.out);

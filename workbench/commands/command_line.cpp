@@ -6,11 +6,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include "geometry/formats/centerline_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
+#include "workbench/export/export_formats.h"
+#include "workbench/export/products.h"
 #include "workbench/phantoms/phantom_json.h"
 
 namespace vesselbench {
@@ -20,21 +23,26 @@ namespace {
 constexpr const char* kDescription =
     "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
 
-constexpr const char* kPrepareFooter =
-    "Surfaces: .stl .ply .obj .off .vtp .vtk. Images: .nii .nii.gz .nrrd .mha .mhd .vti .vtk and "
-    "DICOM.\n"
-    "A case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the like\n"
-    "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
-    "OUT gets project.vbench, surface.vtp, surface.stl, report.json, report.html; for cfd\n"
-    "volume.vtu, volume.msh, openfoam/; for rp print.stl, print.3mf.\n\n"
-    "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
-    "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out print";
+std::string prepare_footer() {
+    return input_formats_text() +
+           "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
+           "like\n"
+           "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
+           "OUT gets project.vbench, report.json, report.html and\n"
+           "  for cfd: " +
+           joined(product_names("cfd")) + "\n  for rp: " + joined(product_names("rp")) +
+           "\n\n"
+           "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
+           "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out "
+           "print";
+}
 
-constexpr const char* kExportFooter =
-    "Formats: .stl .ply .obj .off .vtp .glb .3mf of the surface, .vtu .msh of the volume mesh.\n"
-    "All are in millimetres but .glb and OpenFOAM, which are in metres.\n"
-    "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, residual,\n"
-    "processes; --set may be repeated.";
+std::string export_footer() {
+    return "Formats by suffix, with the unit of length:\n" + export_formats_text() +
+           "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, "
+           "residual,\n"
+           "processes; --set may be repeated.";
+}
 
 constexpr const char* kChangeFooter =
     "The edits behind it become pending: they run again when their result is shown, exported or\n"
@@ -211,7 +219,7 @@ void add_prepare(CommandLine& line) {
         add_command(line, "prepare", "Make a CFD model or a print model of an image or a surface",
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
-    command.footer(kPrepareFooter);
+    command.footer(prepare_footer());
     command
         .add_option("--for", options->purpose,
                     "What the model is for: flow simulation (cfd), printing (rp), pictures\n"
@@ -252,7 +260,7 @@ void add_export(CommandLine& line) {
                     "Its suffix tells the format; a folder: an OpenFOAM case")
         ->required()
         ->type_name("");
-    command.footer(kExportFooter);
+    command.footer(export_footer());
     command.add_option("--variant", options->variant, "Variant to write")
         ->capture_default_str()
         ->type_name("NAME");
@@ -397,7 +405,9 @@ void add_centerlines(CommandLine& line) {
         add_command(line, "centerlines", "Find the vessel tree's centerlines and radii",
                     [options, &line] { return find_centerlines(*options, line.progress), 0; });
     command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
-    command.add_option("OUT.vtp", options->out, "Polylines with MaximumInscribedSphereRadius")
+    command
+        .add_option("OUT" + centerline_format().suffixes[0], options->out,
+                    "Polylines with MaximumInscribedSphereRadius")
         ->required()
         ->type_name("");
     command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)")

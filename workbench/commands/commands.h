@@ -129,7 +129,7 @@ void draw_quality(const QualityOptions& options, const Progress& progress);
 
 struct CenterlineOptions {
     std::string surface;
-    std::string out;    ///< .vtp
+    std::string out;    ///< VTP file
     std::string units;  ///< of the surface file; empty: mm
     bool json = false;
 };

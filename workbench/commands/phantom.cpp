@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/image_file.h"
-#include "geometry/formats/pending_files.h"
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/pending_files.h"
 #include "workbench/commands/commands.h"
 #include "workbench/phantoms/phantom_json.h"
 
@@ -16,19 +16,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Names of the files in the folder; their suffixes choose the formats.
+constexpr const char *kImage = "image.nii.gz", *kMask = "mask.nii.gz", *kExact = "exact.vtp",
+                     *kNoisy = "noisy.vtp", *kNeighbour = "neighbour.vtp";
+
 /// A case description, so that the folder is an INPUT of its own. It uses the mask only where an
 /// expert had to part vessels that blend in the image; elsewhere the intensities are more accurate.
 std::string case_text(const PhantomDescription& description) {
-    Json json = {{"name", description.name}, {"image", "image.nii.gz"}, {"exact", "exact.vtp"}};
-    if (!description.imaging.kept_apart.empty()) json["mask"] = "mask.nii.gz";
+    Json json = {{"name", description.name}, {"image", kImage}, {"exact", kExact}};
+    if (!description.imaging.kept_apart.empty()) json["mask"] = kMask;
     return json.dump(2) + "\n";
 }
 
 void print_json(const PhantomDescription& description, const Phantom& phantom,
                 const std::string& folder) {
-    Json files = {"image.nii.gz", "mask.nii.gz", "exact.vtp", "case.json"};
-    if (phantom.noisy) files.push_back("noisy.vtp");
-    if (phantom.neighbour) files.push_back("neighbour.vtp");
+    Json files = {kImage, kMask, kExact, "case.json"};
+    if (phantom.noisy) files.push_back(kNoisy);
+    if (phantom.neighbour) files.push_back(kNeighbour);
     std::cout << Json({{"name", description.name},
                        {"seed", description.seed},
                        {"folder", folder},
@@ -47,19 +51,18 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     const std::filesystem::path out = options.out;
     make_folder(out);
     PendingFiles files;
-    write_image(files.add(out / "image.nii.gz").string(), phantom.image);
-    write_image(files.add(out / "mask.nii.gz").string(), phantom.mask);
-    write_surface(phantom.exact, files.add(out / "exact.vtp").string());
-    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / "noisy.vtp").string());
-    if (phantom.neighbour)
-        write_surface(*phantom.neighbour, files.add(out / "neighbour.vtp").string());
+    write_image(files.add(out / kImage).string(), phantom.image);
+    write_image(files.add(out / kMask).string(), phantom.mask);
+    write_surface(phantom.exact, files.add(out / kExact).string());
+    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / kNoisy).string());
+    if (phantom.neighbour) write_surface(*phantom.neighbour, files.add(out / kNeighbour).string());
     files.add_text(out / "case.json", case_text(description));
     progress.check_cancelled();
     files.commit();
     if (options.json) return print_json(description, phantom, options.out);
-    std::cout << description.name << ": image.nii.gz, mask.nii.gz"
-              << (phantom.neighbour ? ", neighbour.vtp" : "") << " and exact.vtp are in "
-              << options.out << "\n'vesselbench prepare " << options.out
+    std::cout << description.name << ": " << kImage << ", " << kMask
+              << (phantom.neighbour ? std::string(", ") + kNeighbour : "") << " and " << kExact
+              << " are in " << options.out << "\n'vesselbench prepare " << options.out
               << " --for cfd --out RESULT' takes the folder as it is.\n";
 }
 

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/foreign_surface.h"

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/formats/pending_files.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
 #include "smoothing/quality/sensitivity.h"

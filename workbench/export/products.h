@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/formats/pending_files.h"
+#include "geometry/kernel/pending_files.h"
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/scene.h"
 
@@ -14,8 +14,11 @@ namespace vesselbench {
 /// \throw UsageError as checked_arguments
 [[nodiscard]] CfdParameters take_flow_parameters(std::vector<std::string>& texts);
 
-/// Writes surface.vtp, surface.stl and the product's files: for "cfd" volume.vtu, volume.msh and
-/// openfoam/, for "rp" print.stl and print.3mf.
+/// Names of the files that write_products writes: the surface, and for "cfd" the volume mesh and an
+/// OpenFOAM case, for "rp" the print model.
+[[nodiscard]] std::vector<std::string> product_names(const std::string& purpose);
+
+/// Writes the files of product_names().
 /// \return their names
 /// \throw InvalidInput if the scene has no volume mesh for cfd, IoError
 [[nodiscard]] std::vector<std::string> write_products(PendingFiles& files,
@@ -27,8 +30,7 @@ namespace vesselbench {
 /// \throw UsageError that lists the suffixes unless export_scene can write such a file
 void check_export_name(const std::filesystem::path& file);
 
-/// Writes one file by its suffix (.stl .ply .obj .off .vtp .vtu .msh .3mf), or, without a suffix,
-/// an OpenFOAM case.
+/// Writes one file or folder in the format of export_formats() that its name asks for.
 /// \throw UsageError that lists the suffixes for another one
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
                   const CfdParameters& flow);

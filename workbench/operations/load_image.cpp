@@ -172,11 +172,7 @@ Operation load_image_operation() {
             .allowed = {Step::Source},
             .summary = "load an image or a label map, and its mask, with their true orientation",
             .parameters =
-                {{.name = "file",
-                  .type = File,
-                  .help = "NIfTI, NRRD, MetaImage, .vti, legacy .vtk, a multi-frame DICOM file or "
-                          "a folder of DICOM slices",
-                  .required = true},
+                {{.name = "file", .type = File, .help = image_formats_text(), .required = true},
                  {.name = "mask",
                   .type = File,
                   .help = "segmentation on the same grid: labels (0 is outside) or a level set"},

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
 #include "workbench/case/point_json.h"
@@ -45,7 +46,8 @@ Operation load_surface_operation() {
     return {.name = "load-surface",
             .usual_step = Step::Source,
             .allowed = {Step::Source},
-            .summary = "read a surface from an STL, PLY, OBJ, OFF, VTP or VTK file",
+            .summary = "read a surface from an " + enumerated(read_names(surface_formats()), "or") +
+                       " file",
             .parameters = {{.name = "file",
                             .type = File,
                             .help = "the surface file; its suffix tells the format",

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/phantoms/builtin.h"
@@ -209,7 +209,7 @@ std::vector<std::string> phantom_names() {
 }
 
 PhantomDescription phantom_named(const std::string& name) {
-    if (name.ends_with(".json")) return phantom_from_json(read_text_file(name));
+    if (name.ends_with(".json")) return phantom_from_json(file_content(name));
     return builtin_phantom(name);
 }
 

@@ -1,15 +1,12 @@
 #include "workbench/prepare/input.h"
 
-#include <algorithm>
-#include <array>
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 #include <stdlib.h>
 
 #include "geometry/formats/image_file.h"
-#include "geometry/formats/pending_files.h"
+#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/phantoms/phantom.h"
 #include "workbench/operations/foreign_surface.h"
 #include "workbench/operations/table.h"
@@ -48,18 +45,6 @@ public:
 private:
     fs::path path_;
 };
-
-std::string lower_suffix(const fs::path& file) {
-    std::string suffix = file.extension().string();
-    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-    return suffix;
-}
-
-bool legacy_vtk_surface(const fs::path& file) {
-    std::array<char, 512> head{};
-    std::ifstream(file, std::ios::binary).read(head.data(), head.size() - 1);
-    return std::string_view(head.data()).find("POLYDATA") != std::string_view::npos;
-}
 
 fs::path plain_path(const std::string& text) {
     fs::path path(text);
@@ -108,7 +93,7 @@ void fill_from_case(Input& input, const fs::path& folder, const Json& json,
 
 void read_case(Input& input, const fs::path& folder, const Progress& progress) {
     try {
-        const Json json = Json::parse(read_text_file(folder / kCaseFile));
+        const Json json = Json::parse(file_content(folder / kCaseFile));
         fill_from_case(input, folder, json, progress);
     } catch (const nlohmann::json::exception& error) {
         throw InvalidInput("case '" + folder.filename().string() +
@@ -120,13 +105,6 @@ void read_case(Input& input, const fs::path& folder, const Progress& progress) {
 
 }  // namespace
 
-bool holds_surface(const fs::path& file) {
-    static const std::array<std::string, 5> suffixes = {".stl", ".ply", ".obj", ".off", ".vtp"};
-    const std::string suffix = lower_suffix(file);
-    return std::ranges::count(suffixes, suffix) > 0 ||
-           (suffix == ".vtk" && legacy_vtk_surface(file));
-}
-
 Input resolve_input(const InputOptions& options, const Progress& progress) {
     Input input;
     const fs::path path = plain_path(options.input);
@@ -135,7 +113,7 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     if (fs::exists(path / kCaseFile)) {
         read_case(input, path, progress);
     } else {
-        input.is_image = fs::is_directory(path) || !holds_surface(path);
+        input.is_image = fs::is_directory(path) || !holds_surface(path.string());
         input.file = path;
     }
     if (!options.mask.empty()) input.mask = options.mask;

@@ -44,7 +44,4 @@ struct Input {
 /// The edit that loads the input, with the arguments an entry of a recipe may add to it.
 [[nodiscard]] RecipeEntry loading_entry(const Input& input);
 
-/// True if the file is a surface: by its suffix, or by the first lines of a legacy .vtk file.
-[[nodiscard]] bool holds_surface(const std::filesystem::path& file);
-
 }  // namespace vesselbench

@@ -5,8 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/formats/pending_files.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/export/products.h"
@@ -63,7 +64,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
     if (!options.recipe.empty()) {
         const std::string name = fs::path(options.recipe).filename().string();
         try {
-            return Json::parse(read_text_file(options.recipe));
+            return Json::parse(file_content(options.recipe));
         } catch (const nlohmann::json::exception& error) {
             throw UsageError("recipe '" + name + "' is no JSON: " + error.what());
         }

@@ -1,17 +1,16 @@
 #include "workbench/project/project.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
 #include "workbench/project/database.h"
 #include "workbench/project/file_lock.h"
 #include "workbench/project/part_store.h"
@@ -32,20 +31,6 @@ bool missing(const std::filesystem::path& path) {
     return !there;
 }
 
-/// A name beside the file under which it is written before it is renamed.
-std::filesystem::path unfinished_name(const std::filesystem::path& path) {
-    std::filesystem::path name = path;
-    name += ".unfinished-" + std::to_string(getpid());
-    return name;
-}
-
-void sync_to_disk(const std::filesystem::path& path) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    fsync(descriptor);
-    close(descriptor);
-}
-
 /// Has a file written under another name, then renames it: nobody sees half of it, and a file that
 /// is there stays.
 void write_whole(const std::filesystem::path& path,
@@ -53,22 +38,9 @@ void write_whole(const std::filesystem::path& path,
     const std::string name = path.filename().string();
     if (!missing(path))
         throw IoError(name + " exists already; choose another name or remove it first");
-    const auto unfinished = unfinished_name(path);
-    std::error_code ignored;
-    try {
-        write(unfinished);
-        sync_to_disk(unfinished);
-        // Not every file system can refuse to replace; the name was free a moment ago.
-        if (renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) != 0)
-            std::filesystem::rename(unfinished, path);
-    } catch (const std::filesystem::filesystem_error& error) {
-        std::filesystem::remove(unfinished, ignored);
-        throw IoError("cannot write " + name + ": " + error.code().message());
-    } catch (...) {
-        std::filesystem::remove(unfinished, ignored);
-        throw;
-    }
-    sync_to_disk(std::filesystem::absolute(path).parent_path());
+    PendingFiles files;
+    write(files.add(path));
+    files.commit(Existing::Keep);
 }
 
 }  // namespace

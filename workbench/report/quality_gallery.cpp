@@ -6,8 +6,8 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/report/label_text.h"
 #include "workbench/report/report_pictures.h"
-#include "workbench/report/stroke_text.h"
 
 namespace vesselbench {
 

@@ -1,4 +1,4 @@
-#include "geometry/formats/nrrd_file.h"
+#include "geometry/formats/nrrd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/number_text.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -235,9 +236,9 @@ std::string data_bytes(const std::string& path, const std::string& all, const He
     const std::string* other = find(header.fields, "datafile");
     if (!other) return all.substr(header.data);
     if (other->starts_with("LIST") || other->find('%') != std::string::npos)
-        bad_file(name, "its voxels lie in several files", "save it as one .nrrd file");
+        bad_file(name, "its voxels lie in several files", "save it as one file");
     const std::filesystem::path file(*other);
-    return file_bytes(
+    return file_content(
         (file.is_absolute() ? file : std::filesystem::path(path).parent_path() / file).string());
 }
 
@@ -245,7 +246,7 @@ std::size_t skipped(const Fields& fields, const std::string& key, const std::str
     const std::string* text = find(fields, key);
     const auto number = text ? number_in(*text) : 0.0;
     if (!number || *number < 0.0 || *number > 1e9)
-        bad_file(name, "its field '" + key + "' is not usable", "save it as one .nrrd file");
+        bad_file(name, "its field '" + key + "' is not usable", "save it as one file");
     return static_cast<std::size_t>(*number);
 }
 
@@ -287,8 +288,8 @@ Image decoded(const ImageHeader& header, std::string_view data, const Fields& fi
 }  // namespace
 
 ImageFile read_nrrd(const std::string& path) {
-    const std::string name = file_name(path);
-    const std::string all = file_bytes(path);
+    const std::string name = bare_name(path);
+    const std::string all = file_content(path);
     const Header parsed = parse_header(all, name);
     const Fields& fields = parsed.fields;
     const auto sizes = words_of(needed(fields, "sizes", name));
@@ -301,7 +302,6 @@ ImageFile read_nrrd(const std::string& path) {
         bad_file(name, "its space directions and its sizes disagree", "write the file anew");
 
     ImageFile file;
-    file.format = "NRRD";
     ImageHeader header;
     const auto axes = spatial_axes(sizes, directions, name);
     std::array<long long, 3> size{};
@@ -321,7 +321,7 @@ ImageFile read_nrrd(const std::string& path) {
     return file;
 }
 
-std::string nrrd_bytes(const Image& image) {
+void write_nrrd(const Image& image, const std::string& path) {
     const VoxelType type = smallest_type(image);
     const auto vector = [&](Eigen::Index column) {
         const Eigen::Vector3d v = image.index_to_patient.block<3, 1>(0, column);
@@ -334,7 +334,7 @@ std::string nrrd_bytes(const Image& image) {
     header += "\nspace directions: " + vector(0) + " " + vector(1) + " " + vector(2);
     header += "\nkinds: domain domain domain\nspace units: \"mm\" \"mm\" \"mm\"";
     header += "\nendian: little\nencoding: gzip\nspace origin: " + vector(3) + "\n\n";
-    return header + deflated(stored_bytes(image, type), true);
+    write_file(path, header + deflated(stored_bytes(image, type), true));
 }
 
 }  // namespace vesselbench

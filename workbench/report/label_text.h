@@ -6,9 +6,9 @@
 
 namespace vesselbench {
 
-/// Writes a text into a picture, in plain strokes: lower-case letters (capitals are written so),
-/// digits and the usual marks; others leave a gap.
+/// Writes a text into a picture, in DejaVu Sans, anti-aliased.
 /// \param x, y left end of the base line [pixels], y from the top
+/// \param text UTF-8
 /// \param size height of a digit [pixels]
 void write_text(Picture& picture, double x, double y, const std::string& text, double size,
                 const PixelColour& colour = {34, 34, 34});

@@ -12,7 +12,7 @@ namespace vesselbench {
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_meta_image(const std::string& path);
 
-/// Bytes of a .mha file (compressed) that holds the image.
-[[nodiscard]] std::string meta_image_bytes(const Image& image);
+/// Writes one compressed file. \throw IoError
+void write_meta_image(const Image& image, const std::string& path);
 
 }  // namespace vesselbench

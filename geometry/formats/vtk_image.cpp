@@ -1,7 +1,6 @@
-#include "geometry/formats/vtk_image_file.h"
+#include "geometry/formats/vtk_image.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -17,6 +16,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "geometry/formats/image_bytes.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -71,7 +71,7 @@ std::string attribute(std::string_view head, const std::string& key) {
 void check_vti_header(std::string_view bytes, const std::string& name) {
     const std::string_view head = bytes.substr(0, 1 << 16);
     if (head.find("ImageData") == std::string_view::npos)
-        bad_file(name, "it is not a VTK image (type ImageData)", "export it as .vti");
+        bad_file(name, "it is not a VTK image (type ImageData)", "export it as image data");
     const auto words = words_of(attribute(head, "WholeExtent"));
     if (words.size() != 6) damaged(name);
     std::array<long long, 3> size{};
@@ -87,7 +87,7 @@ void check_vti_header(std::string_view bytes, const std::string& name) {
 void check_legacy_header(std::string_view bytes, const std::string& name) {
     const std::string_view head = bytes.substr(0, 4096);
     if (!head.starts_with("# vtk") || head.find("STRUCTURED_POINTS") == std::string_view::npos)
-        bad_file(name, "it is not a VTK image (structured points)", "export it as .vti");
+        bad_file(name, "it is not a VTK image (structured points)", "export it as image data");
     const auto at = head.find("DIMENSIONS");
     if (at == std::string_view::npos) damaged(name);
     const auto words = words_of(head.substr(at, head.find('\n', at) - at));
@@ -145,23 +145,30 @@ Image read_with(const std::string& path, const std::string& name) {
     return image_from_vtk(reader->GetOutput(), name);
 }
 
-}  // namespace
-
-ImageFile read_vtk_image(const std::string& path) {
-    const std::string name = file_name(path);
-    const std::string bytes = file_bytes(path);
+ImageFile image_file(Image image) {
     ImageFile file;
-    file.format = "VTK";
-    if (lower_case(std::filesystem::path(path).extension().string()) == ".vti") {
-        check_vti_header(bytes, name);
-        file.image = read_with<vtkXMLImageDataReader>(path, name);
-    } else {
-        check_legacy_header(bytes, name);
-        file.image = read_with<vtkStructuredPointsReader>(path, name);
-    }
+    file.image = std::move(image);
     file.notes.emplace_back(
         "a VTK image does not say which way its axes point: left, posterior, superior is taken");
     return file;
+}
+
+}  // namespace
+
+ImageFile read_vti(const std::string& path) {
+    const std::string name = bare_name(path);
+    check_vti_header(file_content(path), name);
+    return image_file(read_with<vtkXMLImageDataReader>(path, name));
+}
+
+ImageFile read_legacy_vtk_image(const std::string& path) {
+    const std::string name = bare_name(path);
+    check_legacy_header(file_content(path), name);
+    return image_file(read_with<vtkStructuredPointsReader>(path, name));
+}
+
+bool is_legacy_structured_points(std::string_view head) {
+    return head.find("STRUCTURED_POINTS") != std::string_view::npos;
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "geometry/formats/image_file.h"
 
@@ -20,7 +21,10 @@ namespace vesselbench {
 /// \throw as read_image_file; also if the file holds one slice only
 [[nodiscard]] ImageFile read_dicom_file(const std::string& path);
 
-/// True if the file has DICOM's preamble.
-[[nodiscard]] bool is_dicom(const std::string& path);
+/// One of the two above, by whether the path is a folder.
+[[nodiscard]] ImageFile read_dicom(const std::string& path);
+
+/// True if a file that begins with these bytes has DICOM's preamble.
+[[nodiscard]] bool is_dicom(std::string_view head);
 
 }  // namespace vesselbench

@@ -12,7 +12,7 @@ namespace vesselbench {
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_nrrd(const std::string& path);
 
-/// Bytes of an NRRD file (LPS, gzip) that holds the image.
-[[nodiscard]] std::string nrrd_bytes(const Image& image);
+/// Writes one compressed file. \throw IoError
+void write_nrrd(const Image& image, const std::string& path);
 
 }  // namespace vesselbench

@@ -1,17 +1,22 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace vesselbench {
 
+/// What becomes of a file that has the name already.
+enum class Existing { Replace, Keep };
+
 /// Files and folders that appear under their own names only when all of them are complete. Until
 /// commit() they are written to a temporary folder beside them; what is not committed is removed.
 class PendingFiles {
 public:
-    PendingFiles() = default;
+    PendingFiles();
     ~PendingFiles();
     PendingFiles(const PendingFiles&) = delete;
     PendingFiles& operator=(const PendingFiles&) = delete;
@@ -20,21 +25,24 @@ public:
     /// \throw IoError if that folder cannot be made
     [[nodiscard]] std::filesystem::path add(const std::filesystem::path& final_name);
 
+    /// Adds a file that `write` fills. \throw IoError if it cannot be written entirely
+    void add_stream(const std::filesystem::path& final_name,
+                    const std::function<void(std::ostream&)>& write);
+
     /// Adds a text file. \throw IoError if it cannot be written entirely
     void add_text(const std::filesystem::path& final_name, const std::string& text);
 
-    /// Flushes all of them to the disk and gives them their own names, replacing what was there.
-    /// \throw IoError that names the file and the cause
-    void commit();
+    /// Flushes all of them to the disk and gives them their own names.
+    /// \throw IoError that names the file and the cause; with Existing::Keep also if a file has one
+    /// of the names already
+    void commit(Existing existing = Existing::Replace);
 
 private:
+    std::string folder_name_;  // of the temporary folders, unique
     std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;  // temporary, own
 };
 
 /// Makes the folder and its parents. \throw IoError if it cannot be made or written to
 void make_folder(const std::filesystem::path& folder);
-
-/// Reads a whole text file. \throw IoError
-[[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace vesselbench

@@ -1,4 +1,4 @@
-#include "geometry/formats/dicom_file.h"
+#include "geometry/formats/dicom.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,10 @@
 #include <gdcmTrace.h>
 
 #include "geometry/formats/image_bytes.h"
+#include "geometry/formats/image_formats.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -219,7 +221,7 @@ Frames frames_of(const gdcm::ImageReader& reader, const std::string& name) {
 
 Frames read_frames(const std::string& path) {
     const GdcmMessages messages;
-    const std::string name = file_name(path);
+    const std::string name = bare_name(path);
     gdcm::ImageReader reader;
     reader.SetFileName(path.c_str());
     if (!reader.Read())
@@ -341,11 +343,17 @@ std::vector<std::string> files_in(const std::string& folder) {
     std::vector<std::string> files;
     fs::directory_iterator entries(folder, error);
     if (error)
-        throw IoError(file_name(folder) + ": the folder cannot be read (" + error.message() + ")");
+        throw IoError(bare_name(folder) + ": the folder cannot be read (" + error.message() + ")");
     for (const auto& entry : entries)
         if (entry.is_regular_file(error)) files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
     return files;
+}
+
+/// The row of DICOM in the table of image formats.
+const Format& dicom_format() {
+    return *std::ranges::find_if(image_formats(),
+                                 [](const Format& row) { return row.sniff == is_dicom; });
 }
 
 void check_one_series(const std::vector<Frames>& files, const std::string& name) {
@@ -363,15 +371,16 @@ void check_one_series(const std::vector<Frames>& files, const std::string& name)
 
 }  // namespace
 
-bool is_dicom(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string head(132, '\0');
-    return in.read(head.data(), static_cast<std::streamsize>(head.size())) &&
-           head.substr(128) == "DICM";
+bool is_dicom(std::string_view head) {
+    return head.size() >= 132 && head.substr(128, 4) == "DICM";
+}
+
+ImageFile read_dicom(const std::string& path) {
+    return fs::is_directory(path) ? read_dicom_folder(path) : read_dicom_file(path);
 }
 
 ImageFile read_dicom_file(const std::string& path) {
-    if (file_bytes(path).empty()) bad_file(file_name(path), "it is empty", "copy it again");
+    if (file_content(path).empty()) bad_file(bare_name(path), "it is empty", "copy it again");
     const Frames frames = read_frames(path);
     if (frames.count == 1)
         bad_file(frames.name, "it holds one slice only",
@@ -391,20 +400,22 @@ ImageFile read_dicom_file(const std::string& path) {
 }
 
 ImageFile read_dicom_folder(const std::string& folder) {
-    const std::string name = file_name(folder);
+    const std::string name = bare_name(folder);
+    const Format& row = dicom_format();
     std::vector<std::string> paths;
     for (const std::string& path : files_in(folder))
-        if (is_dicom(path))
+        if (content_fits(row, path))
             paths.push_back(path);
-        else if (fs::path(path).extension() == ".dcm")  // a slice left out would shift the others
-            bad_file(file_name(path), "it is no readable DICOM file (empty or damaged)",
+        else if (fs::path(path).extension() ==
+                 row.suffixes[0])  // a slice left out would shift others
+            bad_file(bare_name(path), "it is no readable DICOM file (empty or damaged)",
                      "copy it again, or remove it");
     if (paths.empty())
         bad_file(name, "the folder holds no DICOM slices", "give the folder that holds the slices");
     if (paths.size() == 1) return read_dicom_file(paths.front());
     std::vector<Frames> files;
     for (const std::string& path : paths) {
-        if (file_name(path) == "DICOMDIR") continue;
+        if (bare_name(path) == "DICOMDIR") continue;
         files.push_back(read_frames(path));
     }
     check_one_series(files, name);

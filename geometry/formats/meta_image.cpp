@@ -1,4 +1,4 @@
-#include "geometry/formats/meta_image_file.h"
+#include "geometry/formats/meta_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/number_text.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -137,9 +138,9 @@ std::string data_bytes(const std::string& path, const std::string& all, const He
     const std::string& other = header.fields.at("elementdatafile");
     if (other == "LOCAL" || other == "Local" || other == "local") return all.substr(header.data);
     if (other.starts_with("LIST") || other.find('%') != std::string::npos)
-        bad_file(name, "its voxels lie in several files", "save it as one .mha file");
+        bad_file(name, "its voxels lie in several files", "save it as one file");
     const std::filesystem::path file(other);
-    return file_bytes(
+    return file_content(
         (file.is_absolute() ? file : std::filesystem::path(path).parent_path() / file).string());
 }
 
@@ -166,14 +167,13 @@ Image decoded(const ImageHeader& header, std::string_view data, const Fields& fi
 }  // namespace
 
 ImageFile read_meta_image(const std::string& path) {
-    const std::string name = file_name(path);
-    const std::string all = file_bytes(path);
+    const std::string name = bare_name(path);
+    const std::string all = file_content(path);
     const Header parsed = parse_header(all, name);
     const Fields& fields = parsed.fields;
     check_kind(fields, name);
 
     ImageFile file;
-    file.format = "MetaImage";
     ImageHeader header;
     const auto stated = numbers(fields.at("dimsize"), 3, "DimSize", name);
     std::array<long long, 3> size{};
@@ -191,7 +191,7 @@ ImageFile read_meta_image(const std::string& path) {
     return file;
 }
 
-std::string meta_image_bytes(const Image& image) {
+void write_meta_image(const Image& image, const std::string& path) {
     const VoxelType type = smallest_type(image);
     const Vec3 spacing = image.spacing();
     const auto row = [](const Vec3& v) {
@@ -211,7 +211,7 @@ std::string meta_image_bytes(const Image& image) {
     header += type == VoxelType::UInt8   ? "MET_UCHAR"
               : type == VoxelType::Int16 ? "MET_SHORT"
                                          : "MET_FLOAT";
-    return header + "\nElementDataFile = LOCAL\n" + data;
+    write_file(path, header + "\nElementDataFile = LOCAL\n" + data);
 }
 
 }  // namespace vesselbench

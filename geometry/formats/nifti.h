@@ -15,4 +15,10 @@ namespace vesselbench {
 /// Bytes of a NIfTI-1 file (not compressed) that holds the image, its matrix as sform.
 [[nodiscard]] std::string nifti_bytes(const Image& image);
 
+/// Writes these bytes. \throw IoError
+void write_nifti(const Image& image, const std::string& path);
+
+/// The same, as a gzip stream.
+void write_compressed_nifti(const Image& image, const std::string& path);
+
 }  // namespace vesselbench

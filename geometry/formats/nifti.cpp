@@ -1,4 +1,4 @@
-#include "geometry/formats/nifti_file.h"
+#include "geometry/formats/nifti.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/number_text.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -121,8 +122,8 @@ Fields checked_fields(std::string_view bytes, const std::string& name) {
     fields.swap = !is(static_cast<std::int32_t>(kHeaderSize)) && !is(kNifti2);
     if (is(kNifti2)) bad_file(name, "it is a NIfTI-2 file", "convert it to NIfTI-1");
     if (!is(static_cast<std::int32_t>(kHeaderSize)) || bytes.substr(344, 3) != "n+1")
-        bad_file(name, "it is not a NIfTI-1 file in one piece (.nii, .nii.gz)",
-                 "convert it to .nii.gz");
+        bad_file(name, "it is not a NIfTI-1 file in one piece",
+                 "convert it to a single NIfTI-1 file");
     return fields;
 }
 
@@ -151,14 +152,13 @@ void put(std::string& bytes, std::size_t offset, T value) {
 }  // namespace
 
 ImageFile read_nifti(const std::string& path) {
-    const std::string name = file_name(path);
-    const std::string stored = file_bytes(path);
+    const std::string name = bare_name(path);
+    const std::string stored = file_content(path);
     const bool packed = is_gzip(stored);
     const std::string head = packed ? inflated(stored, kHeaderSize, name, true) : std::string();
     const Fields fields = checked_fields(packed ? head : stored, name);
 
     ImageFile file;
-    file.format = "NIfTI";
     ImageHeader header;
     const auto size = size_of(fields, name);
     const std::size_t count = checked_voxel_count(size, name);
@@ -213,6 +213,14 @@ std::string nifti_bytes(const Image& image) {
                 static_cast<float>(ras(r, c)));
     std::memcpy(bytes.data() + 344, "n+1", 4);
     return bytes + stored_bytes(image, type);
+}
+
+void write_nifti(const Image& image, const std::string& path) {
+    write_file(path, nifti_bytes(image));
+}
+
+void write_compressed_nifti(const Image& image, const std::string& path) {
+    write_file(path, deflated(nifti_bytes(image), true));
 }
 
 }  // namespace vesselbench

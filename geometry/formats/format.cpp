@@ -1,0 +1,59 @@
+#include "geometry/formats/format.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/formats/image_bytes.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool ends_in_one_of(const std::string& path, const std::vector<std::string>& suffixes) {
+    const std::string name = lower_case(fs::path(path).filename().string());
+    return std::ranges::any_of(suffixes, [&](const auto& s) { return name.ends_with(s); });
+}
+
+bool is_folder(const std::string& path) {
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+
+}  // namespace
+
+bool is_named_for_reading(const Format& format, const std::string& path) {
+    if (is_folder(path)) return format.folder;
+    return ends_in_one_of(path, format.suffixes) || ends_in_one_of(path, format.also_read);
+}
+
+bool is_named_for_writing(const Format& format, const std::string& path) {
+    if (is_folder(path) || lower_suffix(path).empty()) return format.folder;
+    return ends_in_one_of(path, format.suffixes);
+}
+
+bool content_fits(const Format& format, const std::string& path) {
+    if (!format.sniff) return true;
+    std::ifstream in(path, std::ios::binary);
+    std::string head(kSniffedBytes, '\0');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    return format.sniff(head);
+}
+
+std::string enumerated(const std::vector<std::string>& words, const std::string& last) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string lower_suffix(const std::string& path) {
+    return lower_case(fs::path(path).extension().string());
+}
+
+}  // namespace vesselbench

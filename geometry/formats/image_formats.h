@@ -1,0 +1,13 @@
+#pragma once
+
+#include "geometry/formats/format.h"
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+using ImageFormat = FormatRow<ImageFile, Image>;
+
+/// The table of image formats that read_image_file and write_image know.
+[[nodiscard]] const std::vector<ImageFormat>& image_formats();
+
+}  // namespace vesselbench

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geometry/formats/image_file.h"
+
+namespace vesselbench {
+
+/// Reads an image of VTK's XML format, with its direction matrix.
+/// The active point scalars are taken, else the first array with one value a voxel; vectors are
+/// passed over. VTK names no patient axes: LPS is taken and said.
+/// \throw as read_image_file
+[[nodiscard]] ImageFile read_vti(const std::string& path);
+
+/// The same for legacy structured points.
+[[nodiscard]] ImageFile read_legacy_vtk_image(const std::string& path);
+
+/// True if a legacy VTK file that begins with these bytes holds structured points.
+[[nodiscard]] bool is_legacy_structured_points(std::string_view head);
+
+}  // namespace vesselbench

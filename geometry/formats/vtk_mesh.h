@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/surface.h"
+
+namespace vesselbench {
+
+/// A mesh as VTK's XML files hold it.
+struct VtkMesh {
+    const Positions& points;         ///< [mm]
+    std::vector<long long> corners;  ///< of all cells, one after the other
+    std::vector<std::int64_t>
+        offsets;  ///< of each cell's first corner; at last the number of corners
+    std::vector<std::uint8_t> types;    ///< VTK's number of each cell's type; empty: all triangles
+    std::vector<std::int32_t> regions;  ///< per cell, the array CellEntityIds
+    std::vector<std::string> patch_names;  ///< of regions 1, 2..., the field array PatchNames
+    std::map<std::string, std::shared_ptr<const std::vector<double>>> attributes;  ///< per point
+};
+
+inline constexpr std::uint8_t kVtkTriangle = 5, kVtkTetrahedron = 10;
+
+/// Adds a cell. \param region its entry of CellEntityIds
+template <class Corners>
+void add_cell(VtkMesh& mesh, const Corners& corners, std::int32_t region) {
+    if (mesh.offsets.empty()) mesh.offsets.push_back(0);
+    mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
+    mesh.offsets.push_back(static_cast<long long>(mesh.corners.size()));
+    mesh.regions.push_back(region);
+}
+
+/// Writes PolyData by VTK, in double precision, appended raw data; the same mesh gives the same
+/// bytes. \throw IoError
+void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path);
+
+/// The same as UnstructuredGrid. \throw IoError
+void write_vtk_unstructured_grid(const VtkMesh& mesh, const std::string& path);
+
+}  // namespace vesselbench

@@ -1,0 +1,46 @@
+#include "geometry/kernel/whole_file.h"
+
+#include <fstream>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
+
+namespace vesselbench {
+
+namespace fs = std::filesystem;
+
+std::string bare_name(const fs::path& path) {
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+std::string file_content(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) throw IoError(bare_name(path) + " is a folder, not a file");
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw IoError("cannot open " + bare_name(path) + ": does it exist, and may it be read?");
+    file.seekg(0, std::ios::end);
+    const auto size = file.tellg();
+    if (size < 0) throw IoError("cannot read " + bare_name(path));
+    std::string content(static_cast<std::size_t>(size), '\0');
+    file.seekg(0);
+    file.read(content.data(), size);
+    if (!file)
+        throw IoError("reading " + bare_name(path) + " stopped after " +
+                      std::to_string(file.gcount()) + " bytes");
+    return content;
+}
+
+void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+    PendingFiles files;
+    files.add_stream(path, write);
+    files.commit();
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    write_file(path, [&](std::ostream& out) {
+        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    });
+}
+
+}  // namespace vesselbench

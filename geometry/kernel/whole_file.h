@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+namespace vesselbench {
+
+/// Name of a file or folder without the folders it lies in, for error texts.
+[[nodiscard]] std::string bare_name(const std::filesystem::path& path);
+
+/// All bytes of a file.
+/// \throw IoError if it is missing, a folder, or cannot be read to its end
+[[nodiscard]] std::string file_content(const std::filesystem::path& path);
+
+/// Writes a file so that it is whole or absent (PendingFiles, for one file).
+/// \throw IoError if the folder is missing or read-only, or the disk is full
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+/// The same for bytes at hand.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace vesselbench

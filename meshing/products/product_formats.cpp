@@ -1,0 +1,58 @@
+#include "meshing/products/product_formats.h"
+
+#include "meshing/products/glb.h"
+#include "meshing/products/gmsh.h"
+#include "meshing/products/openfoam_case.h"
+#include "meshing/products/threemf.h"
+#include "meshing/products/vtu.h"
+
+namespace vesselbench {
+
+const std::vector<SurfaceFormat>& product_surface_formats() {
+    using enum FormatKind;
+    static const std::vector<SurfaceFormat> rows = {
+        {{.name = "3MF",
+          .kind = Surface,
+          .suffixes = {".3mf"},
+          .content = "a solid for printing; the surface must be closed"},
+         nullptr,
+         write_3mf},
+        {{.name = "GLB",
+          .kind = Surface,
+          .suffixes = {".glb"},
+          .content = "binary glTF 2.0 for viewers, with a colour per patch",
+          .unit = "m"},
+         nullptr,
+         write_glb}};
+    return rows;
+}
+
+const std::vector<VolumeFormat>& volume_formats() {
+    using enum FormatKind;
+    static const std::vector<VolumeFormat> rows = {
+        {{.name = "VTU",
+          .kind = VolumeMesh,
+          .suffixes = {".vtu"},
+          .content = "double precision, with boundary triangles and patches"},
+         nullptr,
+         write_vtu},
+        {{.name = "Gmsh",
+          .kind = VolumeMesh,
+          .suffixes = {".msh"},
+          .content = "MSH 2.2 text, with patches as physical surfaces"},
+         nullptr,
+         write_msh}};
+    return rows;
+}
+
+const std::vector<CaseFormat>& case_formats() {
+    static const std::vector<CaseFormat> rows = {{{.name = "OpenFOAM",
+                                                   .kind = FormatKind::VolumeMesh,
+                                                   .content = "a case for simpleFoam",
+                                                   .unit = "m",
+                                                   .folder = true},
+                                                  write_openfoam_case}};
+    return rows;
+}
+
+}  // namespace vesselbench

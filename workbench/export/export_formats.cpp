@@ -1,0 +1,74 @@
+#include "workbench/export/export_formats.h"
+
+#include <algorithm>
+
+#include "geometry/formats/image_formats.h"
+#include "geometry/formats/surface_formats.h"
+#include "geometry/kernel/errors.h"
+#include "meshing/products/product_formats.h"
+#include "workbench/case/near_names.h"
+
+namespace vesselbench {
+
+namespace {
+
+const VolumeMesh& volume_mesh_of(const Scene& scene) {
+    if (!scene.volume_mesh)
+        throw InvalidInput("there is no volume mesh in this variant: use tetrahedralize");
+    return *scene.volume_mesh;
+}
+
+void add_surfaces(std::vector<ExportFormat>& all, const std::vector<SurfaceFormat>& rows) {
+    for (const SurfaceFormat& row : rows)
+        if (row.write)
+            all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
+                                                    const CfdParameters&) {
+                               write(surface_of(scene), path);
+                           }});
+}
+
+std::vector<ExportFormat> joined_rows() {
+    std::vector<ExportFormat> all;
+    add_surfaces(all, surface_formats());
+    add_surfaces(all, product_surface_formats());
+    for (const VolumeFormat& row : volume_formats())
+        all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
+                                                const CfdParameters&) {
+                           write(volume_mesh_of(scene), path);
+                       }});
+    for (const CaseFormat& row : case_formats())
+        all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
+                                                const CfdParameters& flow) {
+                           write(path, volume_mesh_of(scene), flow);
+                       }});
+    return all;
+}
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(width, text.size()), ' ');
+    return text;
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& export_formats() {
+    static const std::vector<ExportFormat> rows = joined_rows();
+    return rows;
+}
+
+std::string export_formats_text() {
+    std::string text;
+    for (const ExportFormat& row : export_formats())
+        text += "  " + padded(row.folder ? "folder" : joined(row.suffixes, " "), 8) +
+                padded(row.kind == FormatKind::Surface ? "surface" : "volume mesh", 13) +
+                padded(row.unit, 4) + row.name + ": " + row.content + "\n";
+    return text;
+}
+
+std::string input_formats_text() {
+    return "Surfaces: " + joined(read_suffixes(surface_formats()), " ") +
+           "\nImages: " + joined(read_suffixes(image_formats()), " ") +
+           " and folders of DICOM slices";
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/formats/format.h"
+#include "meshing/products/cfd_parameters.h"
+#include "workbench/case/scene.h"
+
+namespace vesselbench {
+
+/// A format that a scene is exported in.
+struct ExportFormat : Format {
+    /// \throw InvalidInput if the scene has no such content
+    std::function<void(const Scene&, const std::string& path, const CfdParameters&)> write;
+};
+
+/// The rows of all rooms whose formats are written from a scene: surfaces, then volume meshes, then
+/// solvers' cases.
+[[nodiscard]] const std::vector<ExportFormat>& export_formats();
+
+/// The table of these formats for the help of `export`: a line each with suffix, content and unit.
+[[nodiscard]] std::string export_formats_text();
+
+/// The surface and image formats that are read, for help texts: two lines.
+[[nodiscard]] std::string input_formats_text();
+
+}  // namespace vesselbench
