@@ -162,7 +162,16 @@ struct EditableSurface::Mesh {
             if (!half_edges.status(face(t)).deleted()) found.push_back(t);
     }
 
-    /// True if vertex v, or one of its copies, stands apart.
+    /// Only at the edges of a tetrahedron both ends have three neighbours around them. OpenMesh
+    /// would collapse it to two triangles back to back.
+    [[nodiscard]] bool is_on_tetrahedron(HalfEdge h) const {
+        const auto is_peak = [&](VertexHandle v) {
+            return !half_edges.is_boundary(v) && half_edges.valence(v) == 3;
+        };
+        return is_peak(half_edges.from_vertex_handle(h)) && is_peak(half_edges.to_vertex_handle(h));
+    }
+
+    /// True if vertex v has copies.
     [[nodiscard]] bool is_split(VertexId v) const { return copies.contains(v); }
 
     void fill_from(const TriangleSoup& soup);
@@ -372,7 +381,8 @@ void EditableSurface::remove(const std::vector<std::uint8_t>& marked) {
 bool EditableSurface::collapse(VertexId gone, VertexId kept) {
     if (mesh_->is_split(gone) || mesh_->is_split(kept)) return false;
     const HalfEdge h = mesh_->half_edges.find_halfedge(vertex(gone), vertex(kept));
-    if (!h.is_valid() || !mesh_->half_edges.is_collapse_ok(h)) return false;
+    if (!h.is_valid() || mesh_->is_on_tetrahedron(h)) return false;
+    if (!mesh_->half_edges.is_collapse_ok(h)) return false;
     mesh_->half_edges.collapse(h);
     return true;
 }

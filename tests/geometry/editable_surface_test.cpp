@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -17,6 +18,8 @@ using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
+
+constexpr double kPi = std::numbers::pi;
 
 void check_same_bits(const Surface& a, const Surface& b) {
     CHECK(a.points() == b.points());
@@ -159,8 +162,8 @@ SCENARIO("A plane cuts one vessel and carries patches and attributes", "[geometr
 SCENARIO("A cut through a ring of vessels does not part it", "[geometry][editing]") {
     const Surface tube = open_tube(1.0, 40.0, 16, 60);
     const Surface ring = mapped(tube, [](const Vec3& p) {
-        const double turn = p.z() / 40.0 * 1.9 * M_PI;
-        return Vec3((6.0 + p.x()) * std::cos(turn), (6.0 + p.x()) * std::sin(turn), p.y());
+        const double turn = p.z() / 40.0 * 1.9 * kPi;
+        return Vec3((6.0 + p.x()) * std::cos(turn), (6.0 + p.x()) * std::sin(turn), -p.y());
     });
     EditableSurface surface(ring);
     const auto rims = surface.rims();
@@ -193,7 +196,7 @@ SCENARIO("Two parts are joined along their rims", "[geometry][editing]") {
     CHECK(euler(joined) == 0);
     CHECK(connected_components(*joined.topology).count() == 1);
     CHECK(joined.patches.size() == 1);
-    CHECK(area(joined) == Approx(area(lower) + area(upper) + 2.0 * M_PI * 2.0 * 0.5).epsilon(0.02));
+    CHECK(area(joined) == Approx(area(lower) + area(upper) + 2.0 * kPi * 2.0 * 0.5).epsilon(0.02));
     const auto& height = *joined.attributes.at("height");
     CHECK(height[lower.vertex_count() - 1] == lower.attributes.at("height")->back());
     CHECK(height[first] == upper.attributes.at("height")->front());
