@@ -48,7 +48,7 @@ Camera camera_for(const Positions& points, const Vec3& centre, const PictureOpti
     Eigen::Matrix3d eye;
     eye << right.transpose(), back.cross(right).transpose(), back.transpose();
     if (!(eye.determinant() > 0.5))
-        throw InvalidInput("the direction of sight and the up direction must not be parallel");
+        throw InvalidInput("the view direction and the up direction must not be parallel");
     Vec3 reach = Vec3::Constant(1e-9);
     double radius = 0.0;
     for (const Vec3& p : points) {

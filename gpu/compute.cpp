@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Errors of earlier calls; a lost context reports its own for ever.
+/// Errors of earlier calls; a lost context reports its own error forever.
 void forget_errors() {
     for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) {
     }
@@ -21,20 +21,20 @@ Buffer allocated(const Device& device, std::size_t bytes, const void* content,
                  const std::string& label) {
     if (bytes > device.limits.largest_storage_block)
         throw GpuUnavailable(label + " takes " + std::to_string(bytes) +
-                             " bytes, the device allows " +
+                             " bytes; the device allows " +
                              std::to_string(device.limits.largest_storage_block) + " in a buffer");
     forget_errors();
     unsigned id = 0;
     glGenBuffers(1, &id);
     Buffer buffer(id);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, id);
-    // a buffer of no bytes cannot be bound
+    // an empty buffer cannot be bound
     glBufferData(GL_SHADER_STORAGE_BUFFER,
                  static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)),
                  bytes == 0 ? nullptr : content, GL_STATIC_COPY);
     if (glGetError() != GL_NO_ERROR)
-        throw GpuUnavailable("the device has no room for " + label + " (" + std::to_string(bytes) +
-                             " bytes)");
+        throw GpuUnavailable("the device is out of memory for " + label + " (" +
+                             std::to_string(bytes) + " bytes)");
     glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(label.size()), label.c_str());
     return buffer;
 }
@@ -58,7 +58,7 @@ Program make_compute_program(const Device& device, const std::string& name) {
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
     glAttachShader(program.id(), shader);
-    glDeleteShader(shader);  // lives on while it is attached
+    glDeleteShader(shader);  // lives on while attached
     int ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (!ok)
@@ -154,7 +154,7 @@ Buffer make_filled_storage(const Device& device, std::span<const std::byte> byte
 
 void read_bytes(const Buffer& buffer, std::span<std::byte> bytes) {
     if (bytes.empty()) return;
-    // By way of another buffer: drivers move what is read from the device's memory to the host's.
+    // Through a second buffer: drivers move a buffer to host memory when it is read.
     unsigned id = 0;
     glGenBuffers(1, &id);
     const Buffer staging(id);

@@ -15,12 +15,12 @@ namespace vesselbench {
 /// Work-group size of all compute shaders (gpu/shaders/elements.glsl).
 constexpr std::size_t kGroupSize = 256;
 
-/// A linked program from the text of gpu/shaders/<name>.comp and what it includes.
+/// A linked program from the text of gpu/shaders/<name>.comp and its includes.
 /// \throw GpuUnavailable with file, line and message if the shader does not compile or link
 [[nodiscard]] Program make_compute_program(const Device& device, const std::string& name);
 
-/// A buffer for shaders, its content undefined.
-/// \throw GpuUnavailable if it is larger than a shader may use, or the device has no room for it
+/// A buffer for shaders with undefined content.
+/// \throw GpuUnavailable if it is larger than a shader may use, or the device is out of memory
 [[nodiscard]] Buffer make_storage(const Device& device, std::size_t bytes,
                                   const std::string& label);
 
@@ -40,23 +40,23 @@ void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes);
 /// Sets all of a buffer's 32-bit words to a number.
 void fill_storage(const Buffer& buffer, std::uint32_t word);
 
-/// Binds buffers to the bindings 0, 1, 2 ... of the shaders; a null pointer leaves one as it is.
+/// Binds buffers to bindings 0, 1, 2 ... of the shaders; a null pointer keeps its binding.
 void bind_storage(std::initializer_list<const Buffer*> buffers);
 
-/// How many work groups a dispatch of so many elements has.
+/// Number of work groups in a dispatch of this many elements.
 [[nodiscard]] std::size_t group_count(std::size_t elements);
 
-/// Runs a program for `elements` elements, after its uniforms and buffers are set: uniform 0 takes
-/// their number. What it writes is seen by every later command.
+/// Runs a program on `elements` elements, after its uniforms and buffers are set; uniform 0
+/// receives their number. Its writes are visible to every later command.
 void dispatch(const Device& device, const Program& program, std::size_t elements);
 
 /// The same with one work group for all elements.
 void dispatch_group(const Program& program, std::size_t elements);
 
-/// Waits until the device has done everything asked for.
+/// Waits until the device has completed all commands.
 void finish_device();
 
-/// Measures how long the device is busy with the commands between start() and stop() [ms].
+/// Measures the device time of the commands between start() and stop() [ms].
 class DeviceTimer {
 public:
     DeviceTimer();

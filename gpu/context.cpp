@@ -13,7 +13,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Real devices before Mesa's surfaceless platform, which may be a renderer on the CPU.
+/// Real devices before Mesa's surfaceless platform, which may render on the CPU.
 std::vector<EGLDisplay> displays() {
     std::vector<EGLDisplay> found;
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
@@ -48,14 +48,15 @@ EGLContext make_context(EGLDisplay display, EGLContext shared, bool tells_resets
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared, wanted.data());
 }
 
-/// One that tells when the driver has lost it (glGetGraphicsResetStatus), where drivers can.
+/// A context that reports when the driver has lost it (glGetGraphicsResetStatus), if the driver
+/// can.
 EGLContext make_context(EGLDisplay display, EGLContext shared) {
     const EGLContext context =
         epoxy_egl_version(display) >= 15 ? make_context(display, shared, true) : EGL_NO_CONTEXT;
     return context != EGL_NO_CONTEXT ? context : make_context(display, shared, false);
 }
 
-/// What is current on this thread.
+/// The context current on this thread.
 struct Current {
     EGLDisplay display = eglGetCurrentDisplay();
     EGLContext context = eglGetCurrentContext();
@@ -108,8 +109,8 @@ struct OffscreenContext::Impl {
         const std::vector<EGLDisplay> candidates = displays();
         if (candidates.empty())
             throw GpuUnavailable(
-                "EGL has neither a device nor the surfaceless platform here (Debian: "
-                "libegl-mesa0, libgl1-mesa-dri)");
+                "EGL offers neither a device nor the surfaceless platform (Debian: libegl-mesa0, "
+                "libgl1-mesa-dri)");
         for (EGLDisplay candidate : candidates)
             if (use(candidate, EGL_NO_CONTEXT)) return;
         throw GpuUnavailable(
@@ -119,9 +120,10 @@ struct OffscreenContext::Impl {
 
     void share_with_current() {
         if (before.context == EGL_NO_CONTEXT)
-            throw GpuUnavailable("there is no context of EGL on this thread to share with");
+            throw GpuUnavailable("there is no EGL context on this thread to share with");
         if (!use(before.display, before.context))
-            throw GpuUnavailable("the driver gives no context that shares with the current one");
+            throw GpuUnavailable(
+                "the driver cannot create a context that shares with the current one");
     }
 };
 

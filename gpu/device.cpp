@@ -13,7 +13,7 @@ namespace vesselbench {
 namespace {
 
 constexpr std::size_t kGroups = 65535;     // OpenGL 4.3, table 23.64
-constexpr std::size_t kStorageBlocks = 8;  // dito
+constexpr std::size_t kStorageBlocks = 8;  // likewise
 
 std::size_t limit(unsigned name) {
     GLint64 value = 0;
@@ -28,8 +28,8 @@ bool context_lost() {
 
 void require_at_least(const char* what, std::size_t offered, std::size_t needed) {
     if (offered >= needed) return;
-    throw GpuUnavailable("the driver offers " + std::to_string(offered) + " " + what + ", " +
-                         std::to_string(needed) + " are needed");
+    throw GpuUnavailable("the driver offers " + std::to_string(offered) + " " + what + "; " +
+                         std::to_string(needed) + " are required");
 }
 
 }  // namespace
@@ -55,14 +55,13 @@ void require_compute(const DeviceLimits& limits) {
     if (limits.major < 4 || (limits.major == 4 && limits.minor < 3))
         throw GpuUnavailable("the driver offers OpenGL " + std::to_string(limits.major) + "." +
                              std::to_string(limits.minor) +
-                             ", computing needs 4.3: a newer driver may help");
+                             ", but computing requires 4.3: a newer driver may help");
     require_at_least("work groups", limits.largest_group_count, kGroups);
     require_at_least("storage buffers in a shader", limits.storage_blocks, kStorageBlocks);
 }
 
 void require_context(const Device& device) {
-    if (device.lost())
-        throw GpuUnavailable("the graphics driver was reset and took its context along");
+    if (device.lost()) throw GpuUnavailable("the graphics driver was reset and lost its context");
 }
 
 bool is_software(const DeviceLimits& limits) {

@@ -7,17 +7,17 @@
 
 namespace vesselbench {
 
-/// What a context's driver offers, as far as computing needs it.
+/// What a context's driver offers for computing.
 struct DeviceLimits {
     int major = 0, minor = 0;               ///< OpenGL version
-    std::string renderer;                   ///< the driver's name for the device
-    std::size_t largest_storage_block = 0;  ///< [bytes] one buffer may have in a shader
+    std::string renderer;                   ///< the driver's name of the device
+    std::size_t largest_storage_block = 0;  ///< [bytes] largest buffer in a shader
     std::size_t largest_group_count = 0;    ///< work groups of one dispatch along its first axis
-    std::size_t storage_blocks = 0;         ///< buffers that a compute shader may use
+    std::size_t storage_blocks = 0;         ///< buffers a compute shader may use
 };
 
-/// What computing goes by: the context that is current on this thread, whichever made it (an
-/// OffscreenContext, a window). A value; tests change its parts to see what a failure does.
+/// The context that is current on this thread, whoever created it (an OffscreenContext, a window),
+/// as computing uses it. A value; tests change its members to simulate failures.
 struct Device {
     DeviceLimits limits;
     /// Texts of the shaders by file name.
@@ -30,15 +30,15 @@ struct Device {
 /// \throw GpuUnavailable if it cannot compute, as require_compute
 [[nodiscard]] Device current_device();
 
-/// \throw GpuUnavailable that names what the driver lacks: OpenGL 4.3, or work groups and storage
-/// buffers as OpenGL 4.3 promises them
+/// \throw GpuUnavailable that names what the driver lacks: OpenGL 4.3, or the work groups and
+/// storage buffers that OpenGL 4.3 guarantees
 void require_compute(const DeviceLimits& limits);
 
-/// \throw GpuUnavailable if the driver has lost the context since
+/// \throw GpuUnavailable if the driver has lost the context
 void require_context(const Device& device);
 
-/// True for renderers that compute on the CPU (llvmpipe, softpipe, SwiftShader): what vesselbench
-/// computes there itself is faster.
+/// True for renderers that compute on the CPU (llvmpipe, softpipe, SwiftShader): vesselbench's own
+/// CPU code is faster than these.
 [[nodiscard]] bool is_software(const DeviceLimits& limits);
 
 }  // namespace vesselbench

@@ -24,7 +24,7 @@ struct LabelledVertex {
     VertexId vertex, part;
 };
 
-/// What the search for plane parts works on.
+/// Data of the search for planar parts.
 struct PartBuffers {
     Buffer normals, labels, parts;
 

@@ -16,7 +16,7 @@ ChosenDevice choose_device(DeviceChoice choice, const DeviceSource& source) {
         HeldDevice held = source();
         require_compute(held.device.limits);
         if (choice == DeviceChoice::Auto && is_software(held.device.limits))
-            return {{}, held.device.limits.renderer + " computes on the CPU itself"};
+            return {{}, held.device.limits.renderer + " itself computes on the CPU"};
         return {std::move(held), ""};
     } catch (const GpuUnavailable& error) {
         return {{}, error.what()};

@@ -9,14 +9,14 @@
 
 namespace vesselbench {
 
-/// Where a user wants something to be computed.
+/// Where the user wants a computation to run.
 enum class DeviceChoice {
-    Auto,  ///< on the device, where that is faster: not on renderers that compute on the CPU
+    Auto,  ///< on the device if that is faster: not on renderers that compute on the CPU
     Cpu,
-    Gpu  ///< on whatever offers OpenGL 4.3
+    Gpu  ///< on any device with OpenGL 4.3
 };
 
-/// A device with what keeps its context current.
+/// A device and the owner of its context.
 struct HeldDevice {
     std::shared_ptr<void> context;
     Device device;
@@ -25,16 +25,16 @@ struct HeldDevice {
 /// Makes a device current on this thread. \throw GpuUnavailable that says what is missing
 using DeviceSource = std::function<HeldDevice()>;
 
-/// A context of its own, without a display.
+/// A new context without a display.
 [[nodiscard]] HeldDevice offscreen_device();
 
-/// What came of a choice.
+/// Outcome of a choice.
 struct ChosenDevice {
     std::optional<HeldDevice> device;  ///< none: the CPU
-    std::string reason;  ///< why the CPU serves where it was not asked for; else empty
+    std::string reason;  ///< why the CPU is used although it was not asked for; else empty
 };
 
-/// The device that serves a choice.
+/// Finds the device for a choice.
 [[nodiscard]] ChosenDevice choose_device(DeviceChoice choice,
                                          const DeviceSource& source = offscreen_device);
 

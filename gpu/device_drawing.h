@@ -7,23 +7,23 @@
 
 namespace vesselbench {
 
-/// What a surface on the device looks like: buffers of a GpuSmoother and a GpuMeter.
+/// The appearance of a surface on the device: buffers of a GpuSmoother and a GpuMeter.
 struct DeviceState {
-    const Buffer& shifts;            ///< where its vertices are
+    const Buffer& shifts;            ///< positions of its vertices
     const Buffer& normals;           ///< vec4, #V: unit normal and mean curvature [1/mm]
-    const Buffer* values = nullptr;  ///< float, #V: what colours it; null: one colour
+    const Buffer* values = nullptr;  ///< float, #V: values mapped to colours; null: one colour
     double least = 0.0, most = 1.0;  ///< values at the ends of the heated-object scale
 };
 
-/// Draws states of a surface from where they are: nothing leaves the device but the picture. For
+/// Draws states of a surface from the buffers they are in: only the picture leaves the device. For
 /// the window and for pictures without one. The surface's context must be current whenever it is
-/// used and when it goes.
+/// used or destroyed.
 class DeviceDrawing {
 public:
     /// \throw GpuUnavailable if a shader does not compile or the buffers do not fit
     explicit DeviceDrawing(std::shared_ptr<const DeviceSurface> surface);
 
-    /// Draws into the framebuffer that is bound, with its depth test.
+    /// Draws into the bound framebuffer, with its depth test.
     /// \param camera of positions relative to the surface's centre
     void draw(const DeviceState& state, const Camera& camera) const;
 
@@ -34,8 +34,8 @@ private:
     Buffer scale_;
 };
 
-/// A picture of a state, seen as `draw` sees the surface at its start.
-/// \param options colours, edges, wires and sharp do not count
+/// A picture of a state, framed as `draw` frames the initial surface.
+/// \param options colours, edges, wires and sharp are ignored
 /// \throw InvalidInput, GpuUnavailable as draw
 [[nodiscard]] Picture picture_of(const DeviceSurface& surface, const DeviceDrawing& drawing,
                                  const DeviceState& state, const PictureOptions& options);

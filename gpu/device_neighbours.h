@@ -10,12 +10,12 @@ namespace vesselbench {
 struct NeighbourDistances {
     Buffer distances;                ///< [mm], >= 0: float, #V
     double least = 0.0, most = 0.0;  ///< of them [mm]
-    std::size_t count = 0;           ///< #V of the surface they are of
+    std::size_t count = 0;           ///< #V of their surface
 };
 
-/// Distance of every vertex to the nearest of several neighbours, as neighbour_distances finds it:
-/// from point to triangle, 0 inside a closed neighbour; single precision. The CPU makes a tree of
-/// each neighbour's triangles and uploads it; the device searches it.
+/// Distance of every vertex to the nearest of several neighbours, as in neighbour_distances: from
+/// point to triangle, 0 inside a closed neighbour; single precision. The CPU builds and uploads a
+/// tree of each neighbour's triangles; the device searches it.
 /// \throw InvalidInput if there is no neighbour, or one without triangles; GpuUnavailable if the
 /// context is lost, a shader does not compile or a tree does not fit
 [[nodiscard]] NeighbourDistances find_neighbour_distances(const DeviceSurface& surface,

@@ -9,16 +9,16 @@
 
 namespace vesselbench {
 
-/// Rows of elements on the device: those of row i stand from offsets[i] to offsets[i + 1].
+/// Rows of elements on the device: row i spans offsets[i] to offsets[i + 1].
 struct DeviceRows {
     Buffer offsets;  ///< uint, #V + 1
     Buffer values;
 };
 
-/// A surface on the device: uploaded once, for every filter and measure there. What only some need
-/// is uploaded when it is first asked for.
-/// The context that was current when it was made must be current whenever it is used and when it
-/// goes. Not for several threads.
+/// A surface on the device: uploaded once, for all filters and measures there. Data that
+/// only some of them need is uploaded on first use. The context that was current at
+/// construction must be current whenever the object is used or destroyed. Not
+/// thread-safe.
 class DeviceSurface {
 public:
     /// \throw InvalidInput if the surface is empty or a position is not finite; GpuUnavailable if
@@ -31,18 +31,18 @@ public:
 
     [[nodiscard]] std::size_t vertex_count() const { return surface_.vertex_count(); }
 
-    /// What positions on the device are relative to: the centre of the bounding box [mm].
+    /// Origin of positions on the device: the centre of the bounding box [mm].
     [[nodiscard]] const Vec3& centre() const { return centre_; }
 
-    /// Where vertices are on the device is anchor + shift [mm]. Anchors are the surface's positions
-    /// in single precision and never change: vec4 with w = 1, #V.
+    /// A vertex on the device is at anchor + shift [mm]. Anchors are the surface's positions in
+    /// single precision and never change: vec4 with w = 1, #V.
     [[nodiscard]] const Buffer& anchors() const { return anchors_; }
 
-    /// What single precision left out of the surface's own positions [mm]: vec4, #V. States of the
-    /// surface have other shifts; theirs are what filters move.
+    /// Rounding remainder of the surface's own positions in single precision [mm]: vec4, #V. Other
+    /// states of the surface have other shifts; filters move shifts.
     [[nodiscard]] const Buffer& shifts() const { return shifts_; }
 
-    /// The surface's positions in double precision [mm], for what a threshold decides: 3 doubles,
+    /// The surface's positions in double precision [mm], for threshold decisions: 3 doubles,
     /// #V.
     [[nodiscard]] const Buffer& exact() const;
 
@@ -58,11 +58,11 @@ public:
     /// Neighbours within 1 or 2 rings: uint.
     [[nodiscard]] const DeviceRows& rings(int count) const;
 
-    /// The other corners of the triangles at every vertex, in the triangles' direction: uvec2. The
-    /// highest bit of an offset is set where the vertex lies on a boundary.
+    /// The other two corners of the triangles at every vertex, in triangle orientation: uvec2. The
+    /// highest bit of an offset is set if the vertex is on a boundary.
     [[nodiscard]] const DeviceRows& corners() const;
 
-    /// The compute program of a name, compiled once for everything that works on the surface.
+    /// The compute program of a name, compiled once for all users of the surface.
     /// \throw GpuUnavailable as make_compute_program
     [[nodiscard]] const Program& program(const std::string& name) const;
 
@@ -76,11 +76,11 @@ private:
     Buffer anchors_, shifts_;
     mutable std::optional<DeviceRows> rings_[2], corners_, triangles_at_;
     mutable std::optional<Buffer> anchor_umbrellas_[2], exact_, triangles_;
-    mutable std::optional<CompressedRows> two_rings_;  ///< until both that need it are made
+    mutable std::optional<CompressedRows> two_rings_;  ///< until both its users are built
     mutable std::map<std::string, Program> programs_;
 };
 
-/// A point relative to a centre, in two numbers of single precision each.
+/// A point relative to a centre, as two single-precision numbers per coordinate.
 struct DevicePoint {
     Eigen::Vector3f anchor, shift;
 };

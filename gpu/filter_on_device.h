@@ -8,12 +8,12 @@
 
 namespace vesselbench {
 
-/// As apply_filter, on a device: the same to single precision.
-/// \param there the surface whose connectivity is filtered; its context is current
+/// Like apply_filter, on a device: the same to single precision.
+/// \param there the surface whose connectivity is filtered; its context must be current
 /// \param start positions the filter starts from [mm], #V x 3
 /// \return moved positions [mm], #V x 3
 /// \throw InvalidInput as apply_filter; Cancelled; GpuUnavailable if the device fails, now or
-/// half-way: a shader does not compile, a buffer does not fit, the context is lost
+/// midway: a shader does not compile, a buffer does not fit, the context is lost
 [[nodiscard]] Positions filter_on_device(const std::shared_ptr<const DeviceSurface>& there,
                                          const std::shared_ptr<const Positions>& start,
                                          const FilterParameters& parameters,

@@ -33,7 +33,7 @@ public:
 private:
     [[nodiscard]] std::vector<Cap> search_caps() override { return find_caps(*surface_); }
 
-    /// An operation multiplies weights by painted ones, and reports their means.
+    /// An operation multiplies weights by painted ones and reports their means.
     [[nodiscard]] std::vector<double> read(const GpuWeights& weights) const {
         const auto found = read_storage<float>(weights.weights(), surface_->vertex_count());
         require_context(surface_->device());

@@ -23,7 +23,7 @@ Surface surface_of(const FilterGround& ground) {
     return surface;
 }
 
-/// What runs have in common.
+/// State shared by all runs.
 struct Common {
     HeldDevice held;
     std::shared_ptr<const DeviceSurface> surface;
@@ -71,7 +71,7 @@ private:
     Buffer references_;
 };
 
-constexpr std::size_t kWeightsKept = 16;  // as much memory as a run, all of them
+constexpr std::size_t kWeightsKept = 16;  // together they take as much memory as one run
 
 class GpuEngine final : public SmoothingEngine {
 public:
@@ -114,10 +114,10 @@ public:
     }
 
 private:
-    /// Weights on the device; a search has few, and many runs with each.
+    /// Weights on the device; a search has few of them, with many runs each.
     struct KnownWeights {
-        SharedWeights from;                 ///< the CPU's, or
-        std::optional<StaircaseValues> of;  ///< made there
+        SharedWeights from;                 ///< uploaded from the CPU, or
+        std::optional<StaircaseValues> of;  ///< computed on the device
         Buffer buffer;
     };
 
@@ -161,12 +161,12 @@ private:
     std::shared_ptr<Common> common_;
     GpuSmoother prototype_;
     mutable std::optional<GpuWeights> staircase_weights_;  ///< with `staircases_`
-    mutable std::vector<KnownWeights> weights_;            ///< the oldest first
+    mutable std::vector<KnownWeights> weights_;            ///< oldest first
     double mean_edge_ = 0.0;
     QualityMeasures original_;
 };
 
-/// The GPU's engine with the CPU's behind it.
+/// The GPU's engine, with the CPU's as fallback.
 class SafeEngine final : public SmoothingEngine, public std::enable_shared_from_this<SafeEngine> {
 public:
     SafeEngine(std::shared_ptr<const SmoothingEngine> gpu, FilterGround ground, bool planes)
@@ -184,7 +184,7 @@ public:
 
     [[nodiscard]] std::size_t run_bytes() const override { return gpu_->run_bytes(); }
 
-    /// A run on the CPU that stands where another one stood; there is no way back to the GPU.
+    /// A run on the CPU that continues from another one's state; it never returns to the GPU.
     [[nodiscard]] std::unique_ptr<MeasuredRun> cpu_run(const SmoothingChoice& choice,
                                                        int iterations) const {
         if (!cpu_) cpu_ = make_cpu_engine(ground_, planes_);
@@ -197,7 +197,7 @@ private:
     std::shared_ptr<const SmoothingEngine> gpu_;
     FilterGround ground_;
     bool planes_;
-    mutable std::shared_ptr<const SmoothingEngine> cpu_;  ///< once the device has failed
+    mutable std::shared_ptr<const SmoothingEngine> cpu_;  ///< set once the device has failed
 };
 
 class SafeRun final : public MeasuredRun {

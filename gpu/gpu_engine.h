@@ -12,37 +12,37 @@
 
 namespace vesselbench {
 
-/// What staircase weights are made from, whatever their thresholds.
+/// The inputs of staircase weights, whatever their thresholds.
 struct StaircaseGround {
     Vec3 stack_axis = Vec3::UnitZ();
     std::vector<std::uint8_t> caps;  ///< as in StaircaseParameters
     StaircaseScaling scaling = StaircaseScaling::TauMax;
-    SharedWeights others;  ///< that multiply them
+    SharedWeights others;  ///< multiplied with them
 };
 
-/// The engine of GpuSmoother and GpuMeter on a device; single precision.
-/// The engine and its runs are used and go on the thread where the device is current; a second one
-/// on another thread needs a context of its own.
+/// The engine of GpuSmoother and GpuMeter on a device; single precision. The engine and its runs
+/// must be used and destroyed on the thread where the device is current; a second one on another
+/// thread needs its own context.
 /// \param planes measures error_thesis too
 /// \param staircases of the ground's start: makes the weights of SmoothingChoice::staircase on the
-///        device; without it the choice's own function makes them
-/// \throw InvalidInput if the ground does not fit together; GpuUnavailable if it does not fit the
-/// device. Runs throw GpuUnavailable when the context is lost.
+/// device; without it the choice's own function makes them
+/// \throw InvalidInput if the ground is inconsistent; GpuUnavailable if it does not fit the device.
+/// Runs throw GpuUnavailable if the context is lost.
 [[nodiscard]] std::shared_ptr<const SmoothingEngine> make_gpu_engine(
     HeldDevice device, const FilterGround& ground, bool planes = false,
     std::optional<StaircaseGround> staircases = std::nullopt);
 
-/// The engine that a choice stands for.
+/// The engine selected by a choice.
 struct ChosenEngine {
     std::shared_ptr<const SmoothingEngine> engine;
     bool on_gpu = false;
     std::string device_name;  ///< the driver's name; empty on the CPU
-    std::string reason;       ///< why the CPU serves where it was not asked for; else empty
+    std::string reason;       ///< why the CPU is used although it was not asked for; else empty
 };
 
-/// The GPU's engine or the CPU's. Where the device fails half-way, the CPU takes over: runs go on
-/// from where they were, and later ones start there.
-/// \throw InvalidInput if the ground does not fit together
+/// The GPU's engine or the CPU's. If the device fails midway, the CPU takes over: runs continue
+/// from their state, and later ones start there.
+/// \throw InvalidInput if the ground is inconsistent
 [[nodiscard]] ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground,
                                        bool planes = false,
                                        const DeviceSource& source = offscreen_device,

@@ -8,28 +8,28 @@
 
 namespace vesselbench {
 
-/// What smoothing does to a surface, in a few numbers (thesis 6.4-6.5).
+/// The effect of smoothing on a surface, in a few numbers (thesis 6.4-6.5).
 struct DeviceMeasures {
     QualityMeasures quality;
     double largest_error = 0.0;  ///< largest local error [mm]
 };
 
-/// Measures states of a surface on the device, where their positions are: nothing but the few
-/// numbers comes back, and these when they are asked for. Measures are those of
-/// smoothing/quality/surface_meter.h, in single precision; sums have a fixed order.
-/// The surface's context must be current whenever it is used and when it goes.
+/// Measures states of a surface on the device, where their positions are: only a few numbers are
+/// read back, on request. The measures are those of smoothing/quality/surface_meter.h, in single
+/// precision; sums have a fixed order. The surface's context must be current whenever it is used or
+/// destroyed.
 class GpuMeter {
 public:
-    /// \param states how many states can be measured before their numbers are read
+    /// \param states number of states that can be measured before their numbers are read
     /// \param planes measures quality.error_thesis too
     /// \throw GpuUnavailable if a shader does not compile or the buffers do not fit
     explicit GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t states = 1,
                       bool planes = false);
 
-    /// Every vertex is its own reference again, as where smoothing starts.
+    /// Makes every vertex its own reference again, as at the start of smoothing.
     void restart();
 
-    /// Follows the reference neighbourhoods to a state and measures it, as number `state`.
+    /// Updates the reference neighbourhoods to a state and measures it, as number `state`.
     /// \param shifts of its vertices (DeviceSurface)
     /// \pre state is below the number of states
     void measure(const Buffer& shifts, std::size_t state = 0);
@@ -37,25 +37,25 @@ public:
     /// References of another run: every vertex its own.
     [[nodiscard]] Buffer make_references() const;
 
-    /// Moves a run's references on with its vertices, and measures nothing.
+    /// Updates a run's references to its vertices, without measuring.
     void follow(const Buffer& shifts, const Buffer& references);
 
-    /// Measures a state by the references of its run.
-    /// \param follow moves them on first, for good
+    /// Measures a state with the references of its run.
+    /// \param follow updates them first, permanently
     void measure(const Buffer& shifts, const Buffer& references, bool follow,
                  std::size_t state = 0);
 
-    /// Unit vertex normals and mean curvature alone, for drawing.
+    /// Unit vertex normals and mean curvature only, for drawing.
     void measure_shape(const Buffer& shifts);
 
     /// Waits for the device and reads the numbers of the first states.
     /// \throw GpuUnavailable if the context was lost
     [[nodiscard]] std::vector<DeviceMeasures> read(std::size_t states = 1) const;
 
-    /// Of the state measured last: unit vertex normal, and w the mean curvature [1/mm]; vec4, #V.
+    /// Of the last state measured: unit vertex normal, and w the mean curvature [1/mm]; vec4, #V.
     [[nodiscard]] const Buffer& normals() const { return normals_; }
 
-    /// Of the state measured last: local error [mm]; float, #V.
+    /// Of the last state measured: local error [mm]; float, #V.
     [[nodiscard]] const Buffer& errors() const { return errors_; }
 
 private:

@@ -31,7 +31,7 @@ enum Uniform {
     kFeatureCurvature
 };
 
-/// Shifts at the start, with the vertices' weights, or kFixed.
+/// Shifts at the start, with w the vertex's weight, or kFixed.
 std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterSettings& settings) {
     const Positions& points = surface.surface().points();
     const auto fixed = checked_fixed_vertices(*surface.surface().topology, points, settings);
@@ -207,8 +207,8 @@ void GpuSmoother::set_constraint(const PositionConstraint& constraint) {
 }
 
 void GpuSmoother::run(int iterations, const Progress& progress) {
-    // Between two looks at the user's wish to stop; a device is fastest when it is never waited
-    // for.
+    // Iterations between two checks for cancellation; a device is fastest if the host never waits
+    // for it.
     constexpr std::size_t kVertices = 20'000'000;
     const int batch = std::max(25, static_cast<int>(kVertices / surface_->vertex_count()));
     for (int i = 0; i < iterations; ++i) {

@@ -14,43 +14,43 @@
 namespace vesselbench {
 
 /// Runs the filters of smoothing/ on the device: a surface, weights, fixed vertices and constraint
-/// are uploaded once, and positions stay on the device from one iteration to the next, until they
-/// are asked for. Same filters, same parameters, same meaning as apply_filter; single precision.
-/// The surface's context must be current whenever it is used and when it goes.
+/// are uploaded once, and positions stay on the device between iterations until they are read. Same
+/// filters, parameters and meaning as apply_filter; single precision. The surface's context must be
+/// current whenever it is used or destroyed.
 class GpuSmoother {
 public:
-    /// \param settings the number of iterations in them does not count
+    /// \param settings their number of iterations is ignored
     /// \throw InvalidInput if the settings do not fit the surface; GpuUnavailable if it does not
     /// fit the device
     GpuSmoother(std::shared_ptr<const DeviceSurface> surface, const FilterSettings& settings);
 
-    /// Another one that stands where this one does, and goes on by itself.
+    /// An independent copy in the same state.
     [[nodiscard]] GpuSmoother copy() const;
 
-    /// Gives the runs that start from now on other weights in [0, 1]: float, #V.
+    /// Sets other weights in [0, 1] for the runs that start from now on: float, #V.
     void set_weights(const Buffer& weights);
 
-    /// The same from the CPU's weights. \throw InvalidInput unless they are #V in [0, 1]
+    /// The same from weights on the CPU. \throw InvalidInput unless they are #V in [0, 1]
     void set_weights(std::span<const double> weights);
 
-    /// Weights of the CPU's for set_weights: float, #V. \throw InvalidInput unless they are #V in
-    /// [0, 1]; GpuUnavailable if they do not fit the device
+    /// Uploads weights for set_weights: float, #V. \throw InvalidInput unless they are #V in [0,
+    /// 1]; GpuUnavailable if they do not fit the device
     [[nodiscard]] static Buffer upload_weights(const DeviceSurface& surface,
                                                std::span<const double> weights);
 
-    /// Puts all vertices back to the start, for a filter.
+    /// Resets all vertices to the start, for a filter.
     /// \throw InvalidInput as the filter; GpuUnavailable if a shader does not compile
     void start(const FilterParameters& parameters);
 
-    /// Goes on for some iterations; start() must have been called.
+    /// Continues for some iterations; start() must have been called.
     /// \throw Cancelled; GpuUnavailable if the context was lost
     void run(int iterations, const Progress& progress = {});
 
     /// Iterations since start().
     [[nodiscard]] int iterations_done() const { return iterations_done_; }
 
-    /// Waits for the device and reads the positions [mm]; vertices that did not move get their
-    /// start's bits.
+    /// Waits for the device and reads the positions [mm]; vertices that did not move get the bits
+    /// of their start.
     /// \throw GpuUnavailable if the context was lost
     [[nodiscard]] Positions positions() const;
 
@@ -60,12 +60,12 @@ public:
 private:
     GpuSmoother() = default;
 
-    /// A pass over all vertices: a program and what its uniforms are.
+    /// A pass over all vertices: a program and the values of its uniforms.
     struct Pass {
         const Program* program = nullptr;
         std::array<double, 4> factors = {};
         int onto = 0;
-        bool of_positions = true;  ///< the source holds shifts, not differences of them
+        bool of_positions = true;  ///< the source holds shifts, not differences of shifts
         bool by_corners = false;   ///< reads triangles instead of neighbours
     };
 
@@ -84,8 +84,8 @@ private:
     int rings_ = 1;
     std::optional<PositionConstraint> constraint_;
     std::shared_ptr<const Buffer>
-        start_;         ///< the surface's shifts; w is the weight, or -1 where fixed
-    Buffer values_[2];  ///< read and written in turn
+        start_;         ///< the surface's shifts; w is the weight, or -1 if fixed
+    Buffer values_[2];  ///< read and written alternately
     Buffer first_iterations_;
     std::vector<Pass> passes_;
     std::size_t steps_done_ = 0;

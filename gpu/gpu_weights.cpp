@@ -67,7 +67,7 @@ void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters)
         make_storage(surface_->device(), std::span<const float>(free), "free of caps");
     staircases_ = search_staircases(*surface_, changes_, free_of_caps, parameters.tau_theta,
                                     parameters.tau_max);
-    free_of_caps_ = std::move(free_of_caps);  // a search that failed has changed nothing
+    free_of_caps_ = std::move(free_of_caps);  // after a failed search, nothing has changed
 }
 
 void GpuWeights::multiply(const Buffer& distances, const Buffer& factors,

@@ -14,34 +14,34 @@
 
 namespace vesselbench {
 
-/// Weights for smoothing, made where they are used (thesis 5.2, 5.3, 7.2): staircases are detected
-/// and caps left out on the device, the distances to them are searched there
-/// (gpu/staircase_search.h), as those to neighbours (gpu/device_neighbours.h), and distances become
-/// weights. The surface's context must be current whenever it is used and when it goes.
+/// Smoothing weights computed on the device that uses them (thesis 5.2, 5.3, 7.2): it detects
+/// staircases, excludes caps, finds the distances to staircases (gpu/staircase_search.h) and to
+/// neighbours (gpu/device_neighbours.h), and turns distances into weights. The surface's context
+/// must be current whenever it is used or destroyed.
 class GpuWeights {
 public:
-    /// 1 everywhere. \throw GpuUnavailable if the buffers do not fit
+    /// All weights 1. \throw GpuUnavailable if the buffers do not fit
     explicit GpuWeights(std::shared_ptr<const DeviceSurface> surface);
 
-    /// Finds the orientation change of every vertex (Eqs. 5.3-5.4), in double precision, so that
+    /// Computes the orientation change of every vertex (Eqs. 5.3-5.4), in double precision, so that
     /// the same vertices exceed a threshold as on the CPU. \throw InvalidInput if the axis has no
     /// direction
     void find_orientation_change(const Vec3& stack_axis);
 
-    /// Reads the orientation changes [-], #V; all 0 before they are found.
+    /// Reads the orientation changes [-], #V; all 0 before they are computed.
     [[nodiscard]] std::vector<double> orientation_change() const;
 
-    /// Puts all weights back to 1.
+    /// Resets all weights to 1.
     void restart();
 
     /// Multiplies by staircase weights (Eqs. 5.5-5.6) of the orientation changes; caps are no
-    /// staircases and get weight 0. Other scalings and beta_min need no new search. Agrees with the
-    /// CPU's to single precision.
+    /// staircases and get weight 0. Other scalings and values of beta_min need no new search.
+    /// Agrees with the CPU's to single precision.
     /// \throw InvalidInput as staircase_weights; GpuUnavailable if the context is lost, a shader
     /// does not compile or a buffer does not fit
     void multiply_staircases(const StaircaseParameters& parameters = {});
 
-    /// Vertices that were a staircase's, caps left out, for the last multiply_staircases.
+    /// Number of staircase vertices, caps excluded, in the last multiply_staircases.
     [[nodiscard]] std::size_t staircase_vertices() const { return staircases_.sources; }
 
     /// Multiplies by weights from distances to neighbours (5.2, Eq. 5.2).
@@ -68,7 +68,7 @@ private:
 
     std::shared_ptr<const DeviceSurface> surface_;
     Buffer changes_, weights_, ones_;
-    std::optional<Search> search_;  ///< what the next two are of
+    std::optional<Search> search_;  ///< the input of the next two
     DeviceDistances staircases_;
     Buffer free_of_caps_;
 };

@@ -27,7 +27,7 @@ void attach(const Program& program, unsigned kind, const std::string& file) {
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
     glAttachShader(program.id(), shader);
-    glDeleteShader(shader);  // lives on while it is attached
+    glDeleteShader(shader);  // lives on while attached
     check_compiled(shader, file);
 }
 
@@ -65,7 +65,7 @@ Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
                  GL_STATIC_DRAW);
     if (glGetError() == GL_OUT_OF_MEMORY)
-        throw GpuUnavailable("the device has no room for " + label + " (" +
+        throw GpuUnavailable("the device is out of memory for " + label + " (" +
                              std::to_string(bytes.size()) + " bytes)");
     glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(label.size()), label.c_str());
     return buffer;

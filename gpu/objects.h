@@ -7,7 +7,8 @@
 
 namespace vesselbench {
 
-/// An OpenGL object's name, owned: move-only, deleted with the owner while its context is current.
+/// An OpenGL object's name, owned: move-only, deleted with the owner while its context must be
+/// current.
 template <void (*Delete)(unsigned)>
 class GlObject {
 public:
@@ -46,8 +47,8 @@ using Framebuffer = GlObject<delete_framebuffer>;
 using Renderbuffer = GlObject<delete_renderbuffer>;
 using Query = GlObject<delete_query>;
 
-/// A buffer filled with bytes, labelled for debuggers.
-/// \throw GpuUnavailable if the device has no room for it
+/// A labelled buffer filled with bytes.
+/// \throw GpuUnavailable if the device is out of memory
 [[nodiscard]] Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label);
 
 /// A linked program from the texts of gpu/shaders/<name>.vert and .frag.

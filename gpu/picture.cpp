@@ -15,7 +15,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Attributes of three corners per triangle: patches and sharp shading need corners of their own.
+/// Attributes of three corners per triangle: patches and sharp shading need separate corners.
 struct Corner {
     Eigen::Vector3f position, normal;
     Colour colour;
@@ -64,7 +64,7 @@ std::vector<Corner> corners(const Surface& surface, const Vec3& centre,
     return list;
 }
 
-/// Corners of another surface, whose colours do not count.
+/// Corners of another surface, without colours.
 std::vector<Corner> wire_corners(const Surface& wires, const Vec3& centre,
                                  const PictureOptions& options) {
     PictureOptions plain = options;
@@ -87,11 +87,11 @@ VertexArray describe_corners() {
     return array;
 }
 
-// How far edges are pulled towards the eye, by the depth of the model: over their own triangles,
-// and over a smoothed surface that rose above the original.
+// How far edges are pulled towards the eye, relative to the depth of the model: over their own
+// triangles, and over a smoothed surface that rose above the original.
 constexpr float kOwnPull = 2e-4F, kWirePull = 1e-2F;
 
-/// The edges of the corners that are bound.
+/// The edges of the bound corners.
 void draw_edges(GLsizei count, const Camera& camera, float pull) {
     const Program lines = make_program("lines");
     set_matrices(lines, camera);
@@ -113,7 +113,7 @@ void draw_corners(const Program& surface, const std::vector<Corner>& list, const
     if (options.edges) draw_edges(count, camera, kOwnPull);
 }
 
-/// Edges of another surface over what is drawn already.
+/// Draws the edges of another surface over the current drawing.
 void draw_wires(const std::vector<Corner>& list, const Camera& camera) {
     const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "wire corners");
     const VertexArray array = describe_corners();

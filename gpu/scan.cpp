@@ -8,7 +8,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kEach = 4;  // numbers of an invocation (gpu/shaders/scan.comp)
+constexpr std::size_t kEach = 4;  // numbers per invocation (gpu/shaders/scan.comp)
 
 }  // namespace
 

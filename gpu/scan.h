@@ -6,8 +6,8 @@
 
 namespace vesselbench {
 
-/// Adds up numbers on the device: each becomes the sum of itself and all before it.
-/// \param numbers uint, of which the first `count` count
+/// Inclusive prefix sum on the device: each number becomes the sum of itself and all before it.
+/// \param numbers uint, of which the first `count` are used
 /// \throw GpuUnavailable if a shader does not compile or a buffer does not fit
 void add_up(const DeviceSurface& surface, const Buffer& numbers, std::size_t count);
 

@@ -17,7 +17,7 @@ const std::string& text_of(const std::map<std::string, std::string>& texts,
     return text->second;
 }
 
-/// Name of the file that a line includes; empty if it includes none.
+/// Name of the file that a line includes; empty if there is no include.
 std::string included_by(const std::string& line) {
     const std::string start = "#include \"";
     if (line.rfind(start, 0) != 0) return "";
@@ -31,7 +31,7 @@ void append_file(const std::map<std::string, std::string>& texts, const std::str
     source.files.push_back(file);
     std::istringstream lines(text_of(texts, file));
     int line_number = 0;
-    // #version must stand first, and so no #line before it
+    // #version must come first, so no #line before it
     if (number != "0") source.text += "#line 1 " + number + "\n";
     for (std::string line; std::getline(lines, line);) {
         ++line_number;

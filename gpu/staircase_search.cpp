@@ -19,14 +19,14 @@ namespace vesselbench {
 namespace {
 
 constexpr VertexId kNone = 0xFFFFFFFF;  // gpu/shaders/staircase_search.glsl
-constexpr int kSweeps = 16;             // between two looks at what they have found
+constexpr int kSweeps = 16;             // between two checks of their result
 
 /// gpu/shaders/staircase_search.glsl
 struct Found {
     std::uint32_t sources = 0, open = 0, moved = 0, farthest = 0, listed = 0;
 };
 
-/// A search for the staircases that reach.
+/// The search for the staircases that reach each vertex.
 class Search {
 public:
     Search(const DeviceSurface& surface, double reach)
@@ -50,7 +50,7 @@ public:
         sources_ = found().sources;
     }
 
-    /// \return vertices that stay open
+    /// \return vertices still open
     std::vector<OpenVertex> find_nearest() {
         fill_storage(doubts_, kNone);
         if (sources_ == 0) return {};
@@ -66,7 +66,7 @@ public:
         return open == 0 ? std::vector<OpenVertex>{} : still_open(open);
     }
 
-    /// Distances to what has been found, and the largest of those that are settled [mm].
+    /// Distances found so far, and the largest settled one [mm].
     DeviceDistances distances() {
         DeviceDistances result;
         result.sources = sources_;
@@ -100,7 +100,7 @@ private:
         glUniform3i(4, cells_.size[0], cells_.size[1], cells_.size[2]);
     }
 
-    /// Puts the sources into the cells of a grid over the surface.
+    /// Sorts the sources into the cells of a grid over the surface.
     void make_cells() {
         const Bounds box = bounds(surface_.surface());
         const auto layout = cell_layout(box.max - box.min, sources_);
@@ -125,7 +125,7 @@ private:
         dispatch(device_, program, count_);
     }
 
-    /// Lets open vertices ask their neighbours, until no answer is new.
+    /// Lets open vertices query their neighbours until nothing changes.
     std::vector<OpenVertex> still_open(std::uint32_t open) {
         const DeviceRows& rings = surface_.rings(1);
         const Program& program = surface_.program("hand_on");
@@ -163,7 +163,7 @@ private:
     CellLayout cells_;
 };
 
-/// Gives open vertices the distances that the CPU finds.
+/// Writes the distances found by the CPU to open vertices.
 void settle(const DeviceSurface& surface, const std::vector<VertexId>& sources, double reach,
             const std::vector<OpenVertex>& open, DeviceDistances& result) {
     const auto distances = open_distances(*surface.surface().topology, surface.surface().points(),

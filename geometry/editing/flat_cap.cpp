@@ -29,7 +29,7 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
 using Point2 = Eigen::Vector2d;
 using Points2 = std::vector<Point2>;
 
-/// Lattice points keep this share of the edge length from the rim.
+/// Lattice points stay this fraction of the edge length away from the rim.
 constexpr double kRimDistance = 0.65;
 constexpr int kRelaxations = 12;
 constexpr std::size_t kMostInnerPoints = 200000;
@@ -81,7 +81,7 @@ Points2 lattice(const Points2& rim, double edge) {
     return found;
 }
 
-/// Marks the faces inside the polygon: across a constrained edge inside and outside change.
+/// Marks the faces inside the polygon: inside and outside alternate across constrained edges.
 void mark_inside(Delaunay& delaunay) {
     for (auto face : delaunay.all_face_handles()) face->info() = -1;
     std::vector<std::pair<Delaunay::Face_handle, int>> open{{delaunay.infinite_face(), 0}};
@@ -117,7 +117,7 @@ std::vector<Triangle> triangulate(const Points2& rim, const Points2& inner) {
     return triangles;
 }
 
-/// Moves every inner point half the way to the mean of its neighbours.
+/// Moves every inner point half of the way to the mean of its neighbours.
 void relax(const Points2& rim, Points2& inner, const std::vector<Triangle>& triangles) {
     const auto at = [&](VertexId v) { return v < rim.size() ? rim[v] : inner[v - rim.size()]; };
     for (int round = 0; round < kRelaxations; ++round) {

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Fairing looks at two rings around the hole; the others are for safety.
+/// Fairing uses two rings around the hole; the others are for safety.
 constexpr int kRings = 5;
 
 Hole hole_in(const EditableSurface& surface, std::span<const VertexId> loop,

@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// Coordinates in which a hole is filled: both maps undo each other near the surface.
+/// Coordinates in which a hole is filled: the maps are inverse to each other near the surface.
 struct HoleChart {
     std::function<Vec3(const Vec3&)> to_chart;    ///< [mm]
     std::function<Vec3(const Vec3&)> from_chart;  ///< [mm]
@@ -16,8 +16,8 @@ struct HoleChart {
 
 /// Closes an open rim: triangulation of least area and angle, refined to the density around it,
 /// faired to continue the surface (fill_smoothly, or fill_seen_along_x in a chart). The new
-/// triangles get the label of the triangle at the loop's first edge, attributes are taken over from
-/// the nearest loop vertex.
+/// triangles get the label of the triangle at the loop's first edge, attributes are copied from the
+/// nearest loop vertex.
 /// \param loop as EditableSurface::rims gives it
 /// \param continuity at the loop: 0 position, 1 tangent, 2 curvature
 /// \param chart if given, the hole is filled and faired in these coordinates; the first one points
@@ -27,7 +27,7 @@ struct HoleChart {
 std::size_t fill_rim(EditableSurface& surface, std::span<const VertexId> loop, int continuity = 1,
                      const HoleChart* chart = nullptr);
 
-/// A surface with one hole less; what is new stands at the end of its arrays.
+/// A surface with one hole less; new elements are at the end of its arrays.
 struct FilledHole {
     Surface surface;
     std::size_t first_new_vertex = 0;
@@ -35,7 +35,7 @@ struct FilledHole {
 };
 
 /// The same for a surface that is not edited further.
-/// \param loop as Topology::boundary_loops gives it
+/// \param loop as from Topology::boundary_loops
 [[nodiscard]] FilledHole fill_hole(const Surface& surface, std::span<const VertexId> loop,
                                    int continuity = 1);
 

@@ -11,11 +11,11 @@ namespace vesselbench {
 
 namespace {
 
-/// A vertex nearer to the plane than this share of its cut edge is moved onto it.
+/// A vertex closer to the plane than this fraction of its cut edge is moved onto it.
 constexpr double kSnapShare = 0.3;
-/// A rim edge shorter than this share of the rim's mean edge is collapsed.
+/// A rim edge shorter than this fraction of the rim's mean edge is collapsed.
 constexpr double kShortRimEdge = 0.4;
-/// A triangle may turn by at most this cosine when a vertex is moved or an edge collapsed.
+/// Cosine of the largest turn of a triangle when a vertex is moved or an edge collapsed.
 constexpr double kLeastTurnCosine = 0.5;
 /// A triangle keeps at least this share of its area when a vertex is moved onto the plane.
 constexpr double kLeastAreaShare = 0.05;
@@ -48,7 +48,7 @@ public:
                 side_[v] = plane.distance(surface.point(v)) >= 0.0 ? Side::Above : Side::Below;
     }
 
-    /// Moves strip vertices near the plane onto it, the nearest first.
+    /// Moves strip vertices near the plane onto it, nearest first.
     void snap() {
         struct Move {
             double share;
@@ -72,7 +72,7 @@ public:
             }
     }
 
-    /// Divides the strip's triangles along the plane.
+    /// Splits the strip's triangles along the plane.
     void divide() {
         std::vector<TriangleId> strip = curve_.triangles;
         std::sort(strip.begin(), strip.end());
@@ -83,7 +83,7 @@ public:
     PlaneCut take() { return std::move(cut_); }
 
 private:
-    /// The whole fan must be met by this curve only, and no triangle may turn over.
+    /// Only this curve may meet the fan, and no triangle may turn over.
     bool may_snap(VertexId v, const Vec3& to) const {
         for (const TriangleId t : surface_.triangles_at(v)) {
             if (!in_strip_[t] && crosses(surface_.triangle(t))) return false;

@@ -34,7 +34,7 @@ std::vector<Triangle> band_between(std::span<const double> lower, std::span<cons
     const auto n = static_cast<VertexId>(lower.size()), m = static_cast<VertexId>(upper.size());
     for (VertexId i = 0, j = 0; i < n || j < m;) {
         const VertexId a = i % n, b = n + j % m;
-        // Advance on the ring the middle of whose next edge comes first.
+        // Advance on the ring whose next edge has its middle first.
         const bool below = j == m || (i < n && share_of(lower, i + 1) + share_of(lower, i) <
                                                    share_of(upper, j + 1) + share_of(upper, j));
         if (below)

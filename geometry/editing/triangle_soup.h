@@ -44,7 +44,7 @@ struct TriangleSoup {
     /// Removes the patches that have no triangle, keeping the order; the wall stays.
     void remove_unused_patches();
 
-    /// Gives vertex v the number `target[v]` (of a kept vertex) in all triangles.
+    /// Replaces vertex v by `target[v]` (a kept vertex) in all triangles.
     void renumber(const std::vector<VertexId>& target);
 };
 

@@ -23,10 +23,10 @@
 namespace vesselbench {
 namespace {
 
-/// Line ends that are closer than this fraction of the extent are one node.
+/// Line ends closer than this fraction of the extent are merged into one node.
 constexpr double kSamePlace = 1e-6;
 
-/// VTK's XML parser prints about a file that is cut off; so that is found first.
+/// VTK's XML parser prints messages about a truncated file, so this is checked first.
 void check_whole(const std::string& path, const std::string& name) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) throw IoError("cannot read " + name);
@@ -36,11 +36,11 @@ void check_whole(const std::string& path, const std::string& name) {
     file.seekg(size - tail);
     file.read(end.data(), tail);
     if (end.find("</VTKFile>") == std::string::npos) {
-        throw InvalidInput(name + " is no VTP file, or cut off");
+        throw InvalidInput(name + " is not a VTP file, or truncated");
     }
 }
 
-/// Notes that VTK complained, instead of letting it print.
+/// Records VTK's complaints instead of letting it print them.
 class Complaint : public vtkCommand {
 public:
     static Complaint* New() { return new Complaint; }
@@ -128,7 +128,7 @@ std::size_t node_at(const Vec3& place, double radius, double tolerance, Centerli
     return graph.nodes.size() - 1;
 }
 
-/// Node numbers of the lines' ends from the file; false if it has none, or senseless ones.
+/// Node numbers of the lines' ends from the file; false if they are missing or invalid.
 bool numbered_nodes(vtkPolyData* data, CenterlineGraph& graph) {
     auto* starts = data->GetCellData()->GetArray("StartNodeIds");
     auto* ends = data->GetCellData()->GetArray("EndNodeIds");
@@ -211,14 +211,15 @@ CenterlineGraph read_centerlines(const std::string& path) {
     reader->Update();
     vtkPolyData* data = reader->GetOutput();
     if (complaint->raised || reader->GetErrorCode() != 0 || data == nullptr) {
-        throw InvalidInput(name + " is no VTP file, or damaged");
+        throw InvalidInput(name + " is not a VTP file, or damaged");
     }
     CenterlineGraph graph;
     graph.branches = lines_of(data);
     for (const CenterlineBranch& b : graph.branches) {
-        if (b.points.size() < 2) throw InvalidInput(name + " has a line of less than two points");
+        if (b.points.size() < 2)
+            throw InvalidInput(name + " has a line with fewer than two points");
     }
-    if (graph.branches.empty()) throw InvalidInput(name + " holds no lines");
+    if (graph.branches.empty()) throw InvalidInput(name + " contains no lines");
     find_nodes(data, graph);
     return graph;
 }

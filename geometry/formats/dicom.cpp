@@ -29,22 +29,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Neighbouring distances may differ by this part of the mean distance (rounded positions).
+/// Tolerance of slice distances relative to their mean (rounded positions).
 constexpr double kUneven = 0.05;
 
-/// Geometry and pixels of one DICOM file; nothing else of it is kept.
+/// Geometry and pixels of one DICOM file; nothing else is kept.
 struct Frames {
     std::string name;    ///< file name without its folder
-    std::string series;  ///< only to tell series apart
+    std::string series;  ///< only to distinguish series
     int columns = 0;
     int rows = 0;
     int count = 1;
-    Vec3 along_row = Vec3::UnitX();     ///< patient direction of growing column index
-    Vec3 along_column = Vec3::UnitY();  ///< patient direction of growing row index
+    Vec3 along_row = Vec3::UnitX();     ///< patient direction of increasing column index
+    Vec3 along_column = Vec3::UnitY();  ///< patient direction of increasing row index
     double spacing_i = 1.0;             ///< [mm]
     double spacing_j = 1.0;             ///< [mm]
     std::vector<Vec3> positions;        ///< [mm] of each frame's first voxel, or empty
-    double stated_distance = 0.0;       ///< [mm] between frames as the header says, or 0
+    double stated_distance = 0.0;       ///< [mm] between frames as stated in the header, or 0
     bool frames_are_times = false;
     std::vector<float> voxels;
 
@@ -77,7 +77,7 @@ std::vector<double> decimals(const gdcm::DataElement* found, std::size_t count) 
     return values;
 }
 
-/// The data set of the first item of a sequence inside `set`, or nothing.
+/// The data set of the first item of a sequence in `set`, or nothing.
 std::optional<gdcm::DataSet> first_item(const gdcm::DataSet& set, std::uint16_t group,
                                         std::uint16_t number) {
     const gdcm::DataElement* found = element(set, group, number);
@@ -136,7 +136,7 @@ std::vector<float> pixels_of(const gdcm::Image& image, std::size_t count, const 
     std::vector<char> raw(image.GetBufferLength());
     const gdcm::PixelFormat& format = image.GetPixelFormat();
     if (format.GetSamplesPerPixel() != 1)
-        bad_file(name, "it holds colour pixels", "export the original slices");
+        bad_file(name, "it has colour pixels", "export the original slices");
     if (raw.size() < count * format.GetPixelSize() || !image.GetBuffer(raw.data()))
         bad_file(name,
                  std::string("its pixels cannot be decoded (transfer syntax ") +
@@ -163,11 +163,11 @@ std::vector<float> pixels_of(const gdcm::Image& image, std::size_t count, const 
         case gdcm::PixelFormat::FLOAT64:
             return scaled<double>(raw, count, slope, intercept);
         default:
-            bad_file(name, "its pixel format is not read", "export it with 16 bits a pixel");
+            bad_file(name, "its pixel format is not supported", "export it with 16 bits per pixel");
     }
 }
 
-/// Catches what GDCM prints while it lives: a truncated file is only told by a warning.
+/// Captures GDCM's messages during its lifetime: only a warning reveals a truncated file.
 class GdcmMessages {
 public:
     GdcmMessages() {
@@ -225,14 +225,14 @@ Frames read_frames(const std::string& path) {
     gdcm::ImageReader reader;
     reader.SetFileName(path.c_str());
     if (!reader.Read())
-        bad_file(name, "it is no readable DICOM image (damaged, truncated, or without pixels)",
+        bad_file(name, "it is not a readable DICOM image (damaged, truncated, or without pixels)",
                  "copy or export it again");
     if (messages.tell_of_truncation())
-        bad_file(name, "its pixel data is cut off", "the file is truncated: copy it again");
+        bad_file(name, "its pixel data is truncated", "the file is truncated: copy it again");
     return frames_of(reader, name);
 }
 
-/// One slice in space: where it is and where its pixels lie.
+/// One slice in space: its position and its pixels.
 struct Slice {
     Vec3 position;
     double along = 0.0;  ///< [mm] along the normal
@@ -260,7 +260,7 @@ void check_alike(const Frames& first, const Frames& other, const std::string& na
                  "put one series alone into a folder");
 }
 
-/// Distances between neighbours must be even: one step vector serves all slices.
+/// Distances between neighbours must be equal: one step vector serves all slices.
 Vec3 checked_step(const std::vector<Slice>& slices, const std::string& name) {
     std::vector<double> gaps;
     for (std::size_t s = 1; s < slices.size(); ++s)
@@ -274,21 +274,20 @@ Vec3 checked_step(const std::vector<Slice>& slices, const std::string& name) {
     };
     for (std::size_t s = 0; s < gaps.size(); ++s)
         if (gaps[s] < kSamePlace)
-            bad_file(name, "two slices lie in the same place, " + place(s),
+            bad_file(name, "two slices are in the same place, " + place(s),
                      "put one series (one time step) alone into a folder");
     for (std::size_t s = 0; s < gaps.size(); ++s)
         if (gaps[s] > (1.0 + kUneven) * median || gaps[s] < (1.0 - kUneven) * median)
             bad_file(name,
                      "its slices are not evenly spaced: " + millimetres(gaps[s]) + " " + place(s) +
-                         ", but " + millimetres(median) + " elsewhere (a slice is missing?)",
-                     "complete the series, or export it resampled to even slices");
+                         ", but " + millimetres(median) + " elsewhere (is a slice missing?)",
+                     "complete the series, or export it resampled to evenly spaced slices");
     const Vec3 step =
         (slices.back().position - slices.front().position) / static_cast<double>(slices.size() - 1);
     for (std::size_t s = 0; s < slices.size(); ++s) {
         const Vec3 expected = slices.front().position + static_cast<double>(s) * step;
         if ((slices[s].position - expected).norm() > kUneven * step.norm())
-            bad_file(name, "its slices do not lie in a row",
-                     "export the series with one orientation");
+            bad_file(name, "its slices are not in a row", "export the series with one orientation");
     }
     return step;
 }
@@ -322,7 +321,7 @@ ImageFile stacked(std::vector<Slice> slices, const std::string& name) {
     return file;
 }
 
-/// Frames without positions: evenly along the normal, at the distance that the header states.
+/// Frames without positions: evenly along the normal, at the distance stated in the header.
 ImageFile stacked_by_header(const Frames& frames) {
     if (frames.stated_distance <= 0.0)
         bad_file(frames.name, "its frames state neither positions nor a distance",
@@ -333,7 +332,7 @@ ImageFile stacked_by_header(const Frames& frames) {
         slices.push_back({along * frames.normal(), along, &frames, f});
     }
     ImageFile file = stacked(std::move(slices), frames.name);
-    file.notes.push_back("the frames state no positions: they are taken in their order, " +
+    file.notes.push_back("the frames state no positions: they are used in file order, " +
                          millimetres(frames.stated_distance) + " apart");
     return file;
 }
@@ -364,8 +363,8 @@ void check_one_series(const std::vector<Frames>& files, const std::string& name)
     for (const auto& [id, count] : series)
         counts += (counts.empty() ? "" : ", ") + std::to_string(count);
     bad_file(name,
-             "the folder holds " + std::to_string(series.size()) + " DICOM series (of " + counts +
-                 " files)",
+             "the folder contains " + std::to_string(series.size()) + " DICOM series (of " +
+                 counts + " files)",
              "put one series alone into a folder");
 }
 
@@ -383,13 +382,13 @@ ImageFile read_dicom_file(const std::string& path) {
     if (file_content(path).empty()) bad_file(bare_name(path), "it is empty", "copy it again");
     const Frames frames = read_frames(path);
     if (frames.count == 1)
-        bad_file(frames.name, "it holds one slice only",
-                 "give the folder that holds all slices of the series");
+        bad_file(frames.name, "it contains a single slice",
+                 "give the folder that contains all slices of the series");
     if (frames.frames_are_times)
         bad_file(frames.name,
                  "its " + std::to_string(frames.count) +
                      " frames are points in time of one slice, not slices of a volume",
-                 "export the volume of one point in time");
+                 "export the volume at one point in time");
     if (frames.positions.empty()) return stacked_by_header(frames);
     std::vector<Slice> slices;
     for (int f = 0; f < frames.count; ++f) {
@@ -408,10 +407,11 @@ ImageFile read_dicom_folder(const std::string& folder) {
             paths.push_back(path);
         else if (fs::path(path).extension() ==
                  row.suffixes[0])  // a slice left out would shift others
-            bad_file(bare_name(path), "it is no readable DICOM file (empty or damaged)",
+            bad_file(bare_name(path), "it is not a readable DICOM file (empty or damaged)",
                      "copy it again, or remove it");
     if (paths.empty())
-        bad_file(name, "the folder holds no DICOM slices", "give the folder that holds the slices");
+        bad_file(name, "the folder contains no DICOM slices",
+                 "give the folder that contains the slices");
     if (paths.size() == 1) return read_dicom_file(paths.front());
     std::vector<Frames> files;
     for (const std::string& path : paths) {
@@ -423,10 +423,10 @@ ImageFile read_dicom_folder(const std::string& folder) {
     for (const Frames& file : files) {
         check_alike(files.front(), file, name);
         if (file.count != 1)
-            bad_file(name, file.name + " holds several frames beside other files",
+            bad_file(name, file.name + " contains several frames, but is not the only file",
                      "give that file alone");
         if (file.positions.empty())
-            bad_file(name, file.name + " states no position in space",
+            bad_file(name, file.name + " does not state its position in space",
                      "export the series with its geometry");
         slices.push_back(
             {file.positions[0], file.positions[0].dot(files.front().normal()), &file, 0});

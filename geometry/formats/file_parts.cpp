@@ -12,11 +12,12 @@ namespace vesselbench {
 
 namespace {
 
-/// Largest distance from the best plane by the square root of the area [-]: caps that were meshed
-/// flat stay far below it, pieces of vessel wall far above.
+/// Largest distance from the best-fit plane over the square root of the area [-]: flat meshed caps
+/// are far below it, pieces of vessel wall far above.
 constexpr double kFlat = 0.02;
 
-/// Flat parts that make up more than this of the area [-] are no caps, but a body with flat sides.
+/// Flat parts with more than this fraction of the area [-] are not caps, but a body with flat
+/// sides.
 constexpr double kMostFlat = 0.5;
 
 struct Part {
@@ -40,7 +41,7 @@ bool all_named(const std::vector<Part>& parts) {
                        [](const Part& part) { return kind_of_name(part.name).has_value(); });
 }
 
-/// Each part as a patch of its own, to measure it.
+/// Each part as a separate patch, for measuring.
 std::vector<PatchMeasures> measures_of(const Surface& surface, const RawSurface& raw,
                                        const std::vector<Part>& parts) {
     PatchLabels labels;
@@ -71,7 +72,7 @@ std::string note_of(const std::vector<Part>& parts, bool named) {
     const auto openings = std::count_if(
         parts.begin(), parts.end(), [](const Part& part) { return part.kind != PatchKind::Wall; });
     return counted(parts.size(), "part") + " in the file" +
-           (named ? " (by name)" : " (told apart by their flatness)") + ": " +
+           (named ? " (by name)" : " (distinguished by their flatness)") + ": " +
            std::to_string(parts.size() - static_cast<std::size_t>(openings)) + " wall, " +
            counted(static_cast<std::size_t>(openings), "opening");
 }

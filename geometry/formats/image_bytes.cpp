@@ -24,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "stored_bytes writes n
 
 /// More than a whole-body CT; beyond it the header is damaged or the machine too small.
 constexpr std::size_t kMostVoxels = std::size_t{1} << 30;
-/// Inflated bytes are taken in pieces: a damaged header never makes a large allocation.
+/// Data is inflated piecewise: a damaged header never causes a large allocation.
 constexpr std::size_t kPiece = std::size_t{1} << 22;
 
 template <class T>
@@ -82,14 +82,14 @@ std::vector<float> converted(const ImageHeader& header, std::string_view bytes, 
 void check_matrix(const Eigen::Matrix4d& matrix, const std::string& name) {
     const Eigen::Matrix3d axes = matrix.topLeftCorner<3, 3>();
     const double product = axes.colwise().norm().prod();
-    // Below this sine of the angles between them, the axes span no volume.
+    // Sine of the angles between the axes below which they span no volume.
     constexpr double kFlat = 1e-3;
     if (!matrix.allFinite())
-        bad_file(name, "its orientation or spacing holds a value that is not a number",
-                 "write the file anew with valid geometry");
+        bad_file(name, "its orientation or spacing contains a value that is not a number",
+                 "export the file again with valid geometry");
     if (!(product > 0.0) || std::abs(axes.determinant()) < kFlat * product)
         bad_file(name, "its spacing or orientation is degenerate (an axis of length 0)",
-                 "write the file anew with valid geometry");
+                 "export the file again with valid geometry");
 }
 
 void check_finite(const std::vector<float>& voxels, const std::string& name) {
@@ -99,7 +99,7 @@ void check_finite(const std::vector<float>& voxels, const std::string& name) {
         bad_file(name,
                  std::to_string(bad) + " of its " + std::to_string(voxels.size()) +
                      " voxels are not finite numbers",
-                 "replace them by the background value");
+                 "replace them with the background value");
 }
 
 template <class T>
@@ -167,7 +167,8 @@ public:
     Inflater(const Inflater&) = delete;
     Inflater& operator=(const Inflater&) = delete;
 
-    /// Fills the span or less; 0 at the stream's proper end. \throw InvalidInput if damaged
+    /// Fills the span or less; returns 0 at the stream's regular end. \throw InvalidInput if
+    /// damaged
     std::size_t read(char* out, std::size_t size) {
         stream_.next_out = reinterpret_cast<Bytef*>(out);
         stream_.avail_out = static_cast<uInt>(size);
@@ -182,7 +183,7 @@ public:
                 next_member();
             else if (state == Z_BUF_ERROR ||
                      (state == Z_OK && fed_ == compressed_.size() && stream_.avail_out == size))
-                bad_file(name_, "its compressed data is cut off",
+                bad_file(name_, "its compressed data is truncated",
                          "the file is truncated: copy or download it again");
             else if (state != Z_OK)
                 bad_file(name_, "its compressed data is damaged",
@@ -192,7 +193,7 @@ public:
     }
 
 private:
-    /// gzip allows several members in a row; what follows otherwise is passed over.
+    /// gzip allows several members in a row; any other data behind them is ignored.
     void next_member() {
         ended_ = !is_gzip(compressed_.substr(fed_));
         if (!ended_) inflateReset(&stream_);
@@ -256,7 +257,7 @@ Image image_from(const ImageHeader& header, std::string_view bytes, const std::s
     if (bytes.size() < needed)
         bad_file(name,
                  "its voxels need " + std::to_string(needed) + " bytes, but only " +
-                     std::to_string(bytes.size()) + " are there",
+                     std::to_string(bytes.size()) + " are present",
                  "the file is truncated: copy or download it again");
     return image_from(header, converted(header, bytes, count), name);
 }
@@ -290,7 +291,7 @@ std::vector<float> voxels_from_text(std::string_view text, std::size_t count,
         const auto [next, error] = std::from_chars(at, end, value);
         if (error != std::errc())
             bad_file(name, "voxel " + std::to_string(voxels.size()) + " is not a number",
-                     "write the file anew");
+                     "export the file again");
         voxels.push_back(static_cast<float>(value));
         at = next;
     }

@@ -11,8 +11,8 @@
 
 namespace vesselbench {
 
-// Pieces that the image readers and writers share. `name` is always the file's name without its
-// folder: it stands in error texts.
+// Functions shared by the image readers and writers. `name` is always the file's name without its
+// folder, for error texts.
 
 /// How one voxel is stored.
 enum class VoxelType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64, Float32, Float64 };
@@ -20,7 +20,7 @@ enum class VoxelType { UInt8, Int8, UInt16, Int16, UInt32, Int32, UInt64, Int64,
 /// Bytes of one voxel.
 [[nodiscard]] std::size_t bytes_of(VoxelType type);
 
-/// Header values that place an image: what the voxel bytes do not say.
+/// Header values that describe an image beyond its voxel bytes.
 struct ImageHeader {
     std::array<int, 3> size = {0, 0, 0};
     Eigen::Matrix4d index_to_patient = Eigen::Matrix4d::Identity();  ///< [mm], LPS
@@ -39,11 +39,11 @@ struct ImageHeader {
 [[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,
                                               const std::string& name);
 
-/// True if the bytes begin like a gzip stream.
+/// True if the bytes start like a gzip stream.
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
-/// The first `wanted` bytes of a gzip or zlib stream; unless it is `only_head`, the rest is looked
-/// at too, so that a missing end or a wrong checksum shows.
+/// The first `wanted` bytes of a gzip or zlib stream; unless `only_head` is set, the rest is
+/// checked too, to detect a missing end or a wrong checksum.
 /// \throw InvalidInput if it is damaged or truncated
 [[nodiscard]] std::string inflated(std::string_view compressed, std::size_t wanted,
                                    const std::string& name, bool only_head = false);
@@ -51,18 +51,18 @@ struct ImageHeader {
 /// A gzip (or else zlib) stream.
 [[nodiscard]] std::string deflated(std::string_view bytes, bool gzip);
 
-/// Turns stored bytes into an image. Bytes behind the last voxel are ignored.
+/// Turns stored bytes into an image. Bytes after the last voxel are ignored.
 /// \throw InvalidInput if there are too few bytes, a voxel is not a finite number, or the matrix is
 /// not finite or not invertible
 [[nodiscard]] Image image_from(const ImageHeader& header, std::string_view bytes,
                                const std::string& name);
 
-/// The same for voxels that are numbers already; slope and intercept are applied.
+/// The same for voxels given as numbers; slope and intercept are applied.
 [[nodiscard]] Image image_from(const ImageHeader& header, std::vector<float> voxels,
                                const std::string& name);
 
 /// Numbers written as text, separated by white space, at most `count` of them.
-/// \throw InvalidInput if one is no number
+/// \throw InvalidInput if one is not a number
 [[nodiscard]] std::vector<float> voxels_from_text(std::string_view text, std::size_t count,
                                                   const std::string& name);
 
@@ -72,7 +72,7 @@ struct ImageHeader {
 /// Voxels stored little endian as uint8, int16 or float32.
 [[nodiscard]] std::string stored_bytes(const Image& image, VoxelType type);
 
-/// A number if the whole text is one (surrounding blanks allowed), else nothing.
+/// The number if the whole text is one (surrounding blanks allowed), else nothing.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 /// The text without blanks at both ends.

@@ -16,11 +16,10 @@ std::string image_formats_text() {
 
 ImageFile read_image_file(const std::string& path) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error))
-        throw IoError(bare_name(path) + ": there is no such file");
+    if (!std::filesystem::exists(path, error)) throw IoError(bare_name(path) + ": no such file");
     const ImageFormat* format = row_that_reads(image_formats(), path);
     if (!format)
-        bad_file(bare_name(path), "it is of no known image format", "give " + image_formats_text());
+        bad_file(bare_name(path), "its image format is unknown", "give " + image_formats_text());
     ImageFile file = format->read(path);
     file.format = format->name;
     return file;

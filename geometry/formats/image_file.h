@@ -8,27 +8,28 @@
 
 namespace vesselbench {
 
-/// An image as a file gave it.
+/// An image as read from a file.
 struct ImageFile {
-    Image image;                     ///< [mm], LPS, with the file's true orientation
-    std::string format;              ///< name of its row in image_formats()
-    std::optional<double> unit;      ///< [mm] that the file's stated unit has; none if none stated
-    std::vector<std::string> notes;  ///< what was missing in the file and what was taken instead
+    Image image;                 ///< [mm], LPS, with the file's true orientation
+    std::string format;          ///< name of its row in image_formats()
+    std::optional<double> unit;  ///< [mm] the file's stated unit; none if it states none
+    std::vector<std::string>
+        notes;  ///< what was missing in the file, and the assumptions made instead
 };
 
 /// Reads an image with its orientation, converted to [mm] and LPS, in a format of image_formats():
 /// by its suffix, or by its content where the format knows it; a folder holds the slices of one
-/// DICOM series. Intensities are scaled as the file says (slope, intercept). Of a DICOM file only
-/// geometry and pixels are taken. \throw IoError if the file cannot be read \throw InvalidInput if
-/// it is truncated, damaged, of an unknown kind, has a voxel that is not a finite number, more than
-/// one value a voxel, more than three dimensions, or more than 2^30 voxels
+/// DICOM series. Intensities are scaled according to the file (slope, intercept). Of a DICOM file
+/// only geometry and pixels are used. \throw IoError if the file cannot be read \throw InvalidInput
+/// if it is truncated, damaged, of an unknown kind, has a voxel that is not a finite number, more
+/// than one value per voxel, more than three dimensions, or more than 2^30 voxels
 [[nodiscard]] ImageFile read_image_file(const std::string& path);
 
 /// The image of read_image_file alone.
 [[nodiscard]] Image read_image(const std::string& path);
 
-/// Writes an image in the format of the suffix, whole numbers as uint8 or int16 where they fit,
-/// else float32. NIfTI stores its matrix in single precision. \throw UsageError for another suffix,
+/// Writes an image in the format of the suffix, integers as uint8 or int16 if they fit, else
+/// float32. NIfTI stores its matrix in single precision. \throw UsageError for another suffix,
 /// IoError if it cannot be written, InvalidInput if empty
 void write_image(const std::string& path, const Image& image);
 

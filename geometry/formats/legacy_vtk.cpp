@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n\v\f";
 
-/// Words and blocks of numbers of a legacy file, with the place for error texts.
+/// Words and number blocks of a legacy file, with their position for error texts.
 class Cursor {
 public:
     Cursor(const std::string& bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
@@ -49,7 +49,7 @@ public:
         const long long value = parser().parse_integer(word(), what);
         if (value < 0 || static_cast<std::size_t>(value) > bytes_.size())
             fail(std::string(what) + " is " + std::to_string(value) +
-                 ", more than the file can hold: it was cut off or is damaged");
+                 ", more than the file can hold: it is truncated or damaged");
         return static_cast<std::size_t>(value);
     }
 
@@ -65,7 +65,7 @@ public:
             }
             return values;
         }
-        line();  // what stands between the header and the block
+        line();  // the rest of the line before the block
         const std::size_t size = type_size(type);
         if (count > (bytes_.size() - at_) / size) cut_off(what);
         for (double& value : values) {
@@ -86,8 +86,8 @@ public:
     }
 
     [[noreturn]] void cut_off(const char* what) const {
-        fail(std::string("the file ends where a value should stand (") + what +
-             "): it was cut off; fetch it again");
+        fail(std::string("the file ends where a value is expected (") + what +
+             "): it is truncated; copy or download it again");
     }
 
 private:
@@ -102,7 +102,7 @@ private:
             {"double", 8}, {"vtktypeint64", 8},  {"unsigned_long", 8}, {"vtkIdType", 4}};
         for (const auto& [name, size] : sizes)
             if (type == name) return size;
-        fail("'" + type.substr(0, 40) + "' is no type of numbers that is known here");
+        fail("'" + type.substr(0, 40) + "' is not a supported number type");
     }
 
     template <class T>
@@ -128,7 +128,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Polygons or strips: where each begins in the list of corners.
+/// Polygons or strips: the beginning of each in the list of corners.
 struct Cells {
     std::vector<double> offsets;
     std::vector<double> corners;
@@ -156,14 +156,14 @@ private:
     void read_head() {
         const std::string first = in_.line();
         if (first.rfind("# vtk DataFile Version", 0) != 0)
-            in_.fail("the file does not begin with '# vtk DataFile Version'");
+            in_.fail("the file does not start with '# vtk DataFile Version'");
         new_cells_ = first.find("Version 5") != std::string::npos;
         raw_.unit = stated_unit(in_.line());
         const std::string encoding = in_.keyword();
         if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY");
         binary_ = encoding == "BINARY";
         if (in_.keyword() != "DATASET" || in_.keyword() != "POLYDATA")
-            in_.fail("the file holds no surface (DATASET POLYDATA)");
+            in_.fail("the file contains no surface (DATASET POLYDATA)");
     }
 
     void read_section(const std::string& key) {
@@ -240,7 +240,7 @@ private:
         const std::size_t components = in_.count("number of components");
         const std::size_t tuples = in_.count("number of values");
         const std::string type(in_.word());
-        if (type == "string") in_.fail("arrays of texts are not read: leave them out");
+        if (type == "string") in_.fail("arrays of texts are not supported: remove them");
         keep(name, components, in_.numbers(components * tuples, type, binary_, "array"));
     }
 
@@ -267,7 +267,7 @@ private:
         else if (key == "TENSORS")
             components = 9;
         else if (key != "TEXTURE_COORDINATES")
-            in_.fail("'" + key.substr(0, 40) + "' does not belong into a VTK surface");
+            in_.fail("'" + key.substr(0, 40) + "' does not belong in a VTK surface");
         keep(name, components, in_.numbers(components * tuples_, type, binary_, "array"));
     }
 
@@ -275,7 +275,7 @@ private:
     std::size_t scalar_components() {
         const std::string rest = in_.line();
         const auto digit = rest.find_first_of("1234");
-        if (in_.keyword() != "LOOKUP_TABLE") in_.fail("LOOKUP_TABLE is missing behind SCALARS");
+        if (in_.keyword() != "LOOKUP_TABLE") in_.fail("LOOKUP_TABLE is missing after SCALARS");
         in_.word();
         return digit == std::string::npos ? 1 : static_cast<std::size_t>(rest[digit] - '0');
     }
@@ -299,25 +299,25 @@ private:
         for (std::size_t i = 0; i < strips_.count(); ++i, ++cell) {
             corners_of(strips_, i, corners);
             for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
-                const std::size_t odd = k % 2;  // every second triangle runs the other way
+                const std::size_t odd = k % 2;  // every second triangle is reversed
                 raw_.triangles.push_back({corners[k], corners[k + 1 + odd], corners[k + 2 - odd]});
             }
             label(cell);
         }
         if (other_cells_ > 0)
             raw_.notes.push_back(std::to_string(other_cells_) +
-                                 " lines or lone points were left out");
+                                 " lines or isolated points were ignored");
     }
 
     void corners_of(const Cells& cells, std::size_t i, std::vector<VertexId>& corners) const {
         const double begin = cells.offsets[i], end = cells.offsets[i + 1];
         if (!(begin >= 0.0 && begin <= end && end <= static_cast<double>(cells.corners.size())))
-            in_.fail("the place of cell " + std::to_string(i) + " is out of range");
+            in_.fail("the offset of cell " + std::to_string(i) + " is out of range");
         corners.clear();
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
             const double v = cells.corners[k];
             if (!(v >= 0.0 && v < static_cast<double>(raw_.positions.size())))
-                in_.fail("cell " + std::to_string(i) + " names point " +
+                in_.fail("cell " + std::to_string(i) + " refers to point " +
                          std::to_string(static_cast<long long>(v)) + ", but there are only " +
                          std::to_string(raw_.positions.size()) + ": the file is damaged");
             corners.push_back(static_cast<VertexId>(v));

@@ -16,20 +16,21 @@ namespace {
 
 constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre};
 
-/// What models of vessels have [mm]: typical radius from an intracranial artery to an atrium, the
-/// thinnest lumen that images resolve, the extent of the smallest excerpt to a whole body.
+/// Ranges for models of vessels [mm]: typical radius from an intracranial artery to an atrium, the
+/// thinnest lumen resolved by images, the extent from the smallest excerpt to a whole body.
 constexpr double kSmallestRadius = 1.3;
 constexpr double kLargestRadius = 20.0;
 constexpr double kThinnestOpening = 0.5;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
 
-/// Most files are in mm: another unit must make up for an implausibility (in natural logarithms)
-/// above this one; below kCertain the guess is called uncertain.
+/// Most files are in mm: another unit is considered only for an implausibility (in natural
+/// logarithms) above this one; below kCertain the guess counts as uncertain.
 constexpr double kInFavourOfMillimetres = 0.4;
 constexpr double kCertain = 1.2;
 
-/// Beyond this ratio of extent to radius the volume means nothing (scattered or turned triangles).
+/// Above this ratio of extent to radius the volume is meaningless (scattered or reversed
+/// triangles).
 constexpr double kSlimmestTree = 400.0;
 
 struct Figures {
@@ -46,7 +47,7 @@ double too_large(double value, double limit) {
     return value > limit ? std::log(value / limit) : 0.0;
 }
 
-/// Area and length of a loop: its equivalent radius if it is a round one, else 0.
+/// Area and length of a loop: its equivalent radius if it is round, else 0.
 double round_radius(const Positions& points, const std::vector<VertexId>& loop) {
     constexpr std::size_t kFewestEdges = 8;
     constexpr double kRound = 0.7;  // isoperimetric ratio [-]
@@ -77,7 +78,7 @@ Figures figures_of(const Surface& surface) {
     return figures;
 }
 
-/// 0: like a vessel; more: by how many natural logarithms it is off.
+/// 0: like a vessel; above: deviation in natural logarithms.
 double implausibility(const Figures& figures, double factor) {
     return too_small(factor * figures.radius, kSmallestRadius) +
            too_large(factor * figures.radius, kLargestRadius) +
@@ -112,7 +113,7 @@ std::string to_string(LengthUnit unit) {
 LengthUnit length_unit_from(const std::string& text) {
     for (const LengthUnit unit : kUnits)
         if (text == to_string(unit)) return unit;
-    throw UsageError("'" + text + "' is no unit of length: use mm, cm or m");
+    throw UsageError("'" + text + "' is not a unit of length: use mm, cm or m");
 }
 
 double millimetres_per(LengthUnit unit) {

@@ -23,8 +23,8 @@ struct UnitGuess {
     bool certain = true;  ///< false: another unit would be nearly as plausible
 };
 
-/// Which unit makes the coordinates a vessel: compares the typical radius (twice the volume by the
-/// area; r for a tube) and the extent with what vessels have.
+/// The unit in which the coordinates describe a vessel: compares the typical radius (twice the
+/// volume over the area; r for a tube) and the extent with those of vessels.
 /// \param surface in the file's unit, not empty
 [[nodiscard]] UnitGuess guess_length_unit(const Surface& surface);
 

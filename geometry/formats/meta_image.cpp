@@ -18,7 +18,7 @@ using Fields = std::map<std::string, std::string>;
 
 struct Header {
     Fields fields;         ///< names in lower case
-    std::size_t data = 0;  ///< offset of the first byte behind the header
+    std::size_t data = 0;  ///< offset of the first byte after the header
 };
 
 /// A MetaImage header is "Key = value" lines; ElementDataFile is its last.
@@ -32,7 +32,7 @@ Header parse_header(std::string_view bytes, const std::string& name) {
         if (line.empty()) continue;
         const auto equals = line.find('=');
         if (equals == std::string_view::npos)
-            bad_file(name, "its header holds a line that is no 'key = value'",
+            bad_file(name, "its header has a line that is not 'key = value'",
                      "check that it is a MetaImage file");
         const std::string key = lower_case(trimmed(line.substr(0, equals)));
         header.fields[key] = trimmed(line.substr(equals + 1));
@@ -57,9 +57,9 @@ std::vector<double> numbers(const std::string& text, std::size_t count, const ch
         if (const auto number = number_in(word)) values.push_back(*number);
     if (values.size() != count || words_of(text).size() != count)
         bad_file(name,
-                 std::string("its field ") + key + " does not hold " + std::to_string(count) +
+                 std::string("its field ") + key + " does not have " + std::to_string(count) +
                      " numbers",
-                 "write the file anew");
+                 "export the file again");
     return values;
 }
 
@@ -91,7 +91,7 @@ std::optional<double> stated_unit(const Fields& fields, const std::string& name)
     if (unit == "cm") return 10.0;
     if (unit == "m") return 1000.0;
     if (unit == "um") return 1e-3;
-    bad_file(name, "its unit of length '" + *text + "' is not known", "export it in mm");
+    bad_file(name, "its unit of length '" + *text + "' is unknown", "export it in mm");
 }
 
 void place(const Fields& fields, const std::string& name, ImageFile& file, ImageHeader& header) {
@@ -103,14 +103,13 @@ void place(const Fields& fields, const std::string& name, ImageFile& file, Image
                 matrix(c, axis) = rows[static_cast<std::size_t>(3 * axis + c)];
     } else {
         file.notes.emplace_back(
-            "the file states no orientation: its axes are taken as left, "
-            "posterior, superior");
+            "the file states no orientation: left, posterior, superior is assumed");
     }
     std::vector<double> spacing(3, 1.0);
     if (const auto* text = find(fields, {"elementspacing", "elementsize"}))
         spacing = numbers(*text, 3, "ElementSpacing", name);
     else
-        file.notes.emplace_back("the file states no voxel size: 1 mm is taken");
+        file.notes.emplace_back("the file states no voxel size: 1 mm is assumed");
     for (Eigen::Index axis = 0; axis < 3; ++axis)
         matrix.col(axis) *= std::abs(spacing[static_cast<std::size_t>(axis)]);
     if (const auto* text = find(fields, {"offset", "origin", "position"})) {
@@ -128,9 +127,9 @@ void check_kind(const Fields& fields, const std::string& name) {
         bad_file(name, "it is not an image of 3 dimensions", "export one scalar volume");
     const std::string* channels = find(fields, {"elementnumberofchannels"});
     if (channels && *channels != "1")
-        bad_file(name, "it holds " + *channels + " values a voxel", "export one scalar volume");
+        bad_file(name, "it holds " + *channels + " values per voxel", "export one scalar volume");
     if (!find(fields, {"dimsize"}) || !find(fields, {"elementtype"}))
-        bad_file(name, "its header has no DimSize or no ElementType", "write the file anew");
+        bad_file(name, "its header has no DimSize or no ElementType", "export the file again");
 }
 
 std::string data_bytes(const std::string& path, const std::string& all, const Header& header,
@@ -138,7 +137,7 @@ std::string data_bytes(const std::string& path, const std::string& all, const He
     const std::string& other = header.fields.at("elementdatafile");
     if (other == "LOCAL" || other == "Local" || other == "local") return all.substr(header.data);
     if (other.starts_with("LIST") || other.find('%') != std::string::npos)
-        bad_file(name, "its voxels lie in several files", "save it as one file");
+        bad_file(name, "its voxels are in several files", "save it as one file");
     const std::filesystem::path file(other);
     return file_content(
         (file.is_absolute() ? file : std::filesystem::path(path).parent_path() / file).string());
@@ -153,7 +152,7 @@ Image decoded(const ImageHeader& header, std::string_view data, const Fields& fi
         return image_from(header, voxels_from_text(data, count, name), name);
     if (const auto* text = find(fields, {"headersize"})) {
         const double skip = numbers(*text, 1, "HeaderSize", name)[0];
-        if (skip < 0.0)  // the voxels are the file's end
+        if (skip < 0.0)  // the voxels are at the file's end
             data = data.substr(data.size() - std::min(data.size(), bytes));
         else
             data = data.substr(
@@ -179,7 +178,7 @@ ImageFile read_meta_image(const std::string& path) {
     std::array<long long, 3> size{};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!(std::abs(stated[i]) < 1e9) || stated[i] != std::floor(stated[i]))
-            bad_file(name, "its DimSize is not usable", "the header is damaged");
+            bad_file(name, "its DimSize is invalid", "the header is damaged");
         size[i] = static_cast<long long>(stated[i]);
     }
     (void)checked_voxel_count(size, name);

@@ -6,8 +6,8 @@
 
 namespace vesselbench {
 
-/// Reads MetaImage (.mha, or .mhd with its data beside it; compressed or not, binary or text).
-/// Its matrix's rows are the directions of the axes; its space is LPS, as ITK has it.
+/// Reads MetaImage (.mha, or .mhd with its data beside it; compressed or not, binary or text). The
+/// rows of its matrix are the directions of the axes; its space is LPS, as in ITK.
 /// Source: "MetaIO", itk.org/Wiki/MetaIO/Documentation.
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_meta_image(const std::string& path);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kHeaderSize = 348;
 constexpr std::size_t kDataOffset = 352;
-/// A header extension is text; more than this is a damaged offset.
+/// A header extension is text; a larger offset is damaged.
 constexpr double kLargestOffset = 1 << 24;
 
 /// Reads header fields at their byte offsets (nifti1.h).
@@ -93,8 +93,8 @@ Eigen::Matrix4d ras_matrix(const Fields& fields, std::vector<std::string>& notes
     if (fields.at<std::int16_t>(254) > 0) return sform_of(fields);
     if (fields.at<std::int16_t>(252) > 0) return qform_of(fields);
     notes.emplace_back(
-        "the file states no orientation: its axes are taken as right, anterior, "
-        "superior, and its first voxel as the origin");
+        "the file states no orientation: axes right, anterior, superior and the first voxel as "
+        "origin are assumed");
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     for (int i = 0; i < 3; ++i) matrix(i, i) = fields.pixdim(i + 1);
     return matrix;
@@ -130,14 +130,14 @@ Fields checked_fields(std::string_view bytes, const std::string& name) {
 std::array<long long, 3> size_of(const Fields& fields, const std::string& name) {
     const int dimensions = fields.dim(0);
     if (dimensions < 1 || dimensions > 7)
-        bad_file(name, "its header names " + std::to_string(dimensions) + " dimensions",
+        bad_file(name, "its header states " + std::to_string(dimensions) + " dimensions",
                  "the file is damaged");
     for (int i = 4; i <= dimensions; ++i)
         if (fields.dim(i) > 1)
             bad_file(
                 name,
                 "it holds " + std::to_string(fields.dim(i)) + " volumes (time steps or channels)",
-                "export the one wanted volume");
+                "export a single volume");
     std::array<long long, 3> size = {1, 1, 1};
     for (int i = 0; i < std::min(3, dimensions); ++i)
         size[static_cast<std::size_t>(i)] = fields.dim(i + 1);
@@ -177,7 +177,7 @@ ImageFile read_nifti(const std::string& path) {
 
     const double offset = fields.at<float>(108);
     if (!(offset >= 0.0 && offset <= kLargestOffset))
-        bad_file(name, "its voxels are said to begin at byte " + number_text(offset),
+        bad_file(name, "its header places the voxels at byte " + number_text(offset),
                  "the file is damaged");
     const std::size_t begin = std::max(kDataOffset, static_cast<std::size_t>(offset));
     const std::size_t end = begin + count * bytes_of(header.type);

@@ -6,13 +6,13 @@
 
 namespace vesselbench {
 
-/// Reads NIfTI-1 (.nii, .nii.gz; either byte order). The sform is taken if it is set, else the
+/// Reads NIfTI-1 (.nii, .nii.gz; either byte order). The sform is used if it is set, else the
 /// qform, else the voxel sizes alone. Its RAS becomes LPS; metres and micrometres become [mm].
 /// Source: Cox et al., "A (sort of) new image data format standard: NIfTI-1", 2004; nifti1.h.
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_nifti(const std::string& path);
 
-/// Bytes of a NIfTI-1 file (not compressed) that holds the image, its matrix as sform.
+/// Bytes of a NIfTI-1 file (not compressed) with the image, its matrix as sform.
 [[nodiscard]] std::string nifti_bytes(const Image& image);
 
 /// Writes these bytes. \throw IoError

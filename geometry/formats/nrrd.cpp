@@ -19,12 +19,12 @@ using Fields = std::map<std::string, std::string>;
 
 struct Header {
     Fields fields;         ///< names in lower case without blanks: "spacedirections"
-    std::size_t data = 0;  ///< offset of the first byte behind the header
+    std::size_t data = 0;  ///< offset of the first byte after the header
 };
 
 Header parse_header(std::string_view bytes, const std::string& name) {
     if (bytes.substr(0, 4) != "NRRD")
-        bad_file(name, "it does not begin with NRRD", "check that it is an NRRD file");
+        bad_file(name, "it does not start with NRRD", "check that it is an NRRD file");
     Header header;
     std::size_t at = 0;
     for (bool first = true;; first = false) {
@@ -44,7 +44,7 @@ Header parse_header(std::string_view bytes, const std::string& name) {
         }
         const auto colon = line.find(':');
         if (colon == std::string_view::npos)
-            bad_file(name, "its header holds a line that is no field", "write the file anew");
+            bad_file(name, "its header has a line that is not a field", "export the file again");
         if (line.substr(colon).starts_with(":=")) continue;
         std::string key = lower_case(line.substr(0, colon));
         std::erase(key, ' ');
@@ -59,7 +59,7 @@ const std::string* find(const Fields& fields, const std::string& key) {
 
 const std::string& needed(const Fields& fields, const std::string& key, const std::string& name) {
     if (const std::string* value = find(fields, key)) return *value;
-    bad_file(name, "its header has no field '" + key + "'", "write the file anew");
+    bad_file(name, "its header has no field '" + key + "'", "export the file again");
 }
 
 VoxelType voxel_type(const std::string& text, const std::string& name) {
@@ -102,7 +102,7 @@ VoxelType voxel_type(const std::string& text, const std::string& name) {
         {"double", VoxelType::Float64}};
     const auto found = types.find(lower_case(text));
     if (found == types.end())
-        bad_file(name, "its voxel type '" + text + "' is not known", "export a scalar image");
+        bad_file(name, "its voxel type '" + text + "' is unknown", "export a scalar image");
     return found->second;
 }
 
@@ -115,8 +115,8 @@ AxisVector parse_vector(std::string_view inside, const std::string& name) {
         const auto comma = inside.find(',');
         const auto number = number_in(inside.substr(0, comma));
         if (!number || (i < 2) != (comma != std::string_view::npos))
-            bad_file(name, "its header holds a vector without three numbers",
-                     "write the file anew");
+            bad_file(name, "its header has a vector without three numbers",
+                     "export the file again");
         vector[i] = *number;
         if (i < 2) inside.remove_prefix(comma + 1);
     }
@@ -129,14 +129,14 @@ std::vector<AxisVector> parse_vectors(std::string_view text, const std::string& 
         if (text.front() == '(') {
             const auto close = text.find(')');
             if (close == std::string_view::npos)
-                bad_file(name, "its header holds an unfinished vector", "write the file anew");
+                bad_file(name, "its header has an unfinished vector", "export the file again");
             vectors.push_back(parse_vector(text.substr(1, close - 1), name));
             text.remove_prefix(close + 1);
         } else {
             const auto end = std::min(text.find(' '), text.size());
             if (lower_case(text.substr(0, end)) != "none")
-                bad_file(name, "its header holds a direction that is no vector",
-                         "write the file anew");
+                bad_file(name, "its header has a direction that is not a vector",
+                         "export the file again");
             vectors.emplace_back();
             text.remove_prefix(end);
         }
@@ -144,7 +144,7 @@ std::vector<AxisVector> parse_vectors(std::string_view text, const std::string& 
     return vectors;
 }
 
-/// Signs that turn the file's space into LPS.
+/// Signs that convert the file's space to LPS.
 Vec3 signs_to_lps(const Fields& fields, const std::string& name, std::vector<std::string>& notes) {
     const std::string* space = find(fields, "space");
     const std::string text = space ? lower_case(*space) : "";
@@ -153,14 +153,14 @@ Vec3 signs_to_lps(const Fields& fields, const std::string& name, std::vector<std
     if (text == "left-anterior-superior" || text == "las") return {1.0, -1.0, 1.0};
     if (!text.empty() && text != "3d-right-handed" && text != "3d-left-handed" &&
         text != "scanner-xyz")
-        bad_file(name, "its space '" + *space + "' is not known",
+        bad_file(name, "its space '" + *space + "' is unknown",
                  "export it in left-posterior-superior");
     notes.emplace_back(
-        "the file does not say which way its axes point: left, posterior, superior is taken");
+        "the file does not state the direction of its axes: left, posterior, superior is assumed");
     return {1.0, 1.0, 1.0};
 }
 
-/// Axes of the file that are axes of space, and those (of size 1) that are not.
+/// The file's spatial axes, and the others (of size 1).
 std::vector<std::size_t> spatial_axes(const std::vector<std::string>& sizes,
                                       const std::vector<AxisVector>& directions,
                                       const std::string& name) {
@@ -172,7 +172,7 @@ std::vector<std::size_t> spatial_axes(const std::vector<std::string>& sizes,
         if (spatial && !surplus)
             axes.push_back(a);
         else if (!single)
-            bad_file(name, "it holds " + sizes[a] + " values a voxel or volumes",
+            bad_file(name, "it holds " + sizes[a] + " values per voxel or volumes",
                      "export one scalar volume");
     }
     if (axes.size() != 3)
@@ -187,7 +187,7 @@ double axis_spacing(const Fields& fields, std::size_t axis, std::vector<std::str
         const auto value = axis < words.size() ? number_in(words[axis]) : std::nullopt;
         if (value && std::isfinite(*value) && *value != 0.0) return std::abs(*value);
     }
-    const std::string note = "the file states no voxel size: 1 mm is taken";
+    const std::string note = "the file states no voxel size: 1 mm is assumed";
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     return 1.0;
 }
@@ -203,7 +203,7 @@ std::optional<double> stated_unit(const Fields& fields, const std::string& name)
     if (unit == "m") return 1000.0;
     if (unit == "um" || unit == "micron" || unit == "\xc2\xb5m") return 1e-3;
     if (!unit.empty() && unit != "none" && unit != "???" && unit != "pixel")
-        bad_file(name, "its unit of length '" + unit + "' is not known", "export it in mm");
+        bad_file(name, "its unit of length '" + unit + "' is unknown", "export it in mm");
     return std::nullopt;
 }
 
@@ -221,7 +221,7 @@ void place(const Fields& fields, const std::vector<AxisVector>& directions,
     if (const std::string* origin = find(fields, "spaceorigin")) {
         const auto vectors = parse_vectors(*origin, name);
         if (vectors.size() != 1 || !vectors[0])
-            bad_file(name, "its space origin is no vector", "write the file anew");
+            bad_file(name, "its space origin is not a vector", "export the file again");
         matrix.topRightCorner<3, 1>() = *vectors[0];
     }
     file.unit = stated_unit(fields, name);
@@ -230,13 +230,13 @@ void place(const Fields& fields, const std::vector<AxisVector>& directions,
     header.index_to_patient = matrix;
 }
 
-/// Bytes with the encoded voxels: behind the header, or in the file that it names.
+/// Bytes of the encoded voxels: after the header, or in the file it names.
 std::string data_bytes(const std::string& path, const std::string& all, const Header& header,
                        const std::string& name) {
     const std::string* other = find(header.fields, "datafile");
     if (!other) return all.substr(header.data);
     if (other->starts_with("LIST") || other->find('%') != std::string::npos)
-        bad_file(name, "its voxels lie in several files", "save it as one file");
+        bad_file(name, "its voxels are in several files", "save it as one file");
     const std::filesystem::path file(*other);
     return file_content(
         (file.is_absolute() ? file : std::filesystem::path(path).parent_path() / file).string());
@@ -246,7 +246,7 @@ std::size_t skipped(const Fields& fields, const std::string& key, const std::str
     const std::string* text = find(fields, key);
     const auto number = text ? number_in(*text) : 0.0;
     if (!number || *number < 0.0 || *number > 1e9)
-        bad_file(name, "its field '" + key + "' is not usable", "save it as one file");
+        bad_file(name, "its field '" + key + "' is invalid", "save it as one file");
     return static_cast<std::size_t>(*number);
 }
 
@@ -282,7 +282,8 @@ Image decoded(const ImageHeader& header, std::string_view data, const Fields& fi
         return image_from(header, inflated(skip(data, fields, 0, name), bytes, name), name);
     if (encoding == "ascii" || encoding == "text" || encoding == "txt")
         return image_from(header, voxels_from_text(data, count, name), name);
-    bad_file(name, "its encoding '" + encoding + "' is not read", "save it with gzip encoding");
+    bad_file(name, "its encoding '" + encoding + "' is not supported",
+             "save it with gzip encoding");
 }
 
 }  // namespace
@@ -295,11 +296,11 @@ ImageFile read_nrrd(const std::string& path) {
     const auto sizes = words_of(needed(fields, "sizes", name));
     const auto dimension = number_in(needed(fields, "dimension", name));
     if (!dimension || *dimension != static_cast<double>(sizes.size()))
-        bad_file(name, "its dimension and its sizes disagree", "write the file anew");
+        bad_file(name, "its dimension and its sizes disagree", "export the file again");
     const std::string* stated = find(fields, "spacedirections");
     const auto directions = stated ? parse_vectors(*stated, name) : std::vector<AxisVector>();
     if (stated && directions.size() != sizes.size())
-        bad_file(name, "its space directions and its sizes disagree", "write the file anew");
+        bad_file(name, "its space directions and its sizes disagree", "export the file again");
 
     ImageFile file;
     ImageHeader header;
@@ -308,8 +309,7 @@ ImageFile read_nrrd(const std::string& path) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto n = number_in(sizes[axes[i]]);
         if (!n || !(std::abs(*n) < 1e9) || *n != std::floor(*n))
-            bad_file(name, "its size '" + sizes[axes[i]] + "' is not usable",
-                     "the header is damaged");
+            bad_file(name, "its size '" + sizes[axes[i]] + "' is invalid", "the header is damaged");
         size[i] = static_cast<long long>(*n);
     }
     (void)checked_voxel_count(size, name);

@@ -7,7 +7,7 @@
 namespace vesselbench {
 
 /// Reads NRRD (.nrrd, or .nhdr with its data beside it; raw, gzip or text encoding). Its space
-/// (RAS, LAS, LPS) becomes LPS; where it names none, LPS is taken and said. Source: "Definition of
+/// (RAS, LAS, LPS) becomes LPS; without one, LPS is assumed, with a note. Source: "Definition of
 /// NRRD file format", teem.sourceforge.net/nrrd/format.html.
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_nrrd(const std::string& path);

@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that reads back to the same number.
 inline std::string number_text(double value) {
     char buffer[32];
     return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};

@@ -28,7 +28,7 @@ public:
                 ++lines_;
         }
         if (raw_.triangles.empty() && raw_.positions.empty() && lines_ > 0)
-            scan_.fail("neither points nor faces: this is no OBJ file");
+            scan_.fail("neither points nor faces: this is not an OBJ file");
         if (groups_.size() < 2) raw_.part_ids.clear();
         return std::move(raw_);
     }
@@ -51,8 +51,8 @@ private:
         const auto count = static_cast<long long>(raw_.positions.size());
         const long long at = index > 0 ? index - 1 : count + index;
         if (index == 0 || at < 0 || at >= count)
-            scan_.fail("a face names point " + std::to_string(index) + ", but only " +
-                       std::to_string(count) + " stand before it: the file is damaged");
+            scan_.fail("a face refers to point " + std::to_string(index) + ", but only " +
+                       std::to_string(count) + " come before it: the file is damaged");
         return static_cast<VertexId>(at);
     }
 
@@ -60,7 +60,7 @@ private:
         polygon_.clear();
         for (std::string_view word = scan_.word(); !word.empty(); word = scan_.word())
             polygon_.push_back(corner(word));
-        if (polygon_.size() < 3) scan_.fail("a face with fewer than three corners");
+        if (polygon_.size() < 3) scan_.fail("a face has fewer than three corners");
         append_polygon(raw_.positions, polygon_, raw_.triangles);
         raw_.part_ids.resize(raw_.triangles.size(), group_);
     }

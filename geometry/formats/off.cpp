@@ -36,7 +36,7 @@ private:
             scan_.fail("the first word is not OFF");
         std::string_view count = scan_.word();
         if (count == "BINARY")
-            scan_.fail("binary OFF is not read: save it as a text OFF, STL or PLY file");
+            scan_.fail("binary OFF is not supported: save it as a text OFF, STL or PLY file");
         if (count.empty()) {
             if (!scan_.next_line('#')) scan_.fail("the counts of points and faces are missing");
             count = scan_.word();
@@ -50,7 +50,7 @@ private:
         if (!scan_.next_line('#'))
             scan_.fail("the file ends before " + std::string(what) + " " +
                        std::to_string(index + 1) + " of " + std::to_string(count) +
-                       ": it was cut off; fetch it again");
+                       ": it is truncated; copy or download it again");
     }
 
     void read_face() {
@@ -61,7 +61,7 @@ private:
         for (long long k = 0; k < corners; ++k) {
             const long long v = scan_.integer("face corner");
             if (v < 0 || v >= points_)
-                scan_.fail("a face names point " + std::to_string(v) + ", but there are only " +
+                scan_.fail("a face refers to point " + std::to_string(v) + ", but there are only " +
                            std::to_string(points_) + ": the file is damaged");
             polygon_.push_back(static_cast<VertexId>(v));
         }

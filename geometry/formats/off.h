@@ -7,10 +7,10 @@
 namespace vesselbench {
 
 /// Reads a text OFF file (also COFF, NOFF, CNOFF; colours and normals are ignored).
-/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+/// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_off(const std::string& path);
 
-/// A comment states the unit; patches and attributes have no place in this format.
+/// A comment states the unit; the format cannot store patches and attributes.
 void write_off(const Surface& surface, const std::string& path);
 
 }  // namespace vesselbench

@@ -57,7 +57,7 @@ Type type_of(TextScanner& scan) {
     const std::string_view word = scan.word();
     for (const auto& [name, type] : kTypes)
         if (word == name) return type;
-    scan.fail("'" + std::string(word.substr(0, 40)) + "' is no type of PLY");
+    scan.fail("'" + std::string(word.substr(0, 40)) + "' is not a PLY type");
 }
 
 void read_comment(TextScanner& scan, Header& header) {
@@ -72,11 +72,11 @@ Encoding encoding_of(TextScanner& scan) {
     if (word == "ascii") return Encoding::Text;
     if (word == "binary_little_endian") return Encoding::LittleEndian;
     if (word == "binary_big_endian") return Encoding::BigEndian;
-    scan.fail("'" + std::string(word.substr(0, 40)) + "' is no format of PLY");
+    scan.fail("'" + std::string(word.substr(0, 40)) + "' is not a PLY format");
 }
 
 void read_property(TextScanner& scan, Header& header) {
-    if (header.elements.empty()) scan.fail("a property stands before the first element");
+    if (header.elements.empty()) scan.fail("a property comes before the first element");
     Property property;
     const std::string_view rest = scan.whole_line();
     if (rest.find(" list ") != std::string_view::npos) {
@@ -118,14 +118,13 @@ Header read_header(const std::string& bytes, const std::string& file) {
             header.lines = scan.line();
             return header;
         } else if (word != "obj_info") {
-            scan.fail("'" + std::string(word.substr(0, 40)) +
-                      "' does not belong into a PLY header");
+            scan.fail("'" + std::string(word.substr(0, 40)) + "' does not belong in a PLY header");
         }
     }
-    scan.fail("the header has no end: the file was cut off or is no PLY file");
+    scan.fail("the header has no end: the file is truncated or not a PLY file");
 }
 
-/// The values of the body, one after the other, whatever their encoding.
+/// The values of the body, one after the other, in any encoding.
 class Body {
 public:
     Body(const std::string& bytes, const std::string& file, const Header& header)
@@ -135,7 +134,7 @@ public:
         return encoding_ == Encoding::Text ? text_number(what) : binary_number(type, what);
     }
 
-    /// A value that must be a whole number from 0 to `limit`.
+    /// A value that must be an integer from 0 to `limit`.
     std::size_t index(Type type, std::size_t limit, const char* what) {
         const double value = number(type, what);
         if (!(value >= 0.0 && value <= static_cast<double>(limit)) || value != std::floor(value))
@@ -144,7 +143,7 @@ public:
         return static_cast<std::size_t>(value);
     }
 
-    /// Least number of bytes that `count` values may still take.
+    /// Smallest number of bytes for `count` further values.
     [[nodiscard]] std::size_t bytes_left() const { return bytes_.size() - at_; }
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -202,8 +201,8 @@ private:
     }
 
     [[noreturn]] void cut_off(const char* what) const {
-        fail(std::string("the file ends where a value should stand (") + what +
-             "): it was cut off; fetch it again");
+        fail(std::string("the file ends where a value is expected (") + what +
+             "): it is truncated; copy or download it again");
     }
 
     const std::string& bytes_;
@@ -228,12 +227,11 @@ public:
         raw_.unit = header_.unit;
         raw_.part_names = header_.part_names;
         for (const Element& element : header_.elements) {
-            // Every element takes at least one byte: a count beyond that is a damaged header.
+            // Every element takes at least one byte: a larger count means a damaged header.
             if (!element.properties.empty() && element.count > body_.bytes_left())
                 body_.fail("the header announces " + std::to_string(element.count) + " '" +
                            element.name +
-                           "' elements, more than the file can hold: it was cut off "
-                           "or is damaged");
+                           "' elements, more than the file can hold: it is truncated or damaged");
             if (element.name == "vertex")
                 read_points(element);
             else if (element.name == "face")

@@ -59,9 +59,9 @@ void append_polygon(const Positions& positions, const std::vector<VertexId>& pol
                     std::vector<Triangle>& triangles) {
     std::vector<VertexId> ring = polygon;
     const EarCutter cutter{positions, polygon_normal(positions, polygon)};
-    constexpr std::size_t kMostCorners = 5000;  // quadratic work; beyond it a plain fan
+    constexpr std::size_t kMostCorners = 5000;  // quadratic cost; above it a plain fan
     while (ring.size() > 3 && ring.size() <= kMostCorners) {
-        // Of all ears the one with the shortest cut, so that fans of needles are avoided.
+        // The ear with the shortest cut, to avoid fans of needles.
         std::size_t best = ring.size();
         double shortest = 0.0;
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -110,7 +110,8 @@ double TextScanner::parse_number(std::string_view text, const char* what) const 
     if (end != bare.data() + bare.size() ||
         (error != std::errc{} && error != std::errc::result_out_of_range))
         fail("'" + std::string(text.substr(0, 40)) + "' is not a number (" + what + ")");
-    if (error == std::errc::result_out_of_range) return 0.0;  // denormal in single precision texts
+    if (error == std::errc::result_out_of_range)
+        return 0.0;  // a denormal written in single precision
     if (!std::isfinite(value))
         fail("the value '" + std::string(text) + "' is not finite (" + what +
              "): the program that wrote the file failed; export it again");
@@ -122,7 +123,7 @@ long long TextScanner::parse_integer(std::string_view text, const char* what) co
     const std::string_view bare = !text.empty() && text.front() == '+' ? text.substr(1) : text;
     const auto [end, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
     if (bare.empty() || error != std::errc{} || end != bare.data() + bare.size())
-        fail("'" + std::string(text.substr(0, 40)) + "' is not a whole number (" + what + ")");
+        fail("'" + std::string(text.substr(0, 40)) + "' is not an integer (" + what + ")");
     return value;
 }
 

@@ -11,33 +11,33 @@
 
 namespace vesselbench {
 
-/// A surface as a file holds it: in the file's unit, nothing checked but indices and finiteness.
+/// A surface as stored in a file: in the file's unit, with only indices and finiteness checked.
 /// Shared by the readers of this folder.
 struct RawSurface {
     Positions positions;
     std::vector<Triangle> triangles;
     std::vector<int> part_ids;              ///< per triangle, or empty: all one part
-    std::map<int, std::string> part_names;  ///< by part id; parts may lack one
+    std::map<int, std::string> part_names;  ///< by part id; some parts may have none
     std::map<std::string, std::vector<double>> attributes;  ///< each #V
     std::optional<LengthUnit> unit;                         ///< if the file states it
-    std::vector<std::string> notes;                         ///< what was left out, for the report
+    std::vector<std::string> notes;                         ///< ignored data, for the report
 };
 
-/// The unit after "UNITS=" in a header or comment, if there is one that we know.
+/// The unit after "UNITS=" in a header or comment, if it is a known one.
 [[nodiscard]] std::optional<LengthUnit> stated_unit(std::string_view text);
 
 /// Appends the triangles of a polygon (3 or more corners, any shape without self-crossings, nearly
-/// flat); `count` of them are made: corners - 2.
+/// flat); their number `count` is corners - 2.
 void append_polygon(const Positions& positions, const std::vector<VertexId>& polygon,
                     std::vector<Triangle>& triangles);
 
-/// Walks through a text, counting lines; every error names the file and the line.
+/// Scans a text, counting lines; every error names the file and the line.
 class TextScanner {
 public:
     TextScanner(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {}
 
-    /// Moves to the next line that holds a word outside of comments (`comment`: their first
-    /// character); false at the end of the text.
+    /// Moves to the next line with a word outside comments (`comment`: their first character);
+    /// false at the end of the text.
     bool next_line(char comment);
 
     /// The next word of this line; empty at its end.
@@ -46,12 +46,12 @@ public:
     /// The next word of this line as a finite number, or an error that names `what`.
     double number(const char* what);
 
-    /// The same for a whole number.
+    /// The same for an integer.
     long long integer(const char* what);
 
     [[nodiscard]] std::size_t line() const { return line_; }
 
-    /// Whole current line without its end.
+    /// The current line without its line ending.
     [[nodiscard]] std::string_view whole_line() const { return current_; }
 
     [[noreturn]] void fail(const std::string& what) const;

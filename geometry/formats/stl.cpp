@@ -67,10 +67,11 @@ public:
                 in_solid_ = false;
             else
                 scan_.fail("'" + std::string(word.substr(0, 40)) +
-                           "' stands where solid, facet or endsolid should");
+                           "' found instead of solid, facet or endsolid");
         }
         if (in_solid_)
-            scan_.fail("the file ends without 'endsolid': it was cut off; fetch it again");
+            scan_.fail(
+                "the file ends without 'endsolid': it is truncated; copy or download it again");
         raw_.positions = welder_.take();
         if (solid_ == 0) raw_.part_ids.clear();
         return std::move(raw_);
@@ -78,7 +79,7 @@ public:
 
 private:
     void begin_solid() {
-        if (in_solid_) scan_.fail("'solid' inside of a solid");
+        if (in_solid_) scan_.fail("'solid' inside a solid");
         in_solid_ = true;
         ++solid_;
         std::string name;
@@ -106,11 +107,11 @@ private:
     void expect(const char* keyword) {
         if (!scan_.next_line('\0'))
             scan_.fail(std::string("the file ends where '") + keyword +
-                       "' should stand: it was cut off; fetch it again");
+                       "' is expected: it is truncated; copy or download it again");
         const std::string_view word = scan_.word();
         if (word != keyword)
-            scan_.fail("'" + std::string(word.substr(0, 40)) + "' stands where '" + keyword +
-                       "' should");
+            scan_.fail("'" + std::string(word.substr(0, 40)) + "' found instead of '" + keyword +
+                       "'");
     }
 
     TextScanner scan_;
@@ -139,14 +140,14 @@ RawSurface read_stl(const std::string& path) {
                            " bytes)");
     if (!fits)
         throw InvalidInput(file + " announces " + std::to_string(stated_count(bytes)) +
-                           " triangles, but holds only " +
+                           " triangles, but contains only " +
                            std::to_string((bytes.size() - kHeader) / kRecord) +
-                           ": it was cut off or is no STL file; fetch it again");
+                           ": it is truncated or not an STL file; copy or download it again");
     RawSurface raw = read_binary(bytes, file);
     if (!exact)
         raw.notes.push_back(
             std::to_string(bytes.size() - kHeader - kRecord * raw.triangles.size()) +
-            " bytes behind the last triangle were ignored");
+            " bytes after the last triangle were ignored");
     return raw;
 }
 

@@ -7,7 +7,7 @@
 namespace vesselbench {
 
 /// Reads an STL file, binary or text, with one or several solids; equal points become one vertex.
-/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+/// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_stl(const std::string& path);
 
 /// Writes binary STL (single precision); the header states the unit.

@@ -30,7 +30,7 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
                            enumerated(read_suffixes(surface_formats())) + " files");
     RawSurface raw = format->read(path);
     if (raw.triangles.empty())
-        throw InvalidInput(bare_name(path) + " holds no triangles" +
+        throw InvalidInput(bare_name(path) + " contains no triangles" +
                            (raw.positions.empty() ? "" : ", only points") +
                            ": export it again as a surface");
     SurfaceFile file;

@@ -9,19 +9,19 @@
 
 namespace vesselbench {
 
-/// A surface from a file, in millimetres, with how it came to be.
+/// A surface from a file, in millimetres, with its provenance.
 struct SurfaceFile {
     Surface surface;                           ///< [mm]; not repaired: use repair
     LengthUnit unit = LengthUnit::Millimetre;  ///< of the file
     std::string unit_reason;  ///< "stated in the file", "given", or the guess's reason
     bool unit_certain = true;
-    std::vector<std::string> notes;  ///< what was left out or decided
+    std::vector<std::string> notes;  ///< ignored data and decisions
 };
 
-/// Reads a surface in a format of surface_formats(), chosen by the suffix. Parts that the file
-/// names or numbers become patches: those named wall, inlet..., outlet..., cut... by their names;
-/// unnamed flat ones become openings to be chosen ("cut_1" ...), all others belong to the wall.
-/// \param unit of the file; none: as the file states it, or guessed from the extent
+/// Reads a surface in a format of surface_formats(), chosen by the suffix. Parts named or numbered
+/// in the file become patches: those named wall, inlet..., outlet..., cut... by their names;
+/// unnamed flat ones become candidate openings ("cut_1" ...), all others belong to the wall.
+/// \param unit of the file; none: as stated in the file, or guessed from the size
 /// \throw InvalidInput for another suffix, a damaged file, NaN or infinite coordinates, no
 /// triangles; the text names the file without its folder, the place and the remedy
 /// \throw IoError if the file cannot be read

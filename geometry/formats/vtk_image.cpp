@@ -22,7 +22,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Takes VTK's complaints instead of printing them.
+/// Records VTK's complaints instead of printing them.
 class ComplaintWindow : public vtkOutputWindow {
 public:
     static ComplaintWindow* New();
@@ -35,7 +35,7 @@ public:
 
 vtkStandardNewMacro(ComplaintWindow);
 
-/// VTK readers report damage by printing: while this lives, they print into it.
+/// VTK readers report damage by printing: during its lifetime, they print into this object.
 class Complaints {
 public:
     Complaints() {
@@ -67,7 +67,7 @@ std::string attribute(std::string_view head, const std::string& key) {
     return std::string(head.substr(at, head.find('"', at) - at));
 }
 
-/// VTK allocates what the header says: the header is judged before VTK sees it.
+/// VTK allocates according to the header, so the header is checked before VTK reads it.
 void check_vti_header(std::string_view bytes, const std::string& name) {
     const std::string_view head = bytes.substr(0, 1 << 16);
     if (head.find("ImageData") == std::string_view::npos)
@@ -99,7 +99,7 @@ void check_legacy_header(std::string_view bytes, const std::string& name) {
         size[i] = static_cast<long long>(*n);
     }
     const std::size_t count = checked_voxel_count(size, name);
-    if (count > bytes.size()) damaged(name);  // a voxel takes at least one byte
+    if (count > bytes.size()) damaged(name);  // a voxel has at least one byte
 }
 
 vtkDataArray* scalars_of(vtkImageData* data, const std::string& name) {
@@ -108,7 +108,7 @@ vtkDataArray* scalars_of(vtkImageData* data, const std::string& name) {
     for (int a = 0; a < points->GetNumberOfArrays(); ++a)
         if (!found || found->GetNumberOfComponents() != 1) found = points->GetArray(a);
     if (!found || found->GetNumberOfComponents() != 1)
-        bad_file(name, "it holds no point array with one value a voxel",
+        bad_file(name, "it has no point array with one value per voxel",
                  "export scalars at the points");
     if (found->GetNumberOfTuples() != data->GetNumberOfPoints()) damaged(name);
     return found;
@@ -149,7 +149,8 @@ ImageFile image_file(Image image) {
     ImageFile file;
     file.image = std::move(image);
     file.notes.emplace_back(
-        "a VTK image does not say which way its axes point: left, posterior, superior is taken");
+        "a VTK image does not state the direction of its axes: left, posterior, superior is "
+        "assumed");
     return file;
 }
 

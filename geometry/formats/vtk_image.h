@@ -7,9 +7,9 @@
 
 namespace vesselbench {
 
-/// Reads an image of VTK's XML format, with its direction matrix.
-/// The active point scalars are taken, else the first array with one value a voxel; vectors are
-/// passed over. VTK names no patient axes: LPS is taken and said.
+/// Reads an image of VTK's XML format, with its direction matrix. The active point scalars are
+/// used, else the first array with one value per voxel; vectors are ignored. VTK defines no patient
+/// axes: LPS is assumed, with a note.
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_vti(const std::string& path);
 

@@ -28,7 +28,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Notes that VTK complained, instead of letting it print.
+/// Records VTK's complaints instead of letting it print them.
 class Complaint : public vtkCommand {
 public:
     static Complaint* New() { return new Complaint; }
@@ -49,7 +49,7 @@ vtkSmartPointer<vtkPolyData> read_with(Reader* reader, const std::string& path) 
     if (complaint->raised || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
         throw InvalidInput(
             bare_name(path) +
-            " is damaged, cut off, or no VTK surface (poly data): VTK cannot read it");
+            " is damaged, truncated, or not a VTK surface (poly data): VTK cannot read it");
     return data;
 }
 
@@ -67,7 +67,7 @@ RawSurface points_of(vtkPolyData* data, const std::string& file) {
     return raw;
 }
 
-/// The cell array that names parts; none if the file has none of those we know.
+/// The cell array that defines parts; none if the file has no known one.
 vtkDataArray* part_array(vtkPolyData* data) {
     for (const char* name : {"CellEntityIds", "ModelFaceID"})
         if (vtkDataArray* found = data->GetCellData()->GetArray(name))
@@ -95,7 +95,7 @@ public:
         for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell) {
             const auto corners = corners_of(cells, i, cell);
             for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
-                const std::size_t odd = k % 2;  // every second triangle runs the other way
+                const std::size_t odd = k % 2;  // every second triangle is reversed
                 raw_.triangles.push_back({corners[k], corners[k + 1 + odd], corners[k + 2 - odd]});
             }
             label(cell);
@@ -109,7 +109,7 @@ private:
         for (vtkIdType k = 0; k < ids_->GetNumberOfIds(); ++k) {
             const vtkIdType id = ids_->GetId(k);
             if (id < 0 || id >= static_cast<vtkIdType>(raw_.positions.size()))
-                throw InvalidInput(file_ + ", cell " + std::to_string(cell) + " names point " +
+                throw InvalidInput(file_ + ", cell " + std::to_string(cell) + " refers to point " +
                                    std::to_string(id) + ", but there are only " +
                                    std::to_string(raw_.positions.size()) + ": the file is damaged");
             corners.push_back(static_cast<VertexId>(id));
@@ -129,16 +129,16 @@ private:
     vtkNew<vtkIdList> ids_;
 };
 
-/// A cell array whose offsets lead outside of its connectivity would make VTK read beyond it.
+/// A cell array with offsets outside its connectivity would make VTK read beyond it.
 void check_cells(vtkCellArray* cells, const std::string& file) {
     vtkIdType before = 0;
     const vtkIdType limit = cells->GetNumberOfConnectivityIds();
     for (vtkIdType i = 0; i <= cells->GetNumberOfCells() && cells->GetNumberOfCells() > 0; ++i) {
         const auto offset = static_cast<vtkIdType>(cells->GetOffsetsArray()->GetComponent(i, 0));
         if (offset < before || offset > limit)
-            throw InvalidInput(file + ", cell " + std::to_string(i) +
-                               ": its place in the list of corners is out of range: the file is "
-                               "damaged");
+            throw InvalidInput(
+                file + ", cell " + std::to_string(i) +
+                ": its offset in the list of corners is out of range: the file is damaged");
         before = offset;
     }
 }
@@ -160,7 +160,7 @@ void read_attributes(vtkPolyData* data, RawSurface& raw) {
         if (!array || !name || array->GetNumberOfComponents() != 1 ||
             array->GetNumberOfTuples() != data->GetNumberOfPoints()) {
             raw.notes.push_back("the point array '" + std::string(name ? name : "") +
-                                "' was left out (only arrays with one number a point are kept)");
+                                "' was ignored (only arrays with one number per point are kept)");
             continue;
         }
         auto& values = raw.attributes[name];
@@ -179,13 +179,13 @@ RawSurface raw_from(vtkPolyData* data, const std::string& file) {
     reader.polygons(data->GetPolys(), polygons);
     reader.strips(data->GetStrips(), polygons + data->GetNumberOfPolys());
     if (polygons > 0)
-        raw.notes.push_back(std::to_string(polygons) + " lines or lone points were left out");
+        raw.notes.push_back(std::to_string(polygons) + " lines or isolated points were ignored");
     read_names(data, raw);
     read_attributes(data, raw);
     return raw;
 }
 
-/// VTK makes room for whatever number of components a file announces.
+/// VTK allocates any number of components that a file announces.
 void check_components(const std::string& bytes, const std::string& file) {
     constexpr std::string_view kKey = "NumberOfComponents=\"";
     constexpr long kMost = 1000;
@@ -193,8 +193,9 @@ void check_components(const std::string& bytes, const std::string& file) {
         at += kKey.size();
         const long count = std::strtol(bytes.c_str() + at, nullptr, 10);
         if (count < 1 || count > kMost)
-            throw InvalidInput(file + " announces an array with " + std::to_string(count) +
-                               " numbers a point or cell: it is damaged; fetch it again");
+            throw InvalidInput(
+                file + " announces an array with " + std::to_string(count) +
+                " numbers per point or cell: it is damaged; copy or download it again");
     }
 }
 
@@ -203,13 +204,15 @@ void check_components(const std::string& bytes, const std::string& file) {
 RawSurface read_vtp(const std::string& path) {
     const std::string bytes = file_content(path), file = bare_name(path);
     if (bytes.find("<VTKFile") == std::string::npos)
-        throw InvalidInput(file + " is no VTK XML file: '<VTKFile' is missing");
+        throw InvalidInput(file + " is not a VTK XML file: '<VTKFile' is missing");
     if (bytes.find("\"PolyData\"") == std::string::npos)
-        throw InvalidInput(file + " holds no surface (type PolyData)");
+        throw InvalidInput(file + " contains no surface (type PolyData)");
     if (bytes.rfind("</VTKFile>") == std::string::npos)
-        throw InvalidInput(file + " ends without '</VTKFile>': it was cut off; fetch it again");
+        throw InvalidInput(
+            file + " ends without '</VTKFile>': it is truncated; copy or download it again");
     check_components(bytes, file);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);  // the error is ours to tell
+    vtkLogger::SetStderrVerbosity(
+        vtkLogger::VERBOSITY_OFF);  // the error is reported by our own text
     vtkNew<vtkXMLPolyDataReader> reader;
     try {
         return raw_from(read_with(reader.Get(), path), file);

@@ -6,10 +6,10 @@
 
 namespace vesselbench {
 
-/// Reads VTK XML PolyData (.vtp): polygons and strips; lines and lone points are left out. The cell
-/// array CellEntityIds (or SimVascular's ModelFaceID) gives the parts, the field array PatchNames
-/// their names, point arrays of one component become attributes.
-/// \throw InvalidInput for a damaged or cut-off file, IoError if it cannot be read
+/// Reads VTK XML PolyData (.vtp): polygons and strips; lines and isolated points are ignored. The
+/// cell array CellEntityIds (or SimVascular's ModelFaceID) gives the parts, the field array
+/// PatchNames their names, point arrays of one component become attributes.
+/// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_vtp(const std::string& path);
 
 /// Writes .vtp in double precision (appended raw data) with CellEntityIds, PatchNames, Units and

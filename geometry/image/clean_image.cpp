@@ -43,7 +43,7 @@ void convolve(std::vector<float>& line, const std::vector<double>& kernel) {
 
 template <class Better>
 Image box_extreme(const Image& image, int radius, Better better) {
-    if (radius < 0) throw InvalidInput("a morphological radius must be 0 voxels or more");
+    if (radius < 0) throw InvalidInput("a morphological radius must be at least 0 voxels");
     if (radius == 0) return image;
     std::vector<float> values = *image.voxels;
     for (int axis = 0; axis < 3; ++axis)
@@ -87,7 +87,8 @@ void diffuse_slice(const Image& grid, const std::vector<float>& u, std::vector<f
 }  // namespace
 
 Image gaussian(const Image& image, double sigma) {
-    if (!(sigma >= 0.0)) throw InvalidInput("the Gaussian's width must be 0 mm or more");
+    if (!(sigma >= 0.0))
+        throw InvalidInput("the Gaussian's standard deviation must be at least 0 mm");
     if (sigma == 0.0) return image;
     std::vector<float> values = *image.voxels;
     for (int axis = 0; axis < 3; ++axis) {
@@ -114,7 +115,8 @@ double edge_contrast(const Image& image) {
 }
 
 Image diffuse(const Image& image, const DiffusionParameters& parameters, const Progress& progress) {
-    if (parameters.iterations < 0) throw InvalidInput("diffusion iterations must be 0 or more");
+    if (parameters.iterations < 0)
+        throw InvalidInput("the number of diffusion iterations must be at least 0");
     const double contrast = parameters.contrast.value_or(edge_contrast(image));
     if (!(contrast > 0.0)) throw InvalidInput("the diffusion's contrast must be above 0");
     const Vec3 spacing = image.spacing();

@@ -19,12 +19,12 @@ Image crop_to_indices(const Image& image, const Vec3& low, const Vec3& high) {
         const int last = image.size[a] - 1;
         if (!(high[axis] >= 0.0 && low[axis] <= last))
             throw InvalidInput(
-                "the region to crop lies outside the image; give it in mm in the "
-                "image's patient coordinates (LPS)");
+                "the crop region lies outside the image; give it in mm in the image's patient "
+                "coordinates (LPS)");
         const auto bounded = [&](double index) {
             return static_cast<int>(std::clamp(index, 0.0, static_cast<double>(last)));
         };
-        // Two voxels at least: a surface needs a cell between them.
+        // At least two voxels: a surface needs a cell between them.
         first[a] = std::min(bounded(std::floor(low[axis])), std::max(0, last - 1));
         size[a] =
             std::max(bounded(std::ceil(high[axis])), std::min(first[a] + 1, last)) - first[a] + 1;
@@ -51,8 +51,7 @@ Image crop_to_indices(const Image& image, const Vec3& low, const Vec3& high) {
 
 Image crop_to_box(const Image& image, const Vec3& low, const Vec3& high) {
     if (!((high - low).minCoeff() > 0.0))
-        throw InvalidInput(
-            "the box to crop is empty: its upper corner must lie above its lower one");
+        throw InvalidInput("the crop box is empty: its upper corner must be above its lower one");
     Vec3 least = Vec3::Constant(std::numeric_limits<double>::infinity()), most = -least;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p(corner & 1 ? high.x() : low.x(), corner & 2 ? high.y() : low.y(),
@@ -65,7 +64,7 @@ Image crop_to_box(const Image& image, const Vec3& low, const Vec3& high) {
 }
 
 Image crop_to_sphere(const Image& image, const Vec3& centre, double radius) {
-    if (!(radius > 0.0)) throw InvalidInput("the radius to crop must be above 0 mm");
+    if (!(radius > 0.0)) throw InvalidInput("the crop radius must be above 0 mm");
     const Vec3 middle = image.to_index(centre);
     const Eigen::Matrix3d to_index = image.index_to_patient.topLeftCorner<3, 3>().inverse();
     // The ball's extent along an index axis is the radius times the gradient of that index.

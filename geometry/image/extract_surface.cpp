@@ -14,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-/// A mask of 1 and 0: the surface lies midway between voxels, staircases and all.
+/// A mask of 1 and 0: the surface lies midway between voxels and keeps all staircases.
 constexpr double kMaskIso = 0.5;
 
 std::string text_of(double number) {
@@ -45,7 +45,7 @@ struct Intensities {
     std::optional<double> resample;
     Image up;                        ///< turned so that the inside lies above
     Image ready;                     ///< cleaned and resampled
-    std::optional<double> contrast;  ///< of the diffusion, if there was one
+    std::optional<double> contrast;  ///< of the diffusion, if it ran
 };
 
 /// An image, and what was found and made of it so far.
@@ -84,7 +84,7 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters,
         if (!source.bright) source.bright = bright_threshold(source.image);
         result.threshold = *source.bright;
         result.reasons.push_back("threshold " + text_of(result.threshold) +
-                                 ": Otsu's on the brightest voxels");
+                                 ": Otsu's threshold of the brightest voxels");
     }
 }
 
@@ -99,12 +99,13 @@ Image cleaned_intensities(const Image& image, const Cleaning& cleaning,
     return closed(opened(clean, cleaning.opening), cleaning.closing);
 }
 
-/// Masks: opening and closing on the voxels, then blurring (the iso-surface stays at one half).
+/// Masks: opening and closing on the voxels, then blurring (the iso-value stays one half).
 Image cleaned_mask(const Image& mask, const Cleaning& cleaning) {
     return closed(opened(mask, cleaning.opening), cleaning.closing);
 }
 
-/// The image turned so that the inside lies above: opening then always thins the vessel.
+/// The image with its sign chosen so that the inside is above: opening then always thins the
+/// vessel.
 Image inside_up(const Image& image, bool inside_below) {
     if (!inside_below) return image;
     std::vector<float> voxels = *image.voxels;
@@ -114,7 +115,7 @@ Image inside_up(const Image& image, bool inside_below) {
     return result;
 }
 
-/// A field whose inside lies at or above `iso`.
+/// A field whose inside is at or above `iso`.
 struct Field {
     Image image;
     double iso = 0.0;
@@ -126,8 +127,8 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
         if (!std::binary_search(there.begin(), there.end(), label)) {
             std::string all;
             for (const int l : there) all += (all.empty() ? "" : ", ") + std::to_string(l);
-            throw InvalidInput("there is no label " + std::to_string(label) +
-                               " in the image; it holds " + (all.empty() ? "none" : all));
+            throw InvalidInput("the image has no label " + std::to_string(label) +
+                               "; its labels are " + (all.empty() ? "none" : all));
         }
     result.labels = parameters.labels.empty() ? there : parameters.labels;
     const Cleaning& cleaning = parameters.cleaning;
@@ -182,7 +183,7 @@ Field masked_field(ImageSource& source, const ExtractionParameters& parameters, 
     return field;
 }
 
-/// A vessel that leaves the image shows at least this many voxel faces; less is a touch.
+/// A vessel that leaves the image has at least this many voxel faces there; less is a touch.
 constexpr double kSmallestCut = 2.0;
 
 /// Area of the smallest face of a voxel [mm^2].
@@ -203,7 +204,7 @@ void check_share(const Field& field, const Extraction& result) {
         high = -*least;
     }
     throw AlgorithmFailure(std::string(inside == 0 ? "no voxel" : "every voxel") +
-                           " lies inside at threshold " + text_of(result.threshold) +
+                           " is inside at threshold " + text_of(result.threshold) +
                            " (values from " + text_of(low) + " to " + text_of(high) +
                            "); give another threshold");
 }
@@ -269,7 +270,7 @@ SurfaceExtractor::SurfaceExtractor(SurfaceExtractor&&) noexcept = default;
 
 Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
                                      const Progress& progress) {
-    progress.report(0.0, "judging the image");
+    progress.report(0.0, "classifying the image");
     Extraction result;
     const Field field = field_of(*source_, parameters, result, progress.part(0.1, 0.6));
     check_share(field, result);

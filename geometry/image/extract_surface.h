@@ -13,7 +13,7 @@
 
 namespace vesselbench {
 
-/// How the inside of the vessel is told from the image.
+/// How the inside of the vessel is determined from the image.
 enum class ExtractionMethod {
     Threshold,  ///< intensities or a level set: inside above (or below) the threshold
     Labels,     ///< chosen labels of a label map or mask
@@ -22,10 +22,10 @@ enum class ExtractionMethod {
 
 [[nodiscard]] std::string to_string(ExtractionMethod method);  ///< "threshold", "labels", "masked"
 
-/// Cleaning at the image level (thesis 3.2.3), in this order; 0 leaves a step out.
+/// Cleaning of the image (thesis 3.2.3), in this order; 0 skips a step.
 struct Cleaning {
     int diffusion = 0;                         ///< iterations of edge-preserving diffusion
-    std::optional<double> diffusion_contrast;  ///< absent: decided from the image
+    std::optional<double> diffusion_contrast;  ///< absent: estimated from the image
     double gaussian = 0.0;                     ///< standard deviation [mm]
     int opening = 0;                           ///< radius [voxels]
     int closing = 0;                           ///< radius [voxels]
@@ -40,20 +40,20 @@ struct Cleaning {
 /// Which bodies of the iso-surface are kept.
 enum class Bodies { Largest, All };
 
-/// Parameters of extract_surface; what is absent is decided from the image.
+/// Parameters of extract_surface; absent ones are decided from the image.
 struct ExtractionParameters {
     std::optional<ExtractionMethod> method;
     std::optional<double> threshold;   ///< image value; a level set's iso-value
     std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
     std::vector<int> labels;           ///< empty: any label above 0
-    int dilation = 1;  ///< radius by which the mask grows [voxels] (3 x 3 x 3 kernel)
+    int dilation = 1;  ///< radius of the mask's dilation [voxels] (3 x 3 x 3 kernel)
     Cleaning cleaning;
     std::optional<double> resample;  ///< edge of cubic voxels [mm]
     std::optional<Vec3> seed;        ///< the body at this point [mm], LPS
     Bodies bodies = Bodies::Largest;
 };
 
-/// A surface, and what was decided and found on the way.
+/// A surface, and the decisions and findings on the way.
 struct Extraction {
     Surface surface;    ///< closed, outward, [mm]; flat closures at the border are patches cut_1...
     Sampling sampling;  ///< of the grid it was extracted on
@@ -61,9 +61,9 @@ struct Extraction {
     double threshold = 0.0;
     bool inside_below = false;
     std::vector<int> labels;              ///< that are inside
-    std::optional<double> contrast;       ///< of the diffusion, if there was one
+    std::optional<double> contrast;       ///< of the diffusion, if it ran
     std::vector<std::string> reasons;     ///< one sentence for each decision
-    std::optional<VoxelTopology> before;  ///< of the inside voxels, if there was cleaning
+    std::optional<VoxelTopology> before;  ///< of the inside voxels, if there was any cleaning
     std::optional<VoxelTopology> after;
     std::size_t bodies = 0;        ///< found
     std::size_t hollows = 0;       ///< found
@@ -71,18 +71,18 @@ struct Extraction {
 };
 
 /// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels, or
-/// intensities inside a dilated mask. Where the vessel leaves the image, in more than a touch of
-/// fewer than two voxel faces, it is closed flat by a patch of kind Cut.
+/// intensities inside a dilated mask. Where the vessel leaves the image, by at least two voxel
+/// faces, it is closed flat by a patch of kind Cut.
 /// \param mask on the image's grid, inside where > 0, or nothing
-/// \throw InvalidInput if the image is empty or constant, a mask lies on another grid, or a label
-///        is not there
+/// \throw InvalidInput if the image is empty or constant, a mask is on another grid, or a label
+/// does not occur
 /// \throw AlgorithmFailure if no voxel or every voxel is inside, or no body is at the seed
 [[nodiscard]] Extraction extract_surface(const Image& image, const std::optional<Image>& mask,
                                          const ExtractionParameters& parameters,
                                          const Progress& progress = {});
 
-/// The same for one image with changing parameters, as a sliding iso-value asks for: the judged,
-/// cleaned and resampled image is kept while the parameters it depends on stay. Not thread-safe.
+/// The same for one image with changing parameters, as for a sliding iso-value: the classified,
+/// cleaned and resampled image is kept while its own parameters are unchanged. Not thread-safe.
 class SurfaceExtractor {
 public:
     /// \throw InvalidInput as extract_surface

@@ -44,7 +44,7 @@ GridSurface zero_set(vtkDataArray* values, const GridFrame& grid) {
     return surface;
 }
 
-/// The values in an array of VTK's that does not own them; VTK only reads, but takes no const.
+/// The values as a VTK array that does not own them; VTK only reads, but does not accept const.
 template <class Array, class Number>
 GridSurface zero_set_of(std::span<const Number> values, const GridFrame& grid) {
     vtkNew<Array> array;

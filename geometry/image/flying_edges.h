@@ -9,14 +9,14 @@
 
 namespace vesselbench {
 
-/// Where the points of a regular grid lie.
+/// The points of a regular grid.
 struct GridFrame {
     std::array<int, 3> size = {0, 0, 0};  ///< points along each axis
-    Vec3 origin = Vec3::Zero();           ///< place of the first point
+    Vec3 origin = Vec3::Zero();           ///< position of the first point
     double spacing = 1.0;                 ///< side of the cells
 };
 
-/// Triangles of a zero set in the coordinates of its grid; they look towards smaller values.
+/// Triangles of a zero set in grid coordinates; they face smaller values.
 struct GridSurface {
     std::vector<std::array<float, 3>> points;
     std::vector<Triangle> triangles;

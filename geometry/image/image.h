@@ -12,8 +12,8 @@ namespace vesselbench {
 /// A scalar image (or a label map) in patient space: an immutable value with shared voxels.
 struct Image {
     std::array<int, 3> size = {0, 0, 0};  ///< voxels along i, j, k
-    /// Voxel index (i, j, k, 1) of a voxel's centre to patient position [mm], LPS. May be oblique
-    /// or left-handed.
+    /// Maps a voxel's index (i, j, k, 1) to the patient position of its centre [mm], LPS. May be
+    /// oblique or left-handed.
     Eigen::Matrix4d index_to_patient = Eigen::Matrix4d::Identity();
     std::shared_ptr<const std::vector<float>>
         voxels;  ///< i fastest, then j, then k; labels are whole numbers
@@ -42,14 +42,14 @@ struct Image {
     [[nodiscard]] Vec3 to_index(const Vec3& patient) const;
 };
 
-/// Three axes, three spacings and a confidence: what is known of the sampling a surface came from.
-/// It serves the stack direction and the voxel cells of context-aware smoothing (thesis 5.3.1, node
+/// Three axes, three spacings and a confidence: the known sampling of a surface's source image. It
+/// serves the stack direction and the voxel cells of context-aware smoothing (thesis 5.3.1, node
 /// position constraint).
 struct Sampling {
     Eigen::Matrix3d axes =
         Eigen::Matrix3d::Identity();  ///< unit columns; column 2 is the stack direction
     Vec3 spacing = Vec3::Zero();      ///< [mm] along the axes
-    double confidence = 0.0;          ///< [-] in [0, 1]; 1 when it comes from the image
+    double confidence = 0.0;          ///< [-] in [0, 1]; 1 if it comes from the image
 };
 
 [[nodiscard]] Sampling sampling_of(const Image& image);

@@ -20,8 +20,9 @@ namespace {
 
 using Index3 = std::array<float, 3>;
 
-/// A grid value closer to the iso-value than this part of the largest difference to a neighbour
-/// makes a sliver; it is moved that far away. The surface moves by at most as many voxel edges.
+/// A grid value closer to the iso-value than this fraction of the largest difference to a neighbour
+/// makes a sliver; it is moved that far away. The surface moves by at most that fraction of a voxel
+/// edge.
 constexpr float kClear = 1e-2f;
 
 /// The value relative to the iso-value, positive inside, never too close to 0.
@@ -65,7 +66,7 @@ std::vector<float> padded(const Image& image, double iso, bool inside_below) {
     return values;
 }
 
-/// The iso-surface in index coordinates of the image; the padding layer's vertices lie beyond its
+/// The iso-surface in index coordinates of the image; the padding layer's vertices are beyond its
 /// border.
 GridSurface index_mesh(const Image& image, double iso, bool inside_below) {
     const auto [ni, nj, nk] = image.size;
@@ -73,7 +74,7 @@ GridSurface index_mesh(const Image& image, double iso, bool inside_below) {
                         {.size = {ni + 2, nj + 2, nk + 2}, .origin = Vec3(-1.0, -1.0, -1.0)});
 }
 
-/// Which border planes a point lies in: bit 2a for index 0 of axis a, bit 2a + 1 for the last one.
+/// The border planes a point lies in: bit 2a for index 0 of axis a, bit 2a + 1 for the last one.
 unsigned border_planes(const Index3& p, const std::array<int, 3>& size) {
     unsigned planes = 0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -83,7 +84,7 @@ unsigned border_planes(const Index3& p, const std::array<int, 3>& size) {
     return planes;
 }
 
-/// Presses the padding layer flat into the border planes and merges the vertices that meet there.
+/// Projects the padding layer onto the border planes and merges the vertices that coincide there.
 void press_to_border(GridSurface& mesh, const std::array<int, 3>& size) {
     std::map<Index3, VertexId> at_border;
     std::vector<VertexId> new_id(mesh.points.size());
@@ -104,7 +105,7 @@ void press_to_border(GridSurface& mesh, const std::array<int, 3>& size) {
     mesh.points = std::move(kept);
 }
 
-/// Per triangle 0 for the wall, else 1 + the number of the border plane that holds it.
+/// Per triangle 0 for the wall, else 1 + the number of the border plane that contains it.
 PatchLabels border_labels(const GridSurface& mesh, const std::array<int, 3>& size) {
     PatchLabels labels;
     labels.reserve(mesh.triangles.size());

@@ -8,10 +8,10 @@ namespace vesselbench {
 /// Iso-surface of an image: closed, 2-manifold, outward, in patient coordinates, all pieces. Where
 /// the inside reaches the image's border, it is closed flat in the plane of the outermost voxel
 /// centres; the closures in one border plane are a patch of kind Cut (border_1...border_6). Grid
-/// values that lie on the iso-value (within a hundredth of the difference to their neighbours) are
-/// moved off it, so that no triangle degenerates. Source: flying_edges.h.
+/// values on the iso-value (within a hundredth of the difference to their neighbours) are moved
+/// away from it, so that no triangle degenerates. Source: flying_edges.h.
 /// \param inside_below the inside has the values below iso, not above
-/// \return an empty surface if no voxel, or all of them lie inside
+/// \return an empty surface if no voxel is inside, or all of them are
 /// \throw InvalidInput if an axis has fewer than two voxels
 [[nodiscard]] Surface iso_surface(const Image& image, double iso, bool inside_below = false);
 

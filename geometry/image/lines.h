@@ -9,7 +9,7 @@
 namespace vesselbench {
 
 /// Calls change(line) for every line of voxels along one axis, in parallel; a line is a copy that
-/// is written back. Each line is worked on alone, so the result does not depend on the threads.
+/// is written back. Lines are independent, so the result does not depend on the threads.
 template <class Function>
 void for_each_line(std::vector<float>& values, const std::array<int, 3>& size, int axis,
                    const Function& change) {

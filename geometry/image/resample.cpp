@@ -23,7 +23,7 @@ Image cubic_grid(const Image& image, double edge) {
     double count = 1.0;
     for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
-        // The slack keeps the last voxel where the edge divides the length exactly.
+        // The slack keeps the last voxel if the edge divides the length exactly.
         constexpr double kSlack = 1e-6;
         const double n = std::floor((image.size[a] - 1) * spacing[axis] / edge + kSlack) + 1.0;
         count *= n;
@@ -68,7 +68,8 @@ void to_coefficients(std::vector<float>& line) {
     if (n < 2) return;
     const double pole = std::sqrt(3.0) - 2.0;
     const double gain = 6.0;
-    constexpr double kForgotten = 1e-9;  // the pole's power below which older samples do not count
+    constexpr double kForgotten =
+        1e-9;  // power of the pole below which older samples are negligible
     double power = 1.0, first = 0.0;
     for (std::size_t i = 0; std::abs(power) > kForgotten; ++i, power *= pole) {
         const std::size_t period = i % (2 * n - 2);
@@ -105,7 +106,7 @@ float linear_at(const float* line, std::size_t n, double position) {
     return static_cast<float>((1.0 - t) * line[i] + t * next);
 }
 
-/// Stands for "no outline in this line": far beyond any image, still exact to square in float.
+/// Means "no outline in this line": far beyond any image, but its square is still exact in float.
 constexpr float kFar = 1e15f;
 
 /// Squared distances along one line: d(p) = min over q of (h (p - q))^2 + d(q).
@@ -151,8 +152,8 @@ std::vector<float> slice_distances(const Image& mask, std::size_t stack, bool wa
     return d;
 }
 
-/// Signed distances within slices, positive inside. The outline lies midway between voxels, so that
-/// both kinds of distance share the half voxel.
+/// Signed distances within slices, positive inside. The outline lies midway between voxels, so both
+/// kinds of distance include half a voxel.
 std::vector<float> signed_slice_distances(const Image& mask, std::size_t stack) {
     const auto outside = slice_distances(mask, stack, false);
     const auto inside = slice_distances(mask, stack, true);
@@ -164,8 +165,8 @@ std::vector<float> signed_slice_distances(const Image& mask, std::size_t stack) 
     return signed_distance;
 }
 
-/// An empty (or full) slice has no distances: it takes its neighbour's with the other sign, so that
-/// the shape ends midway between the two.
+/// An empty (or full) slice has no distances: it takes its neighbour's with the opposite sign, so
+/// that the shape ends midway between the two.
 float between_slices(const float* line, std::size_t n, double position) {
     const auto i = std::min(static_cast<std::size_t>(position), n - 1);
     const double t = position - static_cast<double>(i);

@@ -4,8 +4,8 @@
 
 namespace vesselbench {
 
-/// Resamples intensities to cubic voxels with a cubic B-spline that passes through the voxels
-/// (mirrored at the border). The grid keeps its axes and its first voxel.
+/// Resamples intensities to cubic voxels with an interpolating cubic B-spline (mirrored at the
+/// border). The grid keeps its axes and its first voxel.
 /// Source: Unser, Aldroubi, Eden, "B-spline signal processing: part II", IEEE Trans. Signal
 /// Processing 1993; thesis 3.2.3.
 /// \param edge length of the new voxels [mm], > 0

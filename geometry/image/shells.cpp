@@ -36,7 +36,7 @@ Shells shells_of(const Surface& surface) {
     return found;
 }
 
-/// The part of the surface with the chosen shells; the patch table stays.
+/// The part of the surface with the chosen shells; the patch table is kept.
 Surface part_of(const Surface& surface, const Shells& shells, const std::vector<bool>& chosen) {
     std::vector<bool> keep(surface.triangle_count());
     for (TriangleId t = 0; t < keep.size(); ++t) keep[t] = chosen[shells.of_triangle[t]];
@@ -68,7 +68,7 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
                             la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la);
 }
 
-/// Winding number of every shell about the point, and the nearest vertex's distance [mm].
+/// Winding number of every shell around the point, and the distance of its nearest vertex [mm].
 struct Nearness {
     std::vector<double> winding;
     std::vector<double> distance;
@@ -90,7 +90,7 @@ Nearness nearness(const Surface& surface, const Shells& shells, const Vec3& poin
 }
 
 /// Connected parts of cut patches: triangles of one patch that share a vertex belong together, so a
-/// pair (vertex, patch) is a node.
+/// node is a pair (vertex, patch).
 class CutNodes {
 public:
     explicit CutNodes(const Surface& surface)
@@ -127,7 +127,7 @@ std::vector<Patch> other_patches(const Surface& surface) {
     return patches;
 }
 
-/// New label of every patch that is no cut.
+/// New label of every patch that is not a cut.
 std::vector<std::uint16_t> kept_labels(const Surface& surface) {
     std::vector<std::uint16_t> labels(surface.patches.size(), 0);
     std::uint16_t next = 0;
@@ -155,7 +155,7 @@ Surface with_separate_cuts(const Surface& surface, double smallest) {
     if (caps.size() > kMostPatches)
         throw AlgorithmFailure("the surface meets the image's border in " +
                                std::to_string(caps.size()) +
-                               " places: the threshold lies within noise; take another one");
+                               " places: the threshold is within the noise; choose another one");
     std::stable_sort(caps.begin(), caps.end(),
                      [](const Cap& a, const Cap& b) { return a.area > b.area; });
     std::vector<Patch> patches = other_patches(surface);
@@ -179,7 +179,7 @@ ShellChoice largest_body(const Surface& surface) {
     for (std::size_t s = 0; s < shells.volumes.size(); ++s)
         if (shells.volumes[s] > shells.volumes[best]) best = s;
     if (shells.volumes.empty() || !(shells.volumes[best] > 0.0))
-        throw AlgorithmFailure("no closed body was found; take another threshold");
+        throw AlgorithmFailure("no closed body found; choose another threshold");
     return only(surface, shells, best);
 }
 
@@ -196,9 +196,9 @@ ShellChoice body_at(const Surface& surface, const Vec3& point, double tolerance)
             nearest = s;
     }
     if (nearest == shells.volumes.size())
-        throw AlgorithmFailure("no closed body was found; take another threshold");
+        throw AlgorithmFailure("no closed body found; choose another threshold");
     if (best == shells.volumes.size() && near.distance[nearest] > tolerance)
-        throw AlgorithmFailure("the seed lies in no body: the nearest one is " +
+        throw AlgorithmFailure("the seed is in no body: the nearest one is " +
                                std::to_string(near.distance[nearest]) +
                                " mm away; give a seed inside the vessel, in mm, LPS");
     return only(surface, shells, best == shells.volumes.size() ? nearest : best);

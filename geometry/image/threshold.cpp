@@ -26,7 +26,7 @@ bool whole_numbers_from_zero(const std::vector<float>& values) {
                        [](float v) { return v >= 0.0f && v == std::floor(v); });
 }
 
-/// Share of neighbouring pairs (both above 0) with the same value.
+/// Fraction of adjacent pairs (both above 0) with equal values.
 double equal_neighbours(const Image& image) {
     std::size_t pairs = 0, equal = 0;
     const auto [ni, nj, nk] = image.size;
@@ -41,7 +41,7 @@ double equal_neighbours(const Image& image) {
     return pairs == 0 ? 1.0 : static_cast<double>(equal) / static_cast<double>(pairs);
 }
 
-/// Share of the image's border voxels with a value above 0.
+/// Fraction of the image's border voxels with a value above 0.
 double border_above_zero(const Image& image) {
     std::size_t border = 0, above = 0;
     const auto [ni, nj, nk] = image.size;
@@ -61,7 +61,7 @@ double median(std::vector<float> values) {
     return static_cast<double>(*middle);
 }
 
-/// Values of the voxels where 0.5 <= mask, and where the other mask is below.
+/// Values of the voxels where 0.5 <= mask and the other mask is below.
 std::vector<float> values_between(const Image& image, const Image& outer, const Image* inner) {
     std::vector<float> values;
     for (std::size_t v = 0; v < image.voxels->size(); ++v)
@@ -140,7 +140,7 @@ double otsu(const std::vector<float>& values) {
         sum += count[b] * static_cast<double>(b);
     }
     double below = 0.0, sum_below = 0.0, best = -1.0;
-    std::size_t first = 0, last = 0;  // an empty stretch between two classes: its middle is taken
+    std::size_t first = 0, last = 0;  // an empty range between two classes: use its middle
     for (std::size_t b = 0; b + 1 < kBins; ++b) {
         below += count[b];
         sum_below += count[b] * static_cast<double>(b);
@@ -179,7 +179,8 @@ double masked_threshold(const Image& image, const Image& mask) {
     const auto inside = values_between(image, mask, nullptr);
     const auto ring = values_between(image, dilated(mask, kRing), &mask);
     if (inside.empty() || ring.empty())
-        throw InvalidInput("the mask holds no voxel, or all of them: check it, or give threshold=");
+        throw InvalidInput(
+            "the mask contains no voxel, or all of them: check it, or give threshold=");
     const double bright = median(inside), dark = median(ring);
     if (!(bright > dark))
         throw InvalidInput(

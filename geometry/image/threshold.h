@@ -7,19 +7,19 @@
 
 namespace vesselbench {
 
-/// What the values of an image mean.
+/// The meaning of an image's values.
 enum class ImageKind { Intensity, Labels, LevelSet };
 
 [[nodiscard]] std::string to_string(ImageKind kind);  ///< "intensity", "labels", "level-set"
 
-/// A judgement of an image by its values.
+/// Classification of an image by its values.
 struct ImageJudgement {
     ImageKind kind = ImageKind::Intensity;
-    bool inside_below = false;  ///< of a level set: the border of the image lies above 0
+    bool inside_below = false;  ///< for a level set: the border of the image is above 0
     std::string reason;         ///< one sentence for the report
 };
 
-/// Labels: whole numbers from 0 on, and neighbours that are not 0 are mostly equal. Level set:
+/// Labels: integers from 0 up, with mostly equal neighbours among those that are not 0. Level set:
 /// values of both signs with extremes of equal size. Else intensities.
 [[nodiscard]] ImageJudgement judge(const Image& image);
 
@@ -37,21 +37,21 @@ struct ImageJudgement {
 /// \throw InvalidInput if there are no two different values
 [[nodiscard]] double otsu(const std::vector<float>& values);
 
-/// Threshold for vessels that are the brightest of the image: Otsu's, repeated on the values above
-/// it while these are more than a twentieth of all voxels (vessels fill no more of a body image)
-/// and the split leaves most of them, tissue, below: a vessel alone is not split again.
+/// Threshold for vessels that are the brightest part of the image: Otsu's, repeated on the values
+/// above it while these are more than a twentieth of all voxels (vessels do not fill more of a body
+/// image) and the split leaves most of them, tissue, below: a vessel alone is not split again.
 /// \throw InvalidInput if all voxels are equal
 [[nodiscard]] double bright_threshold(const Image& image);
 
 /// Threshold inside a mask: midway between the median of the mask's voxels and the median of the
-/// voxels in the ring of two voxels around it: partial volume makes that the wall.
-/// \throw InvalidInput if the mask is empty, or no darker inside than around
+/// two-voxel ring around it; by the partial volume effect, that is the wall.
+/// \throw InvalidInput if the mask is empty, or not brighter inside than around
 [[nodiscard]] double masked_threshold(const Image& image, const Image& mask);
 
 /// Intensities for the extraction inside a dilated mask (thesis 3.2.2, Fig. 3.7): outside the
-/// dilated mask a voxel on the inner side of the threshold takes the background value (the median
-/// of the outer voxels on the other side); all others keep their own, so that no wall arises where
-/// the image itself has one.
+/// dilated mask, a voxel on the inner side of the threshold takes the background value (the median
+/// of the outer voxels on the other side); all others keep their value, so that no artificial wall
+/// appears where the image shows a real one.
 /// \param dilated_mask inside where >= 0.5, same grid
 [[nodiscard]] Image masked_intensities(const Image& image, const Image& dilated_mask,
                                        double threshold, bool inside_below);

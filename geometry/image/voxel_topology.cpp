@@ -23,7 +23,7 @@ std::vector<std::array<int, 3>> neighbour_steps(Neighbourhood neighbourhood) {
     return steps;
 }
 
-/// Labels components by flooding; `counts(v)` says whether voxel v belongs to the set.
+/// Labels components by flooding; `counts(v)` returns whether voxel v belongs to the set.
 template <class Counts>
 VoxelComponents flood(const Image& grid, const Counts& counts, Neighbourhood neighbourhood) {
     const auto steps = neighbour_steps(neighbourhood);
@@ -71,7 +71,7 @@ std::int64_t cavities_of(const Image& image, float threshold) {
     return closed;
 }
 
-/// Cells of the union of boxes that begin at lattice corner (i, j, k): +1 for its vertex, -1 for
+/// Cells of the union of boxes that start at lattice corner (i, j, k): +1 for its vertex, -1 for
 /// each of three edges, +1 for each of three faces, -1 for the box.
 int cells_at(const Image& image, float threshold, int i, int j, int k) {
     const auto in = [&](int di, int dj, int dk) {
@@ -110,7 +110,7 @@ VoxelTopology voxel_topology(const Image& image, double threshold) {
     topology.components = static_cast<std::int64_t>(
         voxel_components(image, threshold, Neighbourhood::All).sizes.size());
     topology.cavities = cavities_of(image, limit);
-    std::atomic<std::int64_t> euler = 0;  // whole numbers: the order of adding does not matter
+    std::atomic<std::int64_t> euler = 0;  // integers: the order of summation does not matter
     tbb::parallel_for(0, image.size[2] + 1, [&](int k) {
         std::int64_t sum = 0;
         for (int j = 0; j <= image.size[1]; ++j)

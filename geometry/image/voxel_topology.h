@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// Which voxels count as neighbours: those that share a face (6), or a face, edge or corner (26).
+/// The voxels that count as neighbours: those sharing a face (6), or a face, edge or corner (26).
 enum class Neighbourhood { Faces = 6, All = 26 };
 
 /// Connected sets of voxels.
@@ -20,10 +20,10 @@ struct VoxelComponents {
 [[nodiscard]] VoxelComponents voxel_components(const Image& image, double threshold,
                                                Neighbourhood neighbourhood);
 
-/// Topology of a set of voxels, taken as a union of closed boxes (26-neighbours hang together).
+/// Topology of a set of voxels, taken as a union of closed boxes (26-neighbours are connected).
 struct VoxelTopology {
-    std::int64_t components = 0;  ///< pieces
-    std::int64_t cavities = 0;    ///< hollows that are not connected to the outside
+    std::int64_t components = 0;  ///< connected pieces
+    std::int64_t cavities = 0;    ///< cavities not connected to the outside
     std::int64_t euler = 0;       ///< vertices - edges + faces - boxes
 
     /// Loops: components + cavities - euler (Euler-Poincare).

@@ -74,7 +74,8 @@ struct Builder {
         node.box = nodes[at + 1].box.merged(nodes[node.right].box);
     }
 
-    /// Halves the items along the longest axis of their centres; equal centres go by index.
+    /// Splits the items at the median along the longest axis of their centres; equal centres by
+    /// index.
     void split(std::uint32_t begin, std::uint32_t middle, std::uint32_t end) {
         typename Tree::Box centres;
         for (std::uint32_t i = begin; i < end; ++i) centres.extend(boxes[items[i]].center());

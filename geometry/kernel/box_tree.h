@@ -14,9 +14,9 @@
 namespace vesselbench {
 
 /// Tree of axis-parallel boxes over a set of boxed items (triangles, edges, points), split at the
-/// median of the longest axis: the same input gives the same tree on any number of threads.
-/// Building block of SurfaceDistance and self_intersections; use those where they serve.
-/// \tparam Scalar double, or float where memory counts and boxes may be a little too large
+/// median of the longest axis: the same input gives the same tree for any number of threads.
+/// Building block of SurfaceDistance and self_intersections; prefer those where they fit.
+/// \tparam Scalar double, or float where memory matters and boxes may be slightly too large
 template <class Scalar>
 class BasicBoxTree {
 public:

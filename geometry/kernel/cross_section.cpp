@@ -17,11 +17,11 @@ EdgeKey directed(VertexId from, VertexId to) {
     return static_cast<EdgeKey>(from) << 32 | to;
 }
 
-/// A triangle that the plane crosses: the curve enters over the half-edge from above to below, and
+/// A triangle crossed by the plane: the curve enters over the half-edge from above to below, and
 /// leaves over the one from below to above.
 struct Crossed {
     EdgeKey entry = 0;  ///< above -> below
-    EdgeKey exit = 0;   ///< below -> above, as the neighbour sees it: above -> below
+    EdgeKey exit = 0;   ///< below -> above; as the neighbour sees it: above -> below
     TriangleId triangle = 0;
 };
 
@@ -45,7 +45,7 @@ std::vector<Crossed> crossed_triangles(const Surface& surface, const Plane& plan
     return crossed;
 }
 
-/// Finds the unused crossed triangle that is entered over a half-edge.
+/// Finds the unused crossed triangle that the curve enters over a half-edge.
 class Entries {
 public:
     explicit Entries(const std::vector<Crossed>& crossed) : used_(crossed.size(), 0) {
@@ -67,7 +67,7 @@ public:
 
     bool take_index(std::size_t index) { return std::exchange(used_[index], 1) == 0; }
 
-    /// Nobody leads to this entry: an open curve starts there.
+    /// No triangle leads to this entry: an open curve starts here.
     bool starts_curve(EdgeKey entry) const {
         return !std::binary_search(exits_.begin(), exits_.end(), entry);
     }

@@ -24,12 +24,12 @@ struct SectionCrossing {
     double t = 0.0;      ///< [-], in (0, 1]
 };
 
-/// One connected curve in which a plane meets a surface. On an outward surface it runs
-/// counter-clockwise round the normal where it is the outline of a vessel.
+/// One connected curve of intersection of a plane and a surface. On an outward surface, the outline
+/// of a vessel runs counter-clockwise around the normal.
 struct SectionCurve {
     Positions points;                        ///< [mm]; not repeated at the end
     std::vector<SectionCrossing> crossings;  ///< of each point
-    std::vector<TriangleId> triangles;       ///< from points[i] to points[i + 1]
+    std::vector<TriangleId> triangles;       ///< triangle i leads from points[i] to points[i + 1]
     bool closed = false;                     ///< false: it ends at the surface's border
     double area = 0.0;             ///< [mm^2], signed, of the curve closed by a straight line
     double perimeter = 0.0;        ///< [mm]
@@ -39,11 +39,11 @@ struct SectionCurve {
     [[nodiscard]] double diameter() const;
 };
 
-/// All curves in which the plane meets the surface, in the order of their lowest triangle. A
-/// vertex in the plane counts as above it, so that every curve is simple.
+/// All curves of intersection of the plane and the surface, in the order of their lowest triangle.
+/// A vertex in the plane counts as above it, so every curve is simple.
 [[nodiscard]] std::vector<SectionCurve> cross_sections(const Surface& surface, const Plane& plane);
 
-/// Whether a point of the plane lies inside the curve.
+/// True if a point of the plane lies inside the curve.
 [[nodiscard]] bool encloses(const SectionCurve& curve, const Plane& plane, const Vec3& point);
 
 /// The vessel's section at the plane's point: the smallest closed curve that encloses it; if there
@@ -51,8 +51,8 @@ struct SectionCurve {
 [[nodiscard]] std::optional<SectionCurve> cross_section_at(const Surface& surface,
                                                            const Plane& plane);
 
-/// Two directions of length 1 that are perpendicular to the normal and to each other:
-/// (u, v, normal) is right-handed.
+/// Two unit vectors perpendicular to the normal and to each other: (u, v, normal) is
+/// right-handed.
 [[nodiscard]] std::pair<Vec3, Vec3> plane_axes(const Vec3& normal);
 
 }  // namespace vesselbench

@@ -100,7 +100,7 @@ struct DerivedCache::Parts {
     std::condition_variable over;  ///< something is in the making no longer
     std::size_t budget;
     std::size_t total = 0;
-    std::list<Entry> entries;  ///< the one used last in front
+    std::list<Entry> entries;  ///< most recently used first
     std::map<Key, Place> places;
     /// In the making: each maker's place for what it made, which those that wait hold as well, so
     /// that they get it even if it is too large to be kept.

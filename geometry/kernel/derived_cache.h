@@ -61,7 +61,7 @@ public:
     /// \throw InvalidInput if the surface has no triangle
     [[nodiscard]] ContentKey surface_key(const Surface& surface);
 
-    /// [bytes] held now
+    /// [bytes] currently held
     [[nodiscard]] std::size_t bytes() const;
 
     [[nodiscard]] std::size_t size() const;

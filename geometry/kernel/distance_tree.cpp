@@ -12,7 +12,7 @@ DistanceTree::DistanceTree(const Positions& positions, std::span<const Triangle>
     for (std::size_t at = dipoles.size(); at-- > 0;) dipoles[at] = dipole_of(at);
 }
 
-/// Children stand behind their parent, so they are done first.
+/// Children come after their parent, so they are done first.
 Dipole DistanceTree::dipole_of(std::size_t at) const {
     const BoxTree::Node& node = tree.nodes()[at];
     Dipole sum;

@@ -7,12 +7,12 @@
 
 namespace vesselbench {
 
-/// Which corner of a triangle a vertex is, 0 to 2; of a degenerate triangle the first.
+/// Corner (0 to 2) of a triangle at which a vertex is; in a degenerate triangle the first one.
 [[nodiscard]] inline std::uint32_t corner_of(const Triangle& triangle, VertexId v) {
     return triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2;
 }
 
-/// Every edge once, with the half-edges (triangle corners) that lie on it.
+/// Every edge once, with its half-edges (triangle corners).
 struct EdgeTable {
     std::vector<std::array<VertexId, 2>> edges;  ///< {low, high}, ascending
     /// Per edge the half-edges 3 * triangle + k, ascending; half-edge k runs from corner k to
@@ -23,7 +23,7 @@ struct EdgeTable {
 /// Edges between a vertex and itself (degenerate triangles) are left out.
 [[nodiscard]] EdgeTable edge_table(const Topology& topology);
 
-/// Where connectivity is not that of a manifold with boundary.
+/// Defects that make connectivity differ from a manifold with boundary.
 struct ManifoldDefects {
     std::vector<std::array<VertexId, 2>> edges;  ///< edges with three or more triangles
     std::vector<VertexId> vertices;              ///< whose triangles form more than one fan
@@ -46,18 +46,18 @@ struct Components {
 
     [[nodiscard]] std::size_t count() const { return triangle_counts.size(); }
 
-    /// The one with most triangles; the first of equals. 0 if there is none.
+    /// The component with the most triangles; the first of equals. 0 if there is none.
     [[nodiscard]] std::size_t largest() const;
 };
 
 [[nodiscard]] Components connected_components(const Topology& topology);
 
-/// The triangles where `keep` is true, with their vertices, patches and attributes; order is kept,
-/// vertices that no triangle uses are dropped. The patch table stays whole.
+/// The triangles with `keep` true, with their vertices, patches and attributes; order is kept,
+/// unused vertices are dropped. The patch table stays complete.
 /// \throw InvalidInput unless keep is #T long
 [[nodiscard]] Surface select_triangles(const Surface& surface, const std::vector<bool>& keep);
 
-/// The same shape with the triangles turned over (patches and attributes kept).
+/// The same shape with reversed triangles (patches and attributes kept).
 [[nodiscard]] Surface flipped(const Surface& surface);
 
 }  // namespace vesselbench

@@ -5,14 +5,14 @@
 
 namespace vesselbench {
 
-/// A parameter or a command is used wrongly (exit code 2). The text names the parameter, the value
-/// and the range.
+/// A parameter or a command is used incorrectly (exit code 2). The text names the parameter, the
+/// value and the range.
 class UsageError : public std::invalid_argument {
 public:
     using std::invalid_argument::invalid_argument;
 };
 
-/// The data handed in cannot be used (exit code 3). The text names the file or the place, and the
+/// The input data cannot be used (exit code 3). The text names the file or the place, and the
 /// remedy.
 class InvalidInput : public std::invalid_argument {
 public:
@@ -33,14 +33,14 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// No usable OpenGL context; the text says what is missing. Pictures and GPU paths are left out,
-/// the CPU serves.
+/// There is no usable OpenGL context; the text says what is missing. Pictures and GPU paths are
+/// skipped; the CPU takes over.
 class GpuUnavailable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The user cancelled; the scene stays as it was (exit code 1).
+/// The user cancelled; the scene is unchanged (exit code 1).
 class Cancelled : public std::runtime_error {
 public:
     Cancelled() : std::runtime_error("cancelled") {}

@@ -16,7 +16,7 @@ bool all_finite(const Positions& positions) {
     std::atomic<bool> finite = true;
     const tbb::blocked_range<std::size_t> all(0, positions.size(), 16384);
     tbb::parallel_for(all, [&](const auto& range) {
-        Vec3 sum = Vec3::Zero();  // of zeros, or not numbers
+        Vec3 sum = Vec3::Zero();  // a sum of zeros, or NaN
         for (std::size_t v = range.begin(); v != range.end(); ++v) sum += 0.0 * positions[v];
         if (!sum.allFinite()) finite = false;
     });

@@ -37,7 +37,8 @@ void require_input(const Topology& topology, const Positions& original, const Po
                                std::to_string(topology.vertex_count()));
 }
 
-/// The vertex that p drifts to from `reference`. Every step comes strictly closer, so it ends.
+/// The vertex that p drifts to from `reference`. Every step comes strictly closer, so the loop
+/// ends.
 VertexId drift(const CompressedRows& rings, const Positions& original, const Vec3& p,
                VertexId reference) {
     double closest = (p - original[reference]).squaredNorm();
@@ -53,22 +54,23 @@ VertexId drift(const CompressedRows& rings, const Positions& original, const Vec
     }
 }
 
-/// The original surface, its neighbour arrays at hand.
+/// The original surface and its neighbour arrays.
 struct Original {
     const CompressedRows& triangles_at;
     std::span<const Triangle> triangles;
     const Positions& points;
 };
 
-/// The place of a ring that is closest to a point.
+/// The point of a ring that is closest to a given point.
 struct RingPlace {
-    double squared = kInfinity;  ///< distance [mm^2]; infinite without triangles of numbers
+    double squared = kInfinity;  ///< distance [mm^2]; infinite without a triangle of finite corners
     bool outer = false;          ///< on the ring's outer edge
     VertexId ends[2] = {0, 0};   ///< of that edge
 };
 
 RingPlace closest_in_ring(const Original& original, const Vec3& p, VertexId centre) {
-    constexpr double kOnEdge = 1e-9;  // height over the outer edge by the triangle's height [-]
+    constexpr double kOnEdge =
+        1e-9;  // height over the outer edge relative to the triangle's height [-]
     RingPlace place;
     for (const TriangleId t : original.triangles_at.row(centre)) {
         const Triangle& corners = original.triangles[t];
@@ -87,9 +89,9 @@ RingPlace closest_in_ring(const Original& original, const Vec3& p, VertexId cent
     return place;
 }
 
-/// Infinite without a triangle whose corners are numbers. Where the closest place is on the ring's
-/// outer edge, the surface beyond may be closer: then the ring moves there. Every step comes
-/// strictly closer, so it ends.
+/// Infinite without a triangle of finite corners. If the closest point is on the ring's outer edge,
+/// the surface beyond may be closer: the ring then moves there. Every step comes strictly closer,
+/// so the loop ends.
 double distance_to_triangles(const Original& original, const Vec3& p, VertexId reference) {
     RingPlace best = closest_in_ring(original, p, reference);
     for (bool closer = best.outer; closer;) {
@@ -105,8 +107,8 @@ double distance_to_triangles(const Original& original, const Vec3& p, VertexId r
     return std::sqrt(best.squared);
 }
 
-/// Eq. 6.2: the third component of Eq. 6.1 is the distance from the triangle's plane, as its third
-/// column is a unit normal. Infinite without a triangle that has a normal.
+/// Eq. 6.2: the third component of Eq. 6.1 is the distance from the triangle's plane, because its
+/// third column is a unit normal. Infinite without a triangle that has a normal.
 double distance_to_planes(const Original& original, const Vec3& p, VertexId reference) {
     double largest = -kInfinity;
     for (const TriangleId t : original.triangles_at.row(reference)) {

@@ -8,13 +8,13 @@ namespace vesselbench {
 
 namespace {
 
-/// Adds a triangle's part to the curvature normals 2 H n A = 1/2 sum (cot + cot)(x_i - x_j)
+/// Adds a triangle's contribution to the curvature normals 2 H n A = 1/2 sum (cot + cot)(x_i - x_j)
 /// (Meyer et al., Eq. 8) and to the mixed areas (Eq. 7 and Figure 4).
 void add_triangle(const Positions& points, const Triangle& t, Positions& normals,
                   std::vector<double>& areas) {
     const double doubled = area_normal(points, t).norm();
     if (!(doubled > 0.0)) return;
-    Vec3 edge[3];  // edge[k] is opposite of corner k
+    Vec3 edge[3];  // edge[k] is opposite to corner k
     double cot[3];
     for (int k = 0; k < 3; ++k) edge[k] = points[t[(k + 2) % 3]] - points[t[(k + 1) % 3]];
     for (int k = 0; k < 3; ++k) cot[k] = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / doubled;

@@ -23,8 +23,8 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Calls visit(v, triangle) for the triangles at each vertex, ascending; different vertices at the
-/// same time. A degenerate triangle may come twice.
+/// Calls visit(v, triangle) for the triangles at each vertex, ascending; different vertices in
+/// parallel. A degenerate triangle may come twice.
 template <class Visit>
 void visit_triangles_by_vertex(const Surface& surface, const Visit& visit) {
     const CompressedRows& rows = surface.topology->triangles_at();
@@ -36,7 +36,7 @@ void visit_triangles_by_vertex(const Surface& surface, const Visit& visit) {
                       });
 }
 
-/// Collects one value after the other.
+/// Accumulates one value after the other.
 class SpreadBuilder {
 public:
     void add(double value) {
@@ -158,7 +158,7 @@ double area(const Surface& surface) {
 }
 
 double volume(const Surface& surface) {
-    // Tetrahedra to a point near the surface, so that far coordinates cost no digits.
+    // Tetrahedra to a point near the surface, so that large coordinates cost no precision.
     const Positions& points = surface.points();
     const Vec3 origin = bounds(points).centre();
     double sum = 0.0;
@@ -220,7 +220,7 @@ Positions vertex_normals(const Surface& surface) {
                    to_previous = points[t[(k + 2) % 3]] - points[v];
         normals[v] += angle_between(to_next, to_previous) / length * normal;
     });
-    // Less is what rounding leaves of triangles that lie on each other: no normal.
+    // Less is the rounding remainder of coincident triangles: no normal.
     constexpr double kLeastAngle = 1e-9;
     for (Vec3& n : normals) n = n.norm() > kLeastAngle ? n.normalized() : Vec3::Zero();
     return normals;

@@ -40,8 +40,8 @@ struct Spread {
 /// [mm^2]
 [[nodiscard]] double area(const Surface& surface);
 
-/// Enclosed volume [mm^3], negative if the triangles face inward. Openings are closed in thought by
-/// a fan to the mean of their rim, so that the figure does not depend on the place in space.
+/// Enclosed volume [mm^3], negative if the triangles face inward. Openings are closed virtually by
+/// a fan to the mean of their rim, so that the figure does not depend on the position in space.
 [[nodiscard]] double volume(const Surface& surface);
 
 /// Edge lengths [mm] over all edges, each counted once.
@@ -52,11 +52,11 @@ struct Spread {
 /// degenerate.
 [[nodiscard]] double equiangle_skewness(const Positions& positions, const Triangle& triangle);
 
-/// Twice the in-circle's radius by the circumcircle's [-]; 1: equilateral, 0: degenerate.
+/// Twice the inradius over the circumradius [-]; 1: equilateral, 0: degenerate.
 [[nodiscard]] double radius_ratio(const Positions& positions, const Triangle& triangle);
 
 /// Unit vertex normals, mean of the triangle normals weighted by the angle at the vertex; zero
-/// where that is not defined. Source: Thuermer and Wuethrich, "Computing vertex normals from
+/// where that is undefined. Source: Thuermer and Wuethrich, "Computing vertex normals from
 /// polygonal facets", 1998.
 [[nodiscard]] Positions vertex_normals(const Surface& surface);
 
@@ -76,7 +76,7 @@ struct PatchMeasures {
     double area = 0.0;             ///< [mm^2]
     Vec3 centroid = Vec3::Zero();  ///< area-weighted [mm]
     Vec3 normal = Vec3::Zero();    ///< mean outward unit normal
-    double flatness = 0.0;         ///< largest distance of a vertex from the best plane [mm]
+    double flatness = 0.0;         ///< largest distance of a vertex from the best-fit plane [mm]
 };
 
 /// One entry per row of the patch table that has triangles.

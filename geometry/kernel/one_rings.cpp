@@ -26,16 +26,16 @@ struct HalfEdge {
     auto operator<=>(const HalfEdge&) const = default;
 };
 
-/// The next vertex in every triangle at a vertex: at inner vertices of a manifold, the neighbours.
+/// The next vertex in every triangle at a vertex: at inner vertices of a manifold, its neighbours.
 struct NextVertices {
-    std::int32_t none;                ///< fills up rows: the vertex count, which has a row as well
+    std::int32_t none;                ///< pads rows: the vertex count, which has a row as well
     LargeArray<std::int32_t> values;  ///< kLanes at each vertex
     LargeArray<std::uint8_t> counts;  ///< kLanes + 1: there are more
     std::vector<HalfEdge> more;       ///< those beyond kLanes, ascending
 
     NextVertices(const VertexCorners& corners, std::size_t vertex_count);
 
-    /// Fills the part of the arrays that belongs to a share.
+    /// Fills the part of the arrays that belongs to a share of the vertices.
     void collect(const VertexCorners& corners, const VertexRange& share,
                  std::vector<HalfEdge>& beyond);
 
@@ -85,7 +85,7 @@ void NextVertices::collect(const VertexCorners& corners, const VertexRange& shar
     std::int32_t* const rows = values.data();
     std::uint8_t* const sizes = counts.data();
     std::size_t empty = share.first;
-    const auto empty_until = [&](std::size_t last) {  // shortly before they are written to
+    const auto empty_until = [&](std::size_t last) {  // shortly before they are written
         if (last <= empty) return;
         std::fill(rows + kLanes * empty, rows + kLanes * last, none);
         std::fill(sizes + empty, sizes + last, std::uint8_t{0});
@@ -122,14 +122,14 @@ bool has_avx2() {
     return has;
 }
 
-/// True if v is an inner vertex of a manifold as far as it can tell: the row is right if this holds
-/// for all that have v as a next vertex, too.
+/// True if v looks like an inner vertex of a manifold: its row is right if this holds for all
+/// vertices that have v as a next vertex, too.
 bool is_inner(const NextVertices& next, VertexId v, const std::vector<VertexId>& around) {
     return std::ranges::adjacent_find(around) == around.end() &&
            std::ranges::all_of(around, [&](VertexId u) { return u != v && next.count(u, v) == 1; });
 }
 
-/// 1 at all vertices that are no inner vertices of a manifold, and at some around them, #V.
+/// 1 at all vertices that are not inner vertices of a manifold, and at some around them, #V.
 std::vector<std::uint8_t> find_irregular(const NextVertices& next, std::size_t vertex_count) {
     std::vector<std::uint8_t> irregular(vertex_count, 0);
     const auto mark = [&](VertexId v) {
@@ -184,7 +184,8 @@ void collect_corners(const VertexCorners& corners, const VertexRange& share,
     });
 }
 
-/// A row of any corners: repeated ones, of degenerate triangles. It comes to the front of `around`.
+/// A row of arbitrary corners: repeated ones, of degenerate triangles. It is moved to the front of
+/// `around`.
 /// \return its size
 std::uint32_t make_row(VertexId v, std::span<std::uint32_t> around, std::uint8_t& boundary) {
     std::ranges::sort(around);
@@ -199,7 +200,7 @@ std::uint32_t make_row(VertexId v, std::span<std::uint32_t> around, std::uint8_t
     return size;
 }
 
-/// \param flags 1 at the irregular vertices; there it becomes 1 at those on a boundary
+/// \param flags 1 at the irregular vertices; afterwards 1 at those on a boundary
 GeneralRows general_rows(const VertexCorners& corners, const VertexRange& share,
                          std::vector<std::uint8_t>& flags) {
     GeneralRows found;
@@ -227,7 +228,8 @@ std::vector<std::uint32_t> row_offsets(const NextVertices& next, std::size_t ver
     return offsets;
 }
 
-/// Writes the rows that have more than kLanes next vertices; irregular ones are not right yet.
+/// Writes the rows with more than kLanes next vertices; those of irregular vertices are still
+/// wrong.
 void write_long_rows(const NextVertices& next, CompressedRows& rows) {
     for (std::size_t i = 0; i < next.more.size();) {
         const VertexId v = next.more[i].from;

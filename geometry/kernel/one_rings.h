@@ -14,8 +14,8 @@ struct OneRings {
     std::vector<std::uint8_t> boundary;  ///< 1 on an edge that has exactly one triangle, #V
 };
 
-/// Collects the one-rings of any triangles, also degenerate and non-manifold ones, on all threads:
-/// linear in triangles, and the same rows on any number of threads.
+/// Collects the one-rings of any triangles, even degenerate and non-manifold ones, on all threads:
+/// linear in triangles, and the same rows for any number of threads.
 /// \param triangles every index below vertex_count, which is below 2^31
 [[nodiscard]] OneRings one_rings(std::span<const Triangle> triangles, std::size_t vertex_count);
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
     throw IoError(text);
 }
 
-/// Asks the disk to keep a file or folder; what cannot be opened for it is left to the system.
+/// Flushes a file or folder to the disk; if it cannot be opened, that is left to the system.
 void flush_to_disk(const fs::path& path, const fs::path& shown) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return;
@@ -50,7 +50,7 @@ void rename_to_free_name(const fs::path& from, const fs::path& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
     std::error_code ignored;
     if (errno == EEXIST || fs::exists(to, ignored))
-        throw IoError(bare_name(to) + " exists already; choose another name or remove it first");
+        throw IoError(bare_name(to) + " already exists; choose another name or remove it first");
     rename_over(from, to);  // not every file system can refuse to replace
 }
 
@@ -106,8 +106,8 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error || !fs::is_directory(folder))
-        throw IoError("the folder '" + folder.filename().string() + "' cannot be made: " +
-                      (error ? error.message() : std::string("a file of this name is there")));
+        throw IoError("the folder '" + folder.filename().string() + "' cannot be created: " +
+                      (error ? error.message() : std::string("a file with this name exists")));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         throw IoError("the folder '" + folder.filename().string() +
                       "' cannot be written to: " + std::strerror(errno));

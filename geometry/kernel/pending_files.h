@@ -12,8 +12,8 @@ namespace vesselbench {
 /// What becomes of a file that has the name already.
 enum class Existing { Replace, Keep };
 
-/// Files and folders that appear under their own names only when all of them are complete. Until
-/// commit() they are written to a temporary folder beside them; what is not committed is removed.
+/// Files and folders that appear under their final names only when all of them are complete. Until
+/// commit() they are written to a temporary folder beside them; uncommitted ones are removed.
 class PendingFiles {
 public:
     PendingFiles();
@@ -21,8 +21,8 @@ public:
     PendingFiles(const PendingFiles&) = delete;
     PendingFiles& operator=(const PendingFiles&) = delete;
 
-    /// Where to write what will be `final_name`: the same file name in a temporary folder.
-    /// \throw IoError if that folder cannot be made
+    /// The path for writing the future `final_name`: the same file name in a temporary folder.
+    /// \throw IoError if that folder cannot be created
     [[nodiscard]] std::filesystem::path add(const std::filesystem::path& final_name);
 
     /// Adds a file that `write` fills. \throw IoError if it cannot be written entirely
@@ -39,10 +39,11 @@ public:
 
 private:
     std::string folder_name_;  // of the temporary folders, unique
-    std::vector<std::pair<std::filesystem::path, std::filesystem::path>> files_;  // temporary, own
+    std::vector<std::pair<std::filesystem::path, std::filesystem::path>>
+        files_;  // temporary, final
 };
 
-/// Makes the folder and its parents. \throw IoError if it cannot be made or written to
+/// Creates the folder and its parents. \throw IoError if it cannot be created or written to
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace vesselbench

@@ -20,7 +20,7 @@ private:
     void grow();
 
     Positions points_;
-    std::vector<VertexId> slots_;  ///< open addressing, a power of two long
+    std::vector<VertexId> slots_;  ///< open addressing; the size is a power of two
 };
 
 }  // namespace vesselbench

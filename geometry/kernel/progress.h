@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// Reports how far a long computation is, and tells it to stop. A copy shares the receiver and the
-/// stop token.
+/// Reports the progress of a long computation, and stops it on request. A copy shares the receiver
+/// and the stop token.
 class Progress {
 public:
     /// \param fraction done so far, in [0, 1]
@@ -19,16 +19,16 @@ public:
     Progress(Receiver receiver, std::stop_token stop)
         : receiver_(std::move(receiver)), stop_(std::move(stop)) {}
 
-    /// Reports `fraction` [0, 1] of this part. \throw Cancelled if the user asked to stop.
+    /// Reports `fraction` [0, 1] of this part. \throw Cancelled if the user cancels
     void report(double fraction, std::string_view what) const;
 
-    /// \throw Cancelled if the user asked to stop
+    /// \throw Cancelled if the user cancels
     void check_cancelled() const;
 
-    /// The part [from, to] of this progress as a progress of its own from 0 to 1.
+    /// The part [from, to] of this progress as a progress from 0 to 1.
     [[nodiscard]] Progress part(double from, double to) const;
 
-    /// One that can be cancelled, but reports nothing: for parts that run at the same time.
+    /// A progress that can be cancelled, but reports nothing: for parts that run in parallel.
     [[nodiscard]] Progress silent() const { return {nullptr, stop_}; }
 
 private:

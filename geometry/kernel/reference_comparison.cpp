@@ -13,7 +13,7 @@ namespace vesselbench {
 
 namespace {
 
-/// No wider apart than half the mean edge of the finer surface.
+/// At most half the mean edge of the finer surface apart.
 /// \throw InvalidInput if one of them cannot be compared
 double sample_spacing(const Surface& surface, const Surface& reference) {
     if (surface.empty() || reference.empty())

@@ -78,7 +78,7 @@ private:
         return {p[0], p[1], p[2]};
     }
 
-    /// With one shared vertex, two triangles meet elsewhere exactly if the side opposite of that
+    /// Two triangles with one shared vertex meet elsewhere exactly if the side opposite to that
     /// vertex in one of them meets the other one.
     [[nodiscard]] bool meet_beyond_vertex(TriangleId s, TriangleId t, int in_s, int in_t) const {
         const auto p = corners(s), q = corners(t);
@@ -107,11 +107,11 @@ private:
     std::span<const Triangle> triangles_;
 };
 
-/// 1 at the nodes that hold a wanted place of the items' order.
+/// 1 at the nodes that contain a wanted position of the items' order.
 std::vector<std::uint8_t> nodes_with(std::span<const SmallBoxTree::Node> nodes,
                                      std::span<const std::uint8_t> wanted) {
     std::vector<std::uint8_t> found(nodes.size(), 0);
-    for (std::size_t at = nodes.size(); at-- > 0;) {  // children stand behind their parents
+    for (std::size_t at = nodes.size(); at-- > 0;) {  // children come after their parents
         const SmallBoxTree::Node& node = nodes[at];
         if (node.right != 0)
             found[at] = found[at + 1] | found[node.right];
@@ -124,8 +124,8 @@ std::vector<std::uint8_t> nodes_with(std::span<const SmallBoxTree::Node> nodes,
     return found;
 }
 
-/// Calls test(i, j), i < j, for the places of items in leaves whose boxes meet the leaf's box and
-/// one of which is wanted, by the flags of all nodes.
+/// Calls test(i, j), i < j, for the positions of items in leaves whose boxes meet the leaf's box,
+/// if one of them is wanted according to the flags of all nodes.
 template <class Test>
 void for_pairs_of(std::span<const SmallBoxTree::Node> nodes, std::span<const std::uint8_t> wanted,
                   std::size_t leaf_at, Test&& test) {
@@ -148,7 +148,7 @@ void for_pairs_of(std::span<const SmallBoxTree::Node> nodes, std::span<const std
     }
 }
 
-/// Not smaller than the box of the triangle: a pair that does not meet costs time only.
+/// Not smaller than the triangle's box: a pair that does not meet only costs time.
 SmallBoxTree::Box small_box(const Positions& positions, const Triangle& triangle) {
     constexpr float kEnd = std::numeric_limits<float>::infinity();
     SmallBoxTree::Box box;
@@ -162,7 +162,7 @@ SmallBoxTree::Box small_box(const Positions& positions, const Triangle& triangle
     return box;
 }
 
-/// Puts values[order[i]] to place i, without a second array.
+/// Moves values[order[i]] to position i, without a second array.
 template <class Value>
 void put_in_order(std::vector<Value>& values, std::span<const std::uint32_t> order) {
     std::vector<bool> done(values.size(), false);
@@ -194,8 +194,8 @@ std::vector<TrianglePair> self_intersections_with(const Positions& positions,
                       [&](std::size_t t) { boxes[t] = small_box(positions, triangles[t]); });
     const SmallBoxTree tree(boxes);
     const auto items = tree.items();
-    // In the order of the leaves neighbours lie close together in memory, and each pair is met from
-    // its first triangle only.
+    // In leaf order, neighbours are close together in memory, and each pair is found from its first
+    // triangle only.
     put_in_order(boxes, items);
     std::vector<std::uint8_t> flat(boxes.size()), wanted(boxes.size());
     tbb::parallel_for(std::size_t{0}, boxes.size(), [&](std::size_t i) {
@@ -206,7 +206,7 @@ std::vector<TrianglePair> self_intersections_with(const Positions& positions,
     std::vector<std::uint32_t> leaves;
     for (std::uint32_t at = 0; at < tree.nodes().size(); ++at)
         if (tree.nodes()[at].right == 0) leaves.push_back(at);
-    // Fixed blocks keep the order of the result whatever the number of threads.
+    // Fixed blocks keep the order of the result for any number of threads.
     constexpr std::size_t kBlock = 1024;
     std::vector<std::vector<TrianglePair>> found((leaves.size() + kBlock - 1) / kBlock);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {

@@ -13,14 +13,14 @@ namespace vesselbench {
 
 using TrianglePair = std::pair<TriangleId, TriangleId>;
 
-/// Pairs (low, high) of triangles that meet elsewhere than in the vertices and edges they share,
-/// ascending; decided exactly. Triangles without area are left out. Any triangles will do, also
-/// non-manifold ones; parallel, the same result on any number of threads.
+/// Pairs (low, high) of triangles that meet elsewhere than in their shared vertices and edges,
+/// ascending; decided exactly. Triangles without area are ignored. Works on any triangles, even
+/// non-manifold ones; parallel, the same result for any number of threads.
 [[nodiscard]] std::vector<TrianglePair> self_intersections(const Positions& positions,
                                                            std::span<const Triangle> triangles,
                                                            const Progress& progress = {});
 
-/// The same pairs, but only those with a chosen triangle in them: for the few that moved.
+/// The same pairs, but only those that contain a chosen triangle: for a few that moved.
 /// \param chosen 1 at the triangles, #T
 /// \throw InvalidInput unless chosen is #T long
 [[nodiscard]] std::vector<TrianglePair> self_intersections_with(

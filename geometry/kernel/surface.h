@@ -11,14 +11,14 @@
 
 namespace vesselbench {
 
-/// What a part of the surface is for the solver.
-/// `Cut` is a flat closure that is known as one, but not yet chosen as an opening (a vessel that
-/// left the image).
+/// The role of a part of the surface for the solver. `Cut` is a flat closure that is
+/// recognised as one, but not yet chosen as an opening (where a vessel left the
+/// image).
 enum class PatchKind : std::uint8_t { Wall, Inlet, Outlet, Cut };
 
 [[nodiscard]] std::string to_string(PatchKind kind);
 
-/// \throw InvalidInput if the name is none of wall, inlet, outlet, cut
+/// \throw InvalidInput if the name is not one of wall, inlet, outlet, cut
 [[nodiscard]] PatchKind patch_kind_from(const std::string& name);
 
 struct Patch {
@@ -32,7 +32,7 @@ struct Patch {
 using PatchLabels = std::vector<std::uint16_t>;
 
 /// A vessel surface: connectivity, positions, patches and named per-vertex attributes. A value with
-/// shared parts: a copy is cheap, nothing that is shared is ever changed. In files a triangle's
+/// shared parts: copies are cheap, and shared parts never change. In files, a triangle's
 /// `CellEntityIds` is its patch index + 1: 1 is the wall, 2... the openings, inlet first.
 struct Surface {
     std::shared_ptr<const Topology> topology;
@@ -57,7 +57,7 @@ struct Surface {
 
     [[nodiscard]] const Patch& patch_of(TriangleId t) const { return patches[(*patch_labels)[t]]; }
 
-    /// The same surface with other positions (and so other shape).
+    /// The same surface with other positions (and therefore another shape).
     /// \throw InvalidInput unless #V long
     [[nodiscard]] Surface with_positions(Positions moved) const;
 

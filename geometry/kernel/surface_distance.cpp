@@ -13,7 +13,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Relative slack of the box tests [-]: rounding must never lose a triangle that is touched.
+/// Relative slack of the box tests [-]: rounding must never lose a touched triangle.
 constexpr double kBoxSlack = 1e-12;
 
 /// Signed solid angle of a triangle seen from p [sr].
@@ -27,7 +27,7 @@ double solid_angle(const Vec3& p, const TriangleCorners& t) {
 }
 
 /// Distance along the unit direction, or none. Source: Moeller and Trumbore, "Fast, minimum storage
-/// ray/triangle intersection", 1997. Edges count, so that a ray through an edge is not lost.
+/// ray/triangle intersection", 1997. Edges count, so a ray through an edge is not lost.
 std::optional<double> ray_meets(const Vec3& origin, const Vec3& direction,
                                 const TriangleCorners& t) {
     const Vec3 ab = t.b - t.a, ac = t.c - t.a;
@@ -77,7 +77,7 @@ Vec3 closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
     if (va <= 0.0 && d4 >= d3 && d5 >= d6 && along_bc > 0.0)
         return b + (d4 - d3) / along_bc * (c - b);
     const double sum = va + vb + vc;
-    if (sum <= 0.0) return a;  // a point-like triangle
+    if (sum <= 0.0) return a;  // a triangle degenerate to a point
     return a + vb / sum * ab + vc / sum * ac;
 }
 
@@ -169,7 +169,7 @@ SurfaceDistance::SurfaceDistance(const Positions& positions, std::span<const Tri
 
 SurfacePoint SurfaceDistance::closest_point(const Vec3& p) const {
     const auto found = data_->closest(p, std::numeric_limits<double>::infinity());
-    if (!found) throw InvalidInput("the distance of a point with a NaN coordinate was asked for");
+    if (!found) throw InvalidInput("the distance of a point with a NaN coordinate is undefined");
     return *found;
 }
 
@@ -212,7 +212,7 @@ std::optional<SurfaceHit> SurfaceDistance::first_hit(const Vec3& origin, const V
         const BoxTree::Node& node = nodes[at];
         if (!ray_meets_box(origin, inverse, limit, node.box)) continue;
         if (node.right != 0) {
-            // The child whose centre comes first along the ray is looked at first.
+            // The child whose centre comes first along the ray is visited first.
             const double left = (nodes[at + 1].box.center() - origin).dot(unit);
             const double right = (nodes[node.right].box.center() - origin).dot(unit);
             stack[depth++] = left <= right ? node.right : at + 1;

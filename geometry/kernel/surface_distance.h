@@ -11,14 +11,14 @@
 
 namespace vesselbench {
 
-/// A place on a surface.
+/// A point on a surface.
 struct SurfacePoint {
     Vec3 point = Vec3::Zero();  ///< [mm]
     TriangleId triangle = 0;
     double distance = std::numeric_limits<double>::infinity();  ///< from the query [mm]
 };
 
-/// A place where a ray meets a surface.
+/// An intersection of a ray with a surface.
 struct SurfaceHit {
     Vec3 point = Vec3::Zero();  ///< [mm]
     TriangleId triangle = 0;
@@ -32,30 +32,30 @@ struct SurfaceHit {
 /// surfaces with openings. Equal distances resolve to the lowest triangle index.
 class SurfaceDistance {
 public:
-    /// Copies what it needs. \throw InvalidInput if the surface has no triangle
+    /// Copies the data it needs. \throw InvalidInput if the surface has no triangle
     explicit SurfaceDistance(const Surface& surface);
     SurfaceDistance(const Positions& positions, std::span<const Triangle> triangles);
 
     [[nodiscard]] SurfacePoint closest_point(const Vec3& p) const;
 
-    /// None if nothing lies within `reach` [mm]; faster the smaller `reach` is.
+    /// None if nothing lies within `reach` [mm]; faster for smaller `reach`.
     [[nodiscard]] std::optional<SurfacePoint> closest_point(const Vec3& p, double reach) const;
 
-    /// First meeting of the ray from `origin` along `direction` (any length but 0), not farther
-    /// than `reach` [mm]. Triangles through the origin itself count (distance 0).
+    /// First intersection of the ray from `origin` along `direction` (any length but 0), at most
+    /// `reach` [mm] away. Triangles through the origin itself count (distance 0).
     [[nodiscard]] std::optional<SurfaceHit> first_hit(
         const Vec3& origin, const Vec3& direction,
         double reach = std::numeric_limits<double>::infinity()) const;
 
-    /// All meetings, by distance.
+    /// All intersections, by distance.
     [[nodiscard]] std::vector<SurfaceHit> all_hits(
         const Vec3& origin, const Vec3& direction,
         double reach = std::numeric_limits<double>::infinity()) const;
 
-    /// How often the surface winds around p: 1 inside, 0 outside of a closed outward surface; in
+    /// Winding number of the surface around p: 1 inside, 0 outside a closed outward surface; in
     /// between near openings.
     /// Source: Jacobson et al., "Robust inside-outside segmentation using generalized winding
-    /// numbers", SIGGRAPH 2013; far parts by their dipole as in Barill et al., "Fast winding
+    /// numbers", SIGGRAPH 2013; distant parts by their dipole as in Barill et al., "Fast winding
     /// numbers for soups and clouds", SIGGRAPH 2018.
     [[nodiscard]] double winding_number(const Vec3& p) const;
 
@@ -64,7 +64,7 @@ public:
     /// Distance [mm], negative inside.
     [[nodiscard]] double signed_distance(const Vec3& p) const;
 
-    /// Triangles that come within `radius` [mm] of `centre`, ascending.
+    /// Triangles within `radius` [mm] of `centre`, ascending.
     [[nodiscard]] std::vector<TriangleId> triangles_within(const Vec3& centre, double radius) const;
 
     /// The same for many points, in parallel; results in the order of the points.

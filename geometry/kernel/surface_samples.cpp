@@ -9,12 +9,12 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kMostSamples = 24;  // along an edge of a triangle
+constexpr int kMostSamples = 24;  // per edge of a triangle
 
 }  // namespace
 
 int sample_parts(double longest, double spacing) {
-    const double parts = std::ceil(longest / spacing);  // not a number where both are 0
+    const double parts = std::ceil(longest / spacing);  // NaN if both are 0
     return parts > 1.0 ? static_cast<int>(std::min(parts, double{kMostSamples})) : 1;
 }
 

@@ -7,17 +7,17 @@
 
 namespace vesselbench {
 
-/// Points that stand for a surface, in place of its triangles.
+/// Points that represent a surface instead of its triangles.
 struct SurfaceSamples {
-    Positions points;                   ///< all vertices first, which stand for no area
-    std::vector<double> areas;          ///< what each point stands for [mm^2]
-    std::vector<TriangleId> triangles;  ///< one that each point lies in
+    Positions points;                   ///< all vertices first, which represent no area
+    std::vector<double> areas;          ///< area that each point represents [mm^2]
+    std::vector<TriangleId> triangles;  ///< the triangle that contains each point
 };
 
-/// Into how many parts the edges of a triangle are cut, so that the centres of its n^2 equal parts
-/// are no wider apart than the spacing: 1 to 24, for a giant triangle must not cost minutes.
+/// Number of parts per triangle edge, so that the centres of the triangle's n^2 equal parts are at
+/// most the spacing apart: 1 to 24, so that a giant triangle does not cost minutes.
 /// \param longest edge [mm]
-/// \param spacing [mm]; 0 where all edges are
+/// \param spacing [mm]; 0 if all edges are
 [[nodiscard]] int sample_parts(double longest, double spacing);
 
 /// Calls visit(u, v) for the centres a + u (b - a) + v (c - a) of the n^2 equal parts of a
@@ -35,7 +35,7 @@ void for_each_part(int n, const Visit& visit) {
 /// \param spacing [mm], > 0
 [[nodiscard]] SurfaceSamples surface_samples(const Surface& surface, double spacing);
 
-/// How far samples lie from a surface.
+/// Distance of samples from a surface.
 struct SampledDistance {
     double largest = 0.0;  ///< [mm]
     double sum = 0.0;      ///< of distance x area [mm^3]

@@ -45,7 +45,8 @@ VertexId largest_id(std::span<const Triangle> triangles) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, triangles.size(), 8192), VertexId{0},
         [&](const auto& range, VertexId largest) {
-            Triangle by_corner{largest, largest, largest};  // they do not wait for each other
+            Triangle by_corner{largest, largest,
+                               largest};  // separate ones avoid a dependency chain
             for (std::size_t t = range.begin(); t != range.end(); ++t)
                 for (std::size_t k = 0; k < 3; ++k)
                     by_corner[k] = std::max(by_corner[k], triangles[t][k]);
@@ -134,7 +135,7 @@ std::vector<std::vector<VertexId>> Topology::boundary_loops() const {
             const VertexId to = out.back();
             out.pop_back();
             if (const auto seen = place.find(to); seen != place.end()) {
-                // A vertex met again closes a loop; what came before it goes on as a path.
+                // A vertex visited again closes a loop; the vertices before it continue as a path.
                 loops.emplace_back(path.begin() + static_cast<std::ptrdiff_t>(seen->second),
                                    path.end());
                 while (path.size() > seen->second + 1) {

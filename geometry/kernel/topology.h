@@ -38,11 +38,11 @@ public:
     /// Triangles at every vertex, each row ascending.
     [[nodiscard]] const CompressedRows& triangles_at() const;
 
-    /// 1 where a vertex lies on an edge that has exactly one triangle, #V.
+    /// 1 if a vertex is on an edge with exactly one triangle, #V.
     [[nodiscard]] const std::vector<std::uint8_t>& boundary_vertices() const;
 
-    /// Closed loops of boundary vertices, each in the direction of its triangles' half-edges; where
-    /// several loops meet in one vertex they are separated there.
+    /// Closed loops of boundary vertices, each in the direction of its triangles' half-edges;
+    /// several loops that meet at one vertex are separated there.
     [[nodiscard]] std::vector<std::vector<VertexId>> boundary_loops() const;
 
 private:

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Of the corners of some triangles, eight at a time.
+/// Checks the corners of some triangles, eight at a time.
 VertexRange range_of(std::span<const Triangle> triangles) {
     constexpr std::size_t kLanes = 8;
     using Lanes = std::int32_t __attribute__((vector_size(32), may_alias, aligned(4)));

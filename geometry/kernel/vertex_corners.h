@@ -15,19 +15,19 @@ struct VertexRange {
     [[nodiscard]] bool has(VertexId v) const { return v - first < last - first; }
 };
 
-/// As many ranges of vertices as there are threads.
+/// One range of vertices per thread.
 [[nodiscard]] std::vector<VertexRange> vertex_shares(std::size_t vertex_count);
 
-/// The corners of triangles, to be visited by vertex: each thread looks at its share of the
-/// vertices. Which vertices some thousand triangles come from is kept: those of a surface that was
-/// made front by front come from few, so that a thread passes over most that are not its own.
+/// The corners of triangles, visited by vertex: each thread handles its share of the vertices. The
+/// range of vertices of every few thousand triangles is stored: in a surface made front by front it
+/// is small, so a thread skips most triangles that are not its own.
 class VertexCorners {
 public:
     explicit VertexCorners(std::span<const Triangle> triangles);
 
     /// Calls visit(v, next, previous, triangle) for the corners at the wanted vertices, in the
-    /// order of the triangles; before each some thousand of these, prepare(the vertex behind the
-    /// last wanted one among their corners).
+    /// order of the triangles; before each few thousand of these, calls prepare(the vertex behind
+    /// the last wanted one among their corners).
     template <class Prepare, class Visit>
     void visit_at(const VertexRange& wanted, const Prepare& prepare, const Visit& visit) const {
         for (std::size_t i = 0; i < ranges_.size(); ++i) {

@@ -18,7 +18,7 @@ std::string file_content(const fs::path& path) {
     if (fs::is_directory(path, error)) throw IoError(bare_name(path) + " is a folder, not a file");
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        throw IoError("cannot open " + bare_name(path) + ": does it exist, and may it be read?");
+        throw IoError("cannot open " + bare_name(path) + ": check that it exists and is readable");
     file.seekg(0, std::ios::end);
     const auto size = file.tellg();
     if (size < 0) throw IoError("cannot read " + bare_name(path));

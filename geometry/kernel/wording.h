@@ -8,14 +8,14 @@
 
 namespace vesselbench {
 
-/// A place [mm] as error texts and warnings name it: "(12.346, -5.1, 1234.5) mm".
+/// A place [mm] in error texts and warnings: "(12.346, -5.1, 1234.5) mm".
 [[nodiscard]] std::string place_text(const Vec3& point);
 
 /// The same without the unit, for lists of places: "(12.346, -5.1, 1234.5)".
 [[nodiscard]] std::string coordinates_text(const Vec3& point);
 
 /// A number with its noun: "1 place", "3 places".
-/// \param plural where it is not the noun with an s
+/// \param plural if it is not the noun with an s
 [[nodiscard]] std::string counted(std::size_t count, const std::string& noun,
                                   const std::string& plural = "");
 
@@ -23,10 +23,10 @@ namespace vesselbench {
 [[nodiscard]] std::string joined(std::span<const std::string> names,
                                  const std::string& separator = ", ");
 
-/// The text as it stands in XML and HTML, in attributes too.
+/// The text escaped for XML and HTML, also in attributes.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
-/// A number in printf's words: formatted(0.1234) is "0.123".
+/// A number in a printf format: formatted(0.1234) is "0.123".
 /// \param format one conversion for a double
 [[nodiscard]] std::string formatted(double value, const char* format = "%.3g");
 

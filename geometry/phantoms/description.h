@@ -36,15 +36,15 @@ struct TorusShape {
     double tube_radius = 2.0;   ///< [mm]
 };
 
-/// One solid of a phantom; it joins what stands before it with a fillet.
+/// One solid of a phantom; a fillet joins it to the parts before it.
 struct PhantomPart {
     std::string name;
     std::variant<VesselShape, SphereShape, BoxShape, TorusShape> shape;
-    double blend = 0.0;  ///< [mm] width of the fillet to the parts before; 0: a sharp edge
+    double blend = 0.0;  ///< [mm] width of the fillet towards the parts before; 0: a sharp edge
 };
 
-/// Two parts that the expert's mask keeps apart although they blend in the image (thesis
-/// Fig. 5.14).
+/// Two parts that the expert's mask separates although they blend in the image (thesis Fig.
+/// 5.14).
 struct KeptApart {
     std::string first, second;  ///< names of parts
     double gap = 0.0;  ///< [mm] width of the strip around their mid-surface left out of the mask
@@ -57,17 +57,17 @@ struct Deletion {
     std::array<int, 3> to = {0, 0, 0};
 };
 
-/// How the phantom is imaged and segmented by hand.
+/// How the phantom is imaged and manually segmented.
 struct PhantomImaging {
     Vec3 spacing = Vec3::Constant(0.5);      ///< [mm] along i, j, k
-    std::optional<std::array<int, 3>> size;  ///< voxels; absent: the phantom's box and a margin
+    std::optional<std::array<int, 3>> size;  ///< voxels; absent: the phantom's box plus margin
     double margin = 3.0;  ///< [mm] around the phantom; negative: vessels leave the image
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of i, j, k
     double inside = 1000.0;                              ///< intensity of contrast agent
     double outside = 0.0;                                ///< intensity of tissue
     Vec3 blur = Vec3::Zero();    ///< [mm] standard deviation of the point spread along i, j, k
     double noise = 0.0;          ///< standard deviation of the intensity noise
-    double inhomogeneity = 0.0;  ///< [-] largest relative loss of contrast, varying slowly
+    double inhomogeneity = 0.0;  ///< [-] largest relative loss of contrast, slowly varying
     std::vector<Deletion> deletions;
     int mask_slice_step = 1;   ///< contours are drawn on every n-th slice and copied to the others
     double mask_jitter = 0.0;  ///< [mm] standard deviation of the drawn contour's offset, per slice
@@ -78,7 +78,7 @@ struct PhantomImaging {
 struct PhantomDescription {
     std::string name;
     std::vector<PhantomPart> parts;
-    std::vector<PhantomPart> neighbours;  ///< another structure beside it (distance awareness)
+    std::vector<PhantomPart> neighbours;  ///< another structure near it (distance awareness)
     PhantomImaging imaging;
     double surface_edge = 0.2;   ///< [mm] edge of the exact surface's triangles
     double surface_noise = 0.0;  ///< [mm] standard deviation of noise on the "noisy" surface

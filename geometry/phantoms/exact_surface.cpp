@@ -11,10 +11,10 @@ namespace vesselbench {
 
 namespace {
 
-/// Newton steps that bring a vertex from linear interpolation onto the surface (error squared each
-/// step).
+/// Newton steps that move a vertex from its linear interpolation onto the surface (each step
+/// squares the error).
 constexpr int kNewtonSteps = 4;
-/// Grid points per axis that are skipped together where the surface is far.
+/// Grid points per axis that are skipped together if the surface is far away.
 constexpr int kBlock = 8;
 
 /// The field at the points of a grid over the box, the first axis fastest.
@@ -30,8 +30,8 @@ std::vector<double> sampled(const PhantomField& field, const Vec3& origin,
         const Eigen::Array3i from = at * kBlock, to = (from + kBlock).min(points);
         const double at_centre =
             field(origin + edge * 0.5 * (from + to - 1).cast<double>().matrix());
-        // The field changes by about 1 mm per mm: a block far from the surface holds only its
-        // centre's sign.
+        // The field changes by about 1 mm per mm: in a block far from the surface, all signs equal
+        // its centre's.
         const bool far = std::abs(at_centre) > 1.5 * edge * kBlock;
         for (int k = from[2]; k < to[2]; ++k)
             for (int j = from[1]; j < to[1]; ++j)
@@ -68,7 +68,7 @@ Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box,
         points[v] = on_surface(field, Vec3(x, y, z));
     });
     std::vector<Triangle> triangles;
-    // The field grows outward, the triangles look towards smaller values: swap two corners.
+    // The field grows outward, but the triangles face smaller values: swap two corners.
     for (const auto& [a, b, c] : found.triangles)
         if (a != b && b != c && c != a) triangles.push_back({a, c, b});
     return make_surface(std::move(points), std::move(triangles));

@@ -5,8 +5,8 @@
 
 namespace vesselbench {
 
-/// The zero set of a field inside `box` as a closed triangle surface, every vertex moved onto it by
-/// Newton steps along the gradient; outward. Open where the field leaves the box.
+/// The zero set of a field inside `box` as a closed triangle surface, with every vertex moved onto
+/// it by Newton steps along the gradient; outward. Open where the field leaves the box.
 /// \param edge side of the sampling cells [mm]
 [[nodiscard]] Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box,
                                     double edge);

@@ -12,7 +12,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Straight pieces per span of a vessel's curve: fine enough that chord errors stay below 1e-3
+/// Straight segments per span of a vessel's curve: fine enough to keep chord errors below 1e-3
 /// radii.
 constexpr int kPiecesPerSpan = 24;
 /// Step of the central differences [mm].
@@ -49,7 +49,7 @@ std::vector<Eigen::Vector4d> dense_curve(const VesselShape& vessel) {
         knots.emplace_back(vessel.points[i].x(), vessel.points[i].y(), vessel.points[i].z(),
                            vessel.radii[i]);
     if (knots.size() == 2) return knots;
-    // Mirrored end knots let the curve start and end in the direction of its first and last chord.
+    // Mirrored end knots make the curve start and end in the direction of its first and last chord.
     knots.insert(knots.begin(), 2.0 * knots[0] - knots[1]);
     knots.push_back(2.0 * knots.back() - knots[knots.size() - 2]);
     knots.front()[3] = knots[1][3];
@@ -62,8 +62,8 @@ std::vector<Eigen::Vector4d> dense_curve(const VesselShape& vessel) {
     return curve;
 }
 
-/// A vessel's curve as round cones, in groups with a bounding sphere each so that far groups cost
-/// one distance.
+/// A vessel's curve as round cones, in groups with a bounding sphere each, so that a distant group
+/// costs one distance.
 class RoundCones {
 public:
     explicit RoundCones(std::vector<Eigen::Vector4d> curve) : curve_(std::move(curve)) {
@@ -105,7 +105,7 @@ public:
         return nearest;
     }
 
-    /// How far p lies beyond the planes through both ends of the curve; negative between them.
+    /// Distance of p beyond the planes through both ends of the curve; negative between them.
     [[nodiscard]] double beyond_ends(const Vec3& p) const {
         const auto beyond = [&](const Eigen::Vector4d& end, const Eigen::Vector4d& before) {
             return (p - Vec3(end.head<3>())).dot((end - before).head<3>().normalized());
@@ -242,7 +242,7 @@ double PhantomField::operator()(const Vec3& p) const {
     double joined = impl_->solids.front().distance(p);
     for (std::size_t i = 1; i < impl_->solids.size(); ++i) {
         const Solid& solid = impl_->solids[i];
-        // Far from its box a part cannot be nearer than what is joined already.
+        // Far from its box, a part cannot be closer than the parts already joined.
         if (solid.box.exteriorDistance(p) > std::max(joined, 0.0) + solid.blend) continue;
         joined = smooth_minimum(joined, solid.distance(p), solid.blend);
     }

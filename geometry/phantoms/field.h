@@ -8,7 +8,7 @@
 namespace vesselbench {
 
 /// The implicit function of a phantom: negative inside, zero on the surface, in [mm]; near the
-/// surface it is close to the signed distance. Fillets are polynomial smooth minima (Quilez,
+/// surface it approximates the signed distance. Fillets are polynomial smooth minima (Quilez,
 /// "Smooth minimum", 2013).
 class PhantomField {
 public:
@@ -20,13 +20,13 @@ public:
 
     [[nodiscard]] double operator()(const Vec3& p) const;
 
-    /// The function of one part alone. \throw InvalidInput if there is none of this name
+    /// The function of one part alone. \throw InvalidInput if there is no part of this name
     [[nodiscard]] double part(const std::string& name, const Vec3& p) const;
 
     /// Gradient by central differences.
     [[nodiscard]] Vec3 gradient(const Vec3& p) const;
 
-    /// A box that holds the surface [mm].
+    /// A box that contains the surface [mm].
     [[nodiscard]] Eigen::AlignedBox3d bounds() const;
 
 private:

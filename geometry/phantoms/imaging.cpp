@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLargestImage = std::size_t{512} << 20;
 /// Samples per axis in a voxel on the surface: partial volume to 1/64 of the contrast.
 constexpr int kSupersampling = 4;
-/// Different noise for intensities and for contours of the same phantom.
+/// Different noise for the intensities and the contours of the same phantom.
 constexpr std::uint64_t kContourSeed = 0x636f6e746f7572ULL;
 
 Image empty_grid(const PhantomDescription& description, const PhantomField& field) {
@@ -37,7 +37,7 @@ Image empty_grid(const PhantomDescription& description, const PhantomField& fiel
     }
     if (*std::min_element(image.size.begin(), image.size.end()) < 2 ||
         image.voxel_count() > kLargestImage)
-        throw InvalidInput("the phantom's image would have a size that is not usable");
+        throw InvalidInput("the size of the phantom's image is not usable");
     const Vec3 steps(image.size[0] - 1, image.size[1] - 1, image.size[2] - 1);
     const Vec3 first = box.center() - 0.5 * steps.cwiseProduct(imaging.spacing);
     image.index_to_patient.topLeftCorner<3, 3>() = imaging.axes * imaging.spacing.asDiagonal();
@@ -55,11 +55,11 @@ std::shared_ptr<const std::vector<float>> filled(const Image& grid, const Functi
     return voxels;
 }
 
-/// Part of the voxel (i, j, k) that lies inside, in [0, 1].
+/// Fraction of the voxel (i, j, k) that lies inside, in [0, 1].
 float occupancy(const Image& grid, const PhantomField& field, int i, int j, int k) {
     const double at_centre = field(grid.to_patient(Vec3(i, j, k)));
-    // The field changes by at most about 1 mm per mm: farther than the half diagonal, the voxel is
-    // full or empty.
+    // The field changes by at most about 1 mm per mm: beyond half the diagonal, the voxel is full
+    // or empty.
     const double reach = 0.55 * grid.spacing().norm();
     if (std::abs(at_centre) > reach) return at_centre < 0.0 ? 1.0F : 0.0F;
     int inside = 0;
@@ -84,7 +84,7 @@ std::vector<double> gaussian(double sigma_voxels) {
     return kernel;
 }
 
-/// Separable Gaussian along one index axis; the border voxel continues outside.
+/// Separable Gaussian along one index axis; the border voxel is repeated outside.
 std::vector<float> blurred_along(const Image& grid, const std::vector<float>& voxels, int axis,
                                  double sigma) {
     const auto kernel = gaussian(sigma / grid.spacing()[axis]);
@@ -115,7 +115,8 @@ bool deleted(const std::vector<Deletion>& deletions, int i, int j, int k) {
     });
 }
 
-/// True in the strip that the expert leaves out between two parts: near both, inside no third one.
+/// True in the strip that the expert leaves out between two parts: near both, and inside no third
+/// one.
 bool between(const KeptApart& apart, const std::vector<PhantomPart>& parts,
              const PhantomField& field, const Vec3& p) {
     const double a = field.part(apart.first, p), b = field.part(apart.second, p);

@@ -8,18 +8,18 @@
 
 namespace vesselbench {
 
-/// A phantom as a scanner, an expert and a geometer see it.
+/// A phantom's image, its segmentation and its true surface.
 struct Phantom {
     Image image;                   ///< blurred, noisy intensities
-    Image mask;                    ///< hand-segmented-looking labels 0 and 1 on the image's grid
+    Image mask;                    ///< labels 0 and 1 on the image's grid, as if segmented by hand
     Surface exact;                 ///< the true surface
     std::optional<Surface> noisy;  ///< the true surface with noise along its normals, if described
     std::optional<Surface> neighbour;  ///< another structure beside it, if described
 };
 
-/// Makes everything a description says; the same description gives the same bits.
-/// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image over
-/// 512 Mi voxels)
+/// Makes everything in a description; the same description gives the same bits.
+/// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image
+/// above 512 Mi voxels)
 [[nodiscard]] Phantom make_phantom(const PhantomDescription& description);
 
 }  // namespace vesselbench

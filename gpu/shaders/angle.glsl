@@ -1,5 +1,5 @@
-// Angle in [0, pi] of a direction with y >= 0, to single precision; the language promises its own
-// atan() no digits. Source: Cephes mathematical library, atanf.
+// Angle in [0, pi] of a direction with y >= 0, to single precision; GLSL guarantees no precision
+// for its own atan(). Source: Cephes mathematical library, atanf.
 float angle_of(float y, float x) {
     const float pi = 3.14159265358979;
     float t = y / abs(x), base = 0.0;

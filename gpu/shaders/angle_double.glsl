@@ -1,5 +1,5 @@
-// Angle in [0, pi] of a direction with y >= 0, to double precision; the language has no atan() of
-// doubles. Source: Cephes mathematical library, atan.
+// Angle in [0, pi] of a direction with y >= 0, to double precision; GLSL has no atan() for doubles.
+// Source: Cephes mathematical library, atan.
 double angle_of(double y, double x) {
     const double pi = 3.14159265358979323846lf;
     double t = y / abs(x), base = 0.0lf;

@@ -1,6 +1,7 @@
 #version 430 core
-// An iteration of anisotropic smoothing (smoothing/filters/anisotropic.h), factors.x lambda. In double precision: what is a feature is decided anew in every
-// iteration, and a vertex that single precision decides otherwise is seen around it.
+// An iteration of anisotropic smoothing (smoothing/filters/anisotropic.h), factors.x lambda. In
+// double precision: features are detected in every iteration, and if single precision decides one
+// vertex differently, its whole neighbourhood shows it.
 // 0 source, 1 target, 2 start, 3 offsets and 4 corners of every vertex, 6 anchors
 #include "filter_pass.glsl"
 #include "corners.glsl"
@@ -16,7 +17,7 @@ dvec3 exact_edge(uint from, uint to) {
     return (dvec3(anchors[to].xyz) - dvec3(anchors[from].xyz)) + (dvec3(shifts[to].xyz) - dvec3(shifts[from].xyz));
 }
 
-// Meyer et al. 2003, section 6: how much of the flow a vertex keeps.
+// Meyer et al. 2003, section 6: fraction of the flow that a vertex keeps.
 double flow_share(double mean, double gauss, double feature) {
     double spread = sqrt(max(0.0lf, mean * mean - gauss));
     double one = mean + spread, two = mean - spread;

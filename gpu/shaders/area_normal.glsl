@@ -1,5 +1,5 @@
-// Normals of triangles, as long as twice their areas [mm^2], in double precision and in the CPU's
-// order; 0 where a triangle has none. Includes the exact positions, binding 0.
+// Normals of triangles, with twice their area as length [mm^2], in double precision and in the
+// CPU's order; 0 if a triangle has none. Includes the exact positions, binding 0.
 #include "exact.glsl"
 
 layout(std430, binding = 1) readonly buffer Triangles { uint triangles[]; };

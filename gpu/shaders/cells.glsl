@@ -1,4 +1,4 @@
-// Equal cells over the surface, x fastest (smoothing/context/point_grid.h), with the sources in them.
+// Equal cells over the surface, x fastest (smoothing/context/point_grid.h), holding the sources.
 layout(location = 2) uniform dvec3 origin;
 layout(location = 3) uniform double per_length;  // cells per length [1/mm]
 layout(location = 4) uniform ivec3 cells;        // along each axis

@@ -1,11 +1,11 @@
-// Where a triangle is closest to the origin. By segments and edge functions, each of which keeps its
-// digits on slivers.
+// The point of a triangle closest to the origin. Uses segments and edge functions, which keep their
+// precision on slivers.
 struct Closest {
     float squared;  // distance [mm^2]
-    bool outer;     // on the edge from b to c, its ends included
+    bool outer;     // on the edge from b to c, including its ends
 };
 
-// Squared distance of the segment; `along` is 0 at a, 1 at b.
+// Squared distance to the segment; `along` is 0 at a, 1 at b.
 float to_segment(vec3 a, vec3 b, out float along) {
     vec3 edge = b - a;
     float squared = dot(edge, edge);

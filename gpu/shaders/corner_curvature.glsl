@@ -1,8 +1,8 @@
-// What a triangle adds to the operators of Meyer et al. 2003 at its first corner; the includer
-// defines REAL and VEC3 as float and vec3, or as double and dvec3.
+// Contribution of a triangle to the operators of Meyer et al. 2003 at its first corner; the
+// including shader defines REAL and VEC3 as float and vec3, or as double and dvec3.
 struct CornerShare {
     VEC3 flow;    // cot (v - u) over both other corners
-    VEC3 normal;  // as long as twice the area
+    VEC3 normal;  // its length is twice the area
     REAL area;    // mixed area (Eq. 7 and Figure 4)
     REAL along, across;  // the corner's angle is atan(across, along)
 };
@@ -25,7 +25,7 @@ CornerShare corner_share(VEC3 to_next, VEC3 to_last) {
     return CornerShare(flow, normal, area, along, doubled);
 }
 
-// Mean curvature [1/mm] of the sums over a vertex' corners, positive where it is convex (Eq. 8).
+// Mean curvature [1/mm] from the sums over a vertex's corners, positive where it is convex (Eq. 8).
 REAL mean_of(VEC3 flow, VEC3 normal, REAL area) {
     REAL size = length(flow) / (REAL(4.0) * area);
     return dot(flow, normal) < REAL(0.0) ? -size : size;

@@ -1,5 +1,5 @@
-// Triangles at every vertex: the two other corners, in the triangle's direction. The highest bit of
-// an offset is set where the vertex lies on a boundary.
+// Triangles at every vertex: the two other corners, in triangle orientation. The highest bit of an
+// offset is set if the vertex is on a boundary.
 layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
 layout(std430, binding = 4) readonly buffer Corners { uvec2 corners[]; };
 

@@ -1,5 +1,5 @@
-// The cotangent-weighted mean of the neighbours less the own value (smoothing/filters/cotangents.h), summed up
-// triangle by triangle; the includer defines REAL and VEC3.
+// Cotangent-weighted mean of the neighbours minus the own value (smoothing/filters/cotangents.h),
+// summed triangle by triangle; the including shader defines REAL and VEC3.
 const REAL largest_cotangent = REAL(20.0);
 
 REAL clamped_cotangent(REAL along, REAL across) {
@@ -7,7 +7,7 @@ REAL clamped_cotangent(REAL along, REAL across) {
     return along > REAL(0.0) ? largest_cotangent : REAL(0.0);
 }
 
-// Adds a triangle by its edges from the vertex.
+// Adds a triangle by its edges at the vertex.
 void add_triangle(VEC3 to_next, VEC3 to_last, inout VEC3 sum, inout REAL weights) {
     VEC3 opposite = to_last - to_next;
     REAL doubled = length(cross(to_next, to_last));

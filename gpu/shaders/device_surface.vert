@@ -1,7 +1,7 @@
 #version 430 core
-// Draws a surface from the buffers that smoothing works on: attribute 0 anchor and 1 shift [mm], which
-// add up to the position relative to the centre of the start's bounding box, 2 unit normal, 3 a value
-// that the scale of colours (linear RGB, 256 steps) shows from `range.x` to `range.y`.
+// Draws a surface from the buffers that smoothing works on: attributes 0 anchor and 1 shift [mm],
+// whose sum is the position relative to the centre of the start's bounding box, 2 unit normal, 3 a
+// value mapped to the colour scale (linear RGB, 256 steps) from `range.x` to `range.y`.
 layout(location = 0) in vec4 anchor;
 layout(location = 1) in vec4 shift;
 layout(location = 2) in vec4 normal;

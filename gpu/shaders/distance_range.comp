@@ -1,5 +1,5 @@
 #version 430 core
-// The smallest and the largest of distances, none of them negative, by their bits.
+// Smallest and largest of some non-negative distances, compared by their bits.
 // 0 distances, 1 both
 #include "elements.glsl"
 

@@ -1,9 +1,9 @@
 #version 430 core
-// Multiplies weights by what a distance [mm] makes of them, as `kind` says: 0 staircases (thesis
-// Eqs. 5.5-5.6), scale x the largest distance, y beta_min; 1 neighbours, linear or from a margin on,
-// 2 neighbours, Eq. 5.2, scale x where weights begin to grow, y the largest distance less that,
+// Multiplies weights by a function of the distance [mm], selected by `kind`: 0 staircases (thesis
+// Eqs. 5.5-5.6), scale x the largest distance, y beta_min; 1 neighbours, linear or from a margin, 2
+// neighbours, Eq. 5.2, scale x distance from which weights grow, y the largest distance minus that,
 // z omega [1/mm]; 3 nothing.
-// 0 distances [mm], 1 weights, 2 what multiplies them anyway: 0 on caps, or other weights
+// 0 distances [mm], 1 weights, 2 constant factor: 0 on caps, or other weights
 #include "elements.glsl"
 
 layout(std430, binding = 0) readonly buffer Distances { float distances[]; };
@@ -14,7 +14,7 @@ layout(location = 2) uniform int kind;
 
 const float unreached = 3e38;
 
-// e^x - 1 without the loss of digits near 0.
+// e^x - 1 without loss of precision near 0.
 float grown(float x) { return abs(x) < 0.01 ? x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x / 24.0))) : exp(x) - 1.0; }
 
 float staircase_weight(float d) {

@@ -3,7 +3,7 @@
 layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
 layout(std430, binding = 7) buffer References { uint references[]; };
 
-// From a vertex to where another one was.
+// From a vertex to the original place of another one.
 vec3 way_to(uint v, uint u) {
     return (anchors[u].xyz - anchors[v].xyz) + (original_shifts[u].xyz - shifts[v].xyz);
 }
@@ -17,7 +17,7 @@ float squared_to(uint u, uint v) {
     return dot(way, way);
 }
 
-// Every step comes strictly closer, so it ends.
+// Every step comes strictly closer, so the loop ends.
 uint drifted(uint reference, uint v) {
     float closest = squared_to(reference, v);
     for (bool closer = true; closer;) {

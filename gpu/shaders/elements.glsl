@@ -1,4 +1,4 @@
-// One invocation an element; dispatches of more groups than one axis takes have rows of groups.
+// One invocation per element; if a dispatch has more groups than one axis allows, they form rows.
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint element_count;
 

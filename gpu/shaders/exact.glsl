@@ -1,5 +1,5 @@
-// The surface's own positions [mm] in double precision, 3 doubles each, for what a threshold decides.
-// Sums in the CPU's order.
+// The surface's own positions [mm] in double precision, 3 doubles each, for threshold decisions.
+// Sums are in the CPU's order.
 layout(std430, binding = 0) readonly buffer Exact { double exact[]; };
 
 dvec3 exact_at(uint v) { return dvec3(exact[3u * v], exact[3u * v + 1u], exact[3u * v + 2u]); }

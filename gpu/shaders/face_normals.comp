@@ -1,5 +1,5 @@
 #version 430 core
-// Normals of all triangles, as long as twice their areas [mm^2].
+// Normals of all triangles, with twice their area as length [mm^2].
 // 0 exact positions, 1 triangles, 2 out: normals, 3 doubles each
 #include "elements.glsl"
 #include "area_normal.glsl"

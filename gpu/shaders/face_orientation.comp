@@ -1,7 +1,7 @@
 #version 430 core
-// Orientation of every triangle in relation to the image stack (thesis Eq. 5.3): 0 where its normal is
-// parallel to the axis, 1 where it is orthogonal, -1 where it has none. In double precision and in
-// the CPU's order, so that the same vertices are staircases.
+// Orientation of every triangle relative to the image stack (thesis Eq. 5.3): 0 if its normal is
+// parallel to the axis, 1 if it is orthogonal, -1 if there is none. In double precision and in the
+// CPU's order, so that the same vertices are staircases.
 // 0 exact positions, 1 triangles, 2 out: orientations
 #include "elements.glsl"
 #include "area_normal.glsl"

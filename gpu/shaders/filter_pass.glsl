@@ -1,12 +1,12 @@
-// What the passes of all filters have in common. They move shifts (positions.glsl); w is the vertex'
-// weight in [0, 1], or -1 where it is fixed.
+// Common part of the passes of all filters. They move shifts (positions.glsl); w is the vertex's
+// weight in [0, 1], or -1 if it is fixed.
 #include "elements.glsl"
 #include "positions.glsl"
 
 layout(std430, binding = 1) buffer Target { vec4 target[]; };
 layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
 
-layout(location = 1) uniform vec4 factors;  // what they mean, the filter says
+layout(location = 1) uniform vec4 factors;  // their meaning depends on the filter
 layout(location = 2) uniform int onto;      // linear steps: 0 nothing, 1 source, 2 target
 layout(location = 3) uniform bool last;     // the last pass of an iteration
 layout(location = 4) uniform bool of_positions;  // linear steps: the source holds shifts
@@ -15,7 +15,7 @@ layout(location = 6) uniform int cell;        // 0 no constraint, 1 voxel, 2 dia
 layout(location = 7) uniform vec3 half_size;  // of the cell along its axes [mm]
 layout(location = 8) uniform mat3 cell_axes;  // unit columns
 
-// Where the cell around the vertex' start lets it go; only with a constraint.
+// Limits the move to the cell around the vertex's start; only with a constraint.
 vec3 inside_cell(vec3 origin, vec3 wanted) {
     vec3 moved = transpose(cell_axes) * (wanted - origin);
     if (cell == 1) {

@@ -1,8 +1,8 @@
 #version 430 core
-// Flat vertices, none of whose triangles turns away from their normal (smoothing/context/flat_areas.h): each is
-// its own label; the others get none.
-// 0 normals of the triangles, 1 out: unit normals, 2 out: labels, 3 offsets and 4 triangles at every
-// vertex
+// Flat vertices, none of whose triangles deviates from their normal
+// (smoothing/context/flat_areas.h): each is its own label; all others get none.
+// 0 normals of the triangles, 1 out: unit normals, 2 out: labels, 3 offsets and 4 triangles at
+// every vertex
 #include "elements.glsl"
 #include "parts.glsl"
 #include "part_planes.glsl"

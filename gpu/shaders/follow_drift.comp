@@ -1,5 +1,5 @@
 #version 430 core
-// Moves each vertex' reference on with it (thesis 6.4.1).
+// Moves each vertex's reference along with it (thesis 6.4.1).
 // 0 shifts, 3 offsets and 4 corners, 5 shifts of the original, 6 anchors, 7 references
 #include "elements.glsl"
 #include "positions.glsl"

@@ -1,8 +1,8 @@
 #version 430 core
-// A sweep over the open vertices: what reaches a neighbour reaches them, too, if it is within reach.
-// Where that is their nearest source in space they are open no longer. Neighbours may change at the
-// same time: whatever they have reaches them.
-// 0 exact positions, 1 sources in doubt, 2 nearest, 3 offsets and 4 neighbours, 7 what was found
+// A sweep over the open vertices: a source that reaches a neighbour reaches them, too, if it is
+// within reach. If it is their nearest source in space, they are no longer open. Neighbours may
+// change at the same time: any source they have reaches them.
+// 0 exact positions, 1 sources in doubt, 2 nearest, 3 offsets and 4 neighbours, 7 results
 #include "elements.glsl"
 #include "exact.glsl"
 #include "neighbours.glsl"

@@ -1,7 +1,7 @@
 #version 430 core
-// Joins the labels of flat vertices along edges: of two first vertices the one with the larger number
-// gets the other as its label. Whoever comes second looks again, from smaller numbers every time, so
-// that it ends, and parts are the same in whatever order.
+// Joins the labels of flat vertices along edges: of two first vertices, the one with the larger
+// number gets the other as its label. The loser of a race retries from a smaller number, so the
+// loop ends, and the parts do not depend on the order.
 // 2 labels, 3 offsets and 4 neighbours
 #include "elements.glsl"
 #include "parts.glsl"

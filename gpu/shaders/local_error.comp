@@ -1,8 +1,9 @@
 #version 430 core
 // Distance of each vertex from the original's triangles around its reference vertex, which first
-// drifts on with it (thesis 6.4.1, geometry/kernel/local_error.h), and each group's part of the sums.
-// 0 shifts, 1 out: distances [mm], 2 out: parts (x closest point, y planes, w largest), 3 offsets and
-// 4 corners, 5 shifts of the original, 6 anchors, 7 references
+// drifts along with it (thesis 6.4.1, geometry/kernel/local_error.h), and each group's part of the
+// sums.
+// 0 shifts, 1 out: distances [mm], 2 out: parts (x closest point, y planes, w largest), 3 offsets
+// and 4 corners, 5 shifts of the original, 6 anchors, 7 references
 #include "elements.glsl"
 #include "positions.glsl"
 #include "corners.glsl"
@@ -12,8 +13,8 @@
 
 layout(std430, binding = 1) writeonly buffer Distances { float distances[]; };
 layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
-layout(location = 1) uniform bool planes;  // y, the thesis' form, is wanted
-layout(location = 2) uniform bool follow;  // the references move on for good
+layout(location = 1) uniform bool planes;  // y, the thesis's form, is required
+layout(location = 2) uniform bool follow;  // the references move permanently
 
 const float infinite = 3e38;
 
@@ -35,8 +36,8 @@ RingPlace closest_in_ring(uint centre, uint v) {
     return place;
 }
 
-// Where the closest place is on the ring's outer edge, the surface beyond may be closer: then the
-// ring moves there. Every step comes strictly closer, so it ends.
+// If the closest point is on the ring's outer edge, the surface beyond may be closer: the ring then
+// moves there. Every step comes strictly closer, so the loop ends.
 float to_ring(uint reference, uint v) {
     RingPlace best = closest_in_ring(reference, v);
     for (bool closer = best.outer; closer;) {

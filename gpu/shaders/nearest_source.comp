@@ -1,9 +1,9 @@
 #version 430 core
-// Finds every vertex' nearest source in space and proves by a straight walk there that it reaches the
-// vertex (Eq. 5.5): all of such a walk is nearer to the source than the vertex. Where it does not
-// arrive, nothing is proven, and the vertex stays open.
-// 0 exact positions, 1 out: sources of open vertices that are in doubt (else none), 2 nearest, 3 offsets and
-// 4 neighbours, 5 beginnings of the cells, 6 sources by cell, 7 what was found
+// Finds every vertex's nearest source in space and proves by a straight walk to it that it reaches
+// the vertex (Eq. 5.5): every point of such a walk is closer to the source than the vertex. If the
+// walk does not arrive, nothing is proved, and the vertex stays open.
+// 0 exact positions, 1 out: sources in doubt of open vertices (else none), 2 nearest, 3 offsets and
+// 4 neighbours, 5 beginnings of the cells, 6 sources by cell, 7 results
 #include "elements.glsl"
 #include "exact.glsl"
 #include "neighbours.glsl"
@@ -23,18 +23,18 @@ struct Source {
     double squared;  // distance [mm^2]
 };
 
-// From a place to a cell along an axis, in cells, for certain not too large.
+// Lower bound of the distance from a place to a cell along an axis, in cells.
 double gap(double at, int cell) {
     return max(0.0lf, max(double(cell) - at, at - double(cell + 1)) - 1e-9lf * (1.0lf + abs(at)));
 }
 
-// Of two that lie equally near the one with the smaller number, whatever the order in a cell.
+// Of two equally near sources, the one with the smaller number, whatever the order in a cell.
 void look_at(uint source, dvec3 p, inout Source best) {
     double squared = squared_length(p - exact_at(source));
     if (squared < best.squared || (squared == best.squared && source < best.vertex)) best = Source(source, squared);
 }
 
-// Looks at all sources within a distance that is no larger than the best one's.
+// Visits all sources within a distance no larger than that of the best one.
 void look_around(dvec3 p, double distance, inout Source best) {
     dvec3 at = (p - origin) * per_length;
     double cells_far = distance * per_length * slack, squared_scale = per_length * per_length * slack;
@@ -54,7 +54,7 @@ void look_around(dvec3 p, double distance, inout Source best) {
     }
 }
 
-// Looks farther and farther, so that most vertices look at few cells.
+// Widens the search step by step, so that most vertices visit few cells.
 Source nearest_in_space(dvec3 p) {
     Source best = Source(none, reach * reach);
     for (double distance = 1.0lf / per_length; ; distance *= 2.0lf) {

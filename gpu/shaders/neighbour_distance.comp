@@ -1,8 +1,10 @@
 #version 430 core
-// Distance of every vertex to a neighbouring structure [mm], 0 inside of a closed one, where it is
-// smaller than what is known (smoothing/context/distance_weights.h): the nearest triangle in a tree of boxes,
-// and the winding number, of parts far away by their dipoles (geometry/kernel/distance_tree.h).
-// 0 shifts, 1 distances, 3 nodes, 4 corners of the triangles by leaf, 5 dipoles of the nodes, 6 anchors
+// Distance of every vertex to a neighbouring structure [mm], 0 inside a closed one, if it is
+// smaller than the known one (smoothing/context/distance_weights.h): the nearest triangle in a tree
+// of boxes, and the winding number, with distant parts as dipoles
+// (geometry/kernel/distance_tree.h).
+// 0 shifts, 1 distances, 3 nodes, 4 corners of the triangles by leaf, 5 dipoles of the nodes, 6
+// anchors
 #include "elements.glsl"
 #include "positions.glsl"
 #include "closest_point.glsl"
@@ -25,7 +27,7 @@ layout(std430, binding = 3) readonly buffer Nodes { Node nodes[]; };
 layout(std430, binding = 4) readonly buffer Corners { vec4 corners[]; };
 layout(std430, binding = 5) readonly buffer Dipoles { Dipole dipoles[]; };
 layout(location = 1) uniform bool closed;
-layout(location = 2) uniform float far_factor;  // how many radii away a node is far
+layout(location = 2) uniform float far_factor;  // distance, in radii, from which a node counts as distant
 
 const uint leaf = 0x80000000u;
 const float whole_sphere = 12.566370614359172;
@@ -35,7 +37,7 @@ float squared_to_box(vec3 p, uint at) {
     return dot(outside, outside);
 }
 
-// The nearer child first; a tree of 2^32 leaves would be 32 deep.
+// The nearer child first; a tree of 2^32 leaves would be 32 levels deep.
 float nearest_squared(vec3 p, float known) {
     uint stack[40];
     int depth = 0;

@@ -1,6 +1,6 @@
 #version 430 core
-// Lists the vertices that stay open with the nearest sources that are known to reach them.
-// 1 sources in doubt, 2 nearest, 5 out: vertices and sources, 7 what was found
+// Lists the vertices still open with the nearest sources known to reach them.
+// 1 sources in doubt, 2 nearest, 5 out: vertices and sources, 7 results
 #include "elements.glsl"
 #include "staircase_search.glsl"
 

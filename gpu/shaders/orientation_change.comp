@@ -1,6 +1,6 @@
 #version 430 core
-// Orientation change of every vertex (thesis Eq. 5.4): the largest less the smallest orientation of
-// the triangles around it; those without a normal do not count.
+// Orientation change of every vertex (thesis Eq. 5.4): the largest minus the smallest orientation
+// of the triangles around it; those without a normal are ignored.
 // 0 orientations, 1 out: changes, 3 offsets and 4 triangles at every vertex
 #include "elements.glsl"
 

@@ -1,5 +1,5 @@
 #version 430 core
-// Leaves out the vertices that lie outside of their part's plane, and counts the others.
+// Drops the vertices outside their part's plane, and counts the others.
 // 1 unit normals, 2 labels, 5 parts
 #include "elements.glsl"
 #include "parts.glsl"

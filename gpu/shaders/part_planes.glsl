@@ -1,11 +1,11 @@
-// Sums over the vertices of a part at its first vertex: their unit normals in whole numbers, so that
-// the order of adding does not count, and how many there are.
+// Sums over the vertices of a part, stored at its first vertex: their unit normals as integers, so
+// that the order of summation does not matter, and their number.
 struct Part {
-    uint low[3], high[3];  // words of a number of 64 bits
+    uint low[3], high[3];  // words of a 64-bit number
     uint size, inside;     // vertices, and those in the part's plane
 };
 
-layout(std430, binding = 1) buffer Normals { int normals[]; };  // 3 a vertex, 1 is 2^30
+layout(std430, binding = 1) buffer Normals { int normals[]; };  // 3 per vertex, 1 is 2^30
 layout(std430, binding = 5) buffer Parts { Part parts[]; };
 
 const double unit = 1073741824.0lf;

@@ -1,6 +1,6 @@
 #version 430 core
-// Labels every flat vertex by its part's first one and adds it to the part. A group's vertices of one
-// part are added first, for parts can be as large as the surface.
+// Labels every flat vertex with the first one of its part and adds it to the part. Vertices of one
+// part in a group are summed first, because parts can be as large as the surface.
 // 1 unit normals, 2 labels, 5 parts
 #include "elements.glsl"
 #include "parts.glsl"

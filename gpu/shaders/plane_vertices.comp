@@ -1,7 +1,7 @@
 #version 430 core
-// Counts, or lists with their labels, the vertices of those parts that are plane and may be enough for
-// a cap.
-// 2 labels, 5 parts, 6 how many and 7 out: which
+// Counts, or lists with their labels, the vertices of the parts that are planar and may be enough
+// for a cap.
+// 2 labels, 5 parts, 6 count and 7 out: list
 #include "elements.glsl"
 #include "parts.glsl"
 #include "part_planes.glsl"
@@ -15,7 +15,7 @@ void main() {
     uint v = element();
     if (v >= element_count || labels[v] == none) return;
     Part part = parts[labels[v]];
-    // a plane net of n vertices has fewer than 2 n triangles
+    // a planar net of n vertices has fewer than 2 n triangles
     if (2u * part.inside < part.size || 2u * part.size < smallest) return;
     uint place = atomicAdd(count, 1u);
     if (lists) listed[place] = uvec2(v, labels[v]);

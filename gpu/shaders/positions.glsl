@@ -1,6 +1,6 @@
-// Where vertices are [mm], relative to the centre of the start's bounding box: anchor + shift. Anchors
-// are the start in single precision and stay; shifts begin with what that left out, so that edges
-// keep all their digits.
+// Positions of vertices [mm], relative to the centre of the start's bounding box: anchor + shift.
+// Anchors are the start in single precision and constant; shifts begin with its rounding remainder,
+// so that edges keep all their digits.
 layout(std430, binding = 0) readonly buffer Shifts { vec4 shifts[]; };
 layout(std430, binding = 6) readonly buffer Anchors { vec4 anchors[]; };
 

@@ -1,5 +1,5 @@
-// Totals over a work group in a fixed order: x, y and z are summed up, of w the largest counts. The
-// included dispatch layout has 256 invocations; all of them must call group_total().
+// Totals over a work group in a fixed order: sums of x, y and z, maximum of w. The included
+// dispatch layout has 256 invocations; all of them must call group_total().
 shared vec4 totals[256];
 
 vec4 joined(vec4 a, vec4 b) { return vec4(a.xyz + b.xyz, max(a.w, b.w)); }

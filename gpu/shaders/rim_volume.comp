@@ -1,6 +1,6 @@
 #version 430 core
-// Volume between an open rim and the fan from its mean, which closes the surface in thought: one
-// group a rim, whose part is z of what follows the parts of the surface.
+// Volume between an open rim and the fan from its mean, which closes the surface virtually: one
+// group per rim; its part is z of the entries behind the parts of the surface.
 // 0 shifts, 2 parts, 3 offsets of the rims, 4 their vertices, 6 anchors
 #include "elements.glsl"
 #include "positions.glsl"

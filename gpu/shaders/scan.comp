@@ -1,13 +1,14 @@
 #version 430 core
-// Adds numbers up: each becomes the sum of those up to it in its group's 1024, and groups get their
-// sums; then, with these added up, each gets the sum of the groups before.
+// Inclusive prefix sum: each number becomes the sum of those up to it in its group's 1024, and the
+// groups' sums are stored; a second pass, after a prefix sum of these, adds the sum of the groups
+// before.
 // 0 numbers, 1 sums of the groups
 #include "elements.glsl"
 
 layout(std430, binding = 0) buffer Numbers { uint numbers[]; };
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
 layout(location = 1) uniform uint count;      // element_count is a quarter of it, rounded up
-layout(location = 2) uniform bool of_groups;  // the sums are added up
+layout(location = 2) uniform bool of_groups;  // second pass
 
 shared uint totals[256];
 

@@ -1,5 +1,5 @@
 #version 430 core
-// Writes values to some places.
+// Writes values to given places.
 // 0 places, 1 values, 2 out
 #include "elements.glsl"
 

@@ -1,5 +1,5 @@
 #version 430 core
-// Gives the start of a run other weights; what is fixed stays so.
+// Sets other weights at the start of a run; fixed vertices stay fixed.
 // 0 start, w the weight or -1, 1 weights
 #include "elements.glsl"
 

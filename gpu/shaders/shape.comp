@@ -14,7 +14,7 @@
 layout(std430, binding = 1) writeonly buffer Normals { vec4 normals[]; };
 layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
 
-// Component of the flow along the normal (Eq. 6.3); what is less than rounding of the areas is none.
+// Component of the flow along the normal (Eq. 6.3); 0 if it is below the rounding of the areas.
 float along(vec3 flow, vec3 normal, float doubled_areas) {
     float size = length(normal);
     return size > 1e-5 * doubled_areas ? dot(flow, normal) / size : 0.0;
@@ -33,7 +33,7 @@ vec4 shape_of(uint v) {
         if (share.across > 0.0) outward += angle_of(share.across, share.along) / share.across * share.normal;
     }
     float size = length(outward), curvature = 0.0;
-    // less is what rounding leaves of triangles that lie on each other: no normal
+    // less is the rounding remainder of coincident triangles: no normal
     outward = size > 1e-5 ? outward / size : vec3(0.0);
     if (area > 0.0 && !on_boundary(v)) curvature = mean_of(flow, outward, area);
     normals[v] = vec4(outward, curvature);

@@ -1,7 +1,8 @@
 #version 430 core
-// Counts the sources in every cell; then, with the counts added up, puts each in its place.
-// 0 exact positions, 2 nearest, 5 counts or ends of the cells, which become their beginnings, 6 out:
-// sources by cell
+// Counts the sources in every cell; in a second pass, after a prefix sum of the counts, puts each
+// in its place.
+// 0 exact positions, 2 nearest, 5 counts or ends of the cells, which become their beginnings, 6
+// out: sources by cell
 #include "elements.glsl"
 #include "exact.glsl"
 #include "cells.glsl"

@@ -1,7 +1,7 @@
 #version 430 core
-// Distance of every vertex to its nearest source [mm], and the largest of those that are settled.
-// 0 exact positions, 1 out: distances, 2 nearest, 5 sources of open vertices that are in doubt, 7 what
-// was found
+// Distance of every vertex to its nearest source [mm], and the largest settled one.
+// 0 exact positions, 1 out: distances, 2 nearest, 5 sources in doubt of open vertices, 7
+// results
 #include "elements.glsl"
 #include "exact.glsl"
 #include "staircase_search.glsl"

@@ -1,7 +1,7 @@
 #version 430 core
-// Makes every vertex its own nearest staircase whose orientation changes more than the threshold and
-// that is on no cap; all others know none yet.
-// 0 orientation changes, 1 free of caps: 0 on them, 2 out: nearest, 7 what was found
+// Makes every vertex whose orientation change exceeds the threshold, and that is on no cap, its own
+// nearest staircase; all others have none yet.
+// 0 orientation changes, 1 free of caps: 0 on them, 2 out: nearest, 7 results
 #include "elements.glsl"
 #include "staircase_search.glsl"
 

@@ -1,6 +1,6 @@
 #version 430 core
-// Joins the parts that the groups of another dispatch left, in one group; element_count is their
-// number, 0 the parts, 1 the results, of which number `place` is written.
+// Adds the parts of another dispatch's groups, in one group; element_count is their number, 0 the
+// parts, 1 the results, of which number `place` is written.
 #include "elements.glsl"
 #include "reduce.glsl"
 

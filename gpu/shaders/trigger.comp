@@ -1,7 +1,7 @@
 #version 430 core
-// From which iteration of curvature-triggered smoothing on each vertex may move: 0 where its mean
-// curvature at the start exceeds the trigger [1/mm], else as good as never. In double precision, so
-// that the same vertices start as on the CPU.
+// The iteration of curvature-triggered smoothing from which each vertex may move: 0 if its mean
+// curvature at the start exceeds the trigger [1/mm], else practically never. In double precision,
+// so that the same vertices start as on the CPU.
 // 0 exact positions, 2 start, 3 offsets and 4 corners, 7 first iterations
 #include "elements.glsl"
 #include "exact.glsl"

@@ -1,7 +1,7 @@
 #version 430 core
-// An iteration of curvature-triggered smoothing (smoothing/filters/curvature_triggered.h), factors.x lambda.
-// Vertices join in one iteration after their neighbours: whatever a neighbour writes in this one is
-// not yet below `iteration`, so that their order does not count.
+// An iteration of curvature-triggered smoothing (smoothing/filters/curvature_triggered.h),
+// factors.x lambda. Vertices join one iteration after their neighbours: a value that a neighbour
+// writes in this iteration is not yet below `iteration`, so the order does not matter.
 // 0 source, 1 target, 2 start, 3 offsets and 4 neighbours, 5 umbrellas of the anchors, 7 first
 // iterations
 #include "filter_pass.glsl"

@@ -69,7 +69,7 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
         throw InvalidInput(
             "flow conditions: the model has " + std::to_string(summary.inlets.size()) +
             " inlet(s) and " + std::to_string(summary.outlets) +
-            " outlet(s), and needs one of each: cut the vessel's ends with `clip-opening`");
+            " outlet(s), but needs one of each: cut the vessel's ends with `clip-opening`");
     for (InletFlow& inlet : summary.inlets) {
         inlet.mean_velocity = parameters.flow / total_area;  // cm^3/s by mm^2 is m/s
         inlet.reynolds =
@@ -81,9 +81,9 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
                      inlet.name, inlet.reynolds));
         if (inlet_bend > kLargestInletBend)
             summary.warnings.push_back(
-                text("%s sits in a bend (the centerline turns by %.0f degrees within two "
-                     "diameters): the inflow profile is not that of a straight vessel; clip "
-                     "elsewhere or extrude the opening",
+                text("%s is in a bend (the centerline turns by %.0f degrees within two diameters): "
+                     "the inflow profile is not that of a straight vessel; clip elsewhere or "
+                     "extrude the opening",
                      inlet.name, inlet_bend));
     }
     return summary;

@@ -13,12 +13,11 @@ enum class InflowProfile { Plug, Parabolic };
 struct CfdParameters {
     double density = 1000.0;  ///< [kg/m^3], > 0
     double viscosity = 4e-3;  ///< dynamic [Pa s], > 0
-    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; shared by their areas
-    InflowProfile profile =
-        InflowProfile::Parabolic;  ///< Parabolic: that of the long straight duct
-    int iterations = 2000;         ///< most SIMPLE iterations
-    double residual = 1e-5;        ///< initial residuals of p and U that end the run [-]
-    int processes = 2;             ///< parts made by decomposePar
+    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; distributed by area
+    InflowProfile profile = InflowProfile::Parabolic;  ///< Parabolic: as in a long straight duct
+    int iterations = 2000;                             ///< largest number of SIMPLE iterations
+    double residual = 1e-5;  ///< initial residuals of p and U at which the run stops [-]
+    int processes = 2;       ///< parts made by decomposePar
 };
 
 /// One inlet under the given flow.
@@ -36,12 +35,12 @@ struct FlowSummary {
     std::vector<std::string> warnings;  ///< not laminar; inlet in a bend
 };
 
-/// Above this the flow in a straight pipe need not stay laminar (Reynolds 1883: 2000-2300).
+/// Above this the flow in a straight pipe may become turbulent (Reynolds 1883: 2000-2300).
 inline constexpr double kLaminarReynolds = 2000.0;
 /// A centerline that turns more than this within two diameters of the inlet disturbs the profile.
 inline constexpr double kLargestInletBend = 15.0;  // [deg]
 
-/// What the parameters mean on this surface.
+/// The flow that the parameters imply on this surface.
 /// \param inlet_bend turn of the centerline within two diameters of the inlet [deg]; 0: unknown
 /// \throw InvalidInput if there is no inlet or no outlet, or a parameter is out of range
 [[nodiscard]] FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,

@@ -61,7 +61,8 @@ struct CaseWriter {
     [[nodiscard]] std::string decomposition() const;
 };
 
-// Faces along the mean inward normal, the mean velocity exact although a rim is never quite flat.
+// Directed along the mean inward normal, with an exact mean velocity although a rim is never quite
+// flat.
 void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
     const Vec3 outward = area_vector(inlet);
     const Vec3 inward = -outward.normalized();
@@ -69,7 +70,7 @@ void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
     std::vector<double> profile(triangles.size(), 1.0);
     if (parameters.profile == InflowProfile::Parabolic)
         profile = developed_profile(mesh.points, triangles);
-    double flux = 0.0;  // per unit of mean velocity [mm^2]
+    double flux = 0.0;  // per mean velocity [mm^2]
     for (std::size_t t = 0; t < triangles.size(); ++t)
         flux -= profile[t] * 0.5 * area_normal(mesh.points, triangles[t]).dot(inward);
     const double scale = mean_velocity() * outward.norm() / flux;
@@ -184,8 +185,8 @@ std::string turbulence() {
            "simulationType  laminar;\n";
 }
 
-// Up to here [deg] the full non-orthogonal correction holds, and one pressure solution an iteration
-// is enough.
+// Up to this angle [deg] the full non-orthogonal correction is stable, and one pressure solution
+// per iteration suffices.
 constexpr double kMildNonOrthogonality = 65.0;
 
 std::string schemes(double largest_non_orthogonality) {
@@ -320,11 +321,11 @@ void make_folders(const fs::path& folder) {
                            !(fs::is_directory(folder, error) && fs::is_empty(folder, error));
     if (something && !fs::exists(folder / "system" / "controlDict", error))
         throw IoError("cannot write the OpenFOAM case: " + folder.filename().string() +
-                      " exists and is no case; give another folder");
+                      " exists and is not a case; give another folder");
     for (const char* part : {"0", "constant/polyMesh", "system"}) {
         fs::create_directories(folder / part, error);
         if (error)
-            throw IoError("cannot make the folder " + folder.filename().string() + "/" + part +
+            throw IoError("cannot create the folder " + folder.filename().string() + "/" + part +
                           ": " + error.message());
     }
 }
@@ -340,7 +341,7 @@ void write_script(const fs::path& path, bool parallel) {
 
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters) {
-    (void)flow_summary(boundary_surface(mesh), parameters);  // throws what is wrong with either
+    (void)flow_summary(boundary_surface(mesh), parameters);  // throws if either is wrong
     CaseWriter writer{mesh, parameters, mesh_faces(mesh), {}};
     writer.patches = foam_patches(mesh, writer.faces);
     make_folders(folder);
@@ -357,7 +358,7 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     write_script(folder / "Allrun.parallel", true);
     write_file(folder / "README", readme(mesh, parameters));
     write_file(folder / "system/controlDict",
-               writer.control());  // last: what makes it a case
+               writer.control());  // last: it makes the folder a case
 }
 
 }  // namespace vesselbench

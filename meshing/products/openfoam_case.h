@@ -7,16 +7,16 @@
 
 namespace vesselbench {
 
-/// Writes a complete OpenFOAM case (v1912 and near it) for simpleFoam: constant/polyMesh in metres,
+/// Writes a complete OpenFOAM case (v1912 and similar) for simpleFoam: constant/polyMesh in metres,
 /// patches `wall` (type wall) and the openings (type patch) by their names, fields 0/U and 0/p,
 /// laminar Newtonian blood, second-order schemes, residual control, decomposeParDict, and the
-/// scripts Allrun and Allrun.parallel. Walls do not slip; at the outlets p = 0 (kinematic) and what
-/// flows back comes in at rest (inletOutlet); at the inlet the velocity is fixed, plug or
-/// parabolic, with exactly the wanted flow. simpleFoam writes mean pressure and flow of each
-/// opening, and the wall shear stress, to postProcessing/ and the last time folder. An existing
-/// case in the folder is replaced (its results stay where they are).
+/// scripts Allrun and Allrun.parallel. Walls are no-slip; at the outlets p = 0 (kinematic) and
+/// backflow enters at rest (inletOutlet); at the inlet the velocity is fixed, plug or parabolic,
+/// with exactly the given flow. simpleFoam writes mean pressure and flow of each opening, and the
+/// wall shear stress, to postProcessing/ and the last time folder. An existing case in the folder
+/// is replaced (its results are kept).
 /// \throw InvalidInput if the mesh has no inlet or outlet; IoError if a file cannot be written, or
-///        the folder holds something that is not a case
+///        the folder contains something that is not a case
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters);
 

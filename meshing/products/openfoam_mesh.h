@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-/// A patch as polyMesh/boundary lists it.
+/// A patch as listed in polyMesh/boundary.
 struct FoamPatch {
     std::string name;
     PatchKind kind = PatchKind::Wall;
@@ -18,7 +18,7 @@ struct FoamPatch {
     std::size_t index = 0;  ///< in VolumeMesh::patches
 };
 
-/// The file header that every OpenFOAM file begins with.
+/// The header of every OpenFOAM file.
 [[nodiscard]] std::string foam_header(const std::string& kind, const std::string& location,
                                       const std::string& object, const std::string& note = {});
 

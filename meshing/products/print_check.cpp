@@ -16,7 +16,8 @@ namespace {
 
 // Facing: the normals differ by more than 120 degrees.
 constexpr double kFacing = -0.5;
-// A half circle's arc is 1.57 times its opening: the bottom of a fold. Two branches are farther.
+// A half circle's arc is 1.57 times its opening: the bottom of a fold. Two branches are farther
+// apart.
 constexpr double kDetour = 3.0;
 
 struct Candidate {
@@ -34,13 +35,13 @@ std::vector<std::uint8_t> on_openings(const Surface& surface) {
     return flags;
 }
 
-// Along sign * normal from every wall vertex to the wall that faces it; nearest first.
+// Distances along sign * normal from every wall vertex to the opposite wall; nearest first.
 std::vector<Candidate> facing_walls(const Surface& surface, const SurfaceDistance& search,
                                     double sign) {
     const Positions normals = vertex_normals(surface);
     const auto skipped = on_openings(surface);
     const double lift =
-        1e-6 * bounds(surface).diagonal();  // off the triangles at the vertex itself
+        1e-6 * bounds(surface).diagonal();  // away from the triangles at the vertex itself
     std::vector<std::optional<Candidate>> found(surface.vertex_count());
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t v) {
         if (skipped[v] != 0 || normals[v].squaredNorm() < 0.5) return;
@@ -72,7 +73,7 @@ private:
     std::map<VertexId, double> known_;
 };
 
-// True if a way along the edges from `from` to one of the triangle's corners is shorter than
+// True if a path along the edges from `from` to one of the triangle's corners is shorter than
 // `reach`.
 bool near_along_surface(const Surface& surface, VertexId from, const Triangle& target,
                         double reach) {

@@ -9,14 +9,14 @@
 
 namespace vesselbench {
 
-/// Two places of the surface that face each other.
+/// Two opposite places of the surface.
 struct FacingPlaces {
     double distance = 0.0;     ///< [mm]
     Vec3 from = Vec3::Zero();  ///< [mm]
     Vec3 to = Vec3::Zero();    ///< [mm]
 };
 
-/// What a printer's operator wants to know of a model.
+/// The properties of a model that matter for printing.
 struct PrintCheck {
     std::vector<SurfaceProblem> problems;  ///< none of them an obstacle: watertight and printable
     Vec3 size = Vec3::Zero();              ///< extent along x, y, z [mm]
@@ -29,8 +29,8 @@ struct PrintCheck {
 };
 
 /// Checks a closed surface for printing. Distances are measured along the normals of the wall's
-/// vertices to the wall that faces them within 60 degrees; rims and caps are left out. Walls whose
-/// shortest way along the surface is below three times their distance belong to one fold (the
+/// vertices to the wall that faces them within 60 degrees; rims and caps are excluded. Walls whose
+/// shortest path along the surface is below three times their distance belong to one fold (the
 /// crotch of a furcation), not to two branches.
 /// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] PrintCheck print_check(const Surface& surface, const Progress& progress = {});

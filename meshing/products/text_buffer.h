@@ -6,7 +6,7 @@
 
 namespace vesselbench {
 
-/// Text that is put together fast; numbers do not depend on the locale.
+/// A fast text builder; numbers do not depend on the locale.
 class TextBuffer {
 public:
     TextBuffer& operator<<(std::string_view text) {

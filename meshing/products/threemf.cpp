@@ -59,11 +59,11 @@ void require_solid(const Surface& surface) {
                            "; run `repair` first");
     if (state.closed) return;
     const auto loops = surface.topology->boundary_loops();
-    throw InvalidInput(
-        "3MF: a print needs a closed surface, this one has " + counted(loops.size(), "hole") +
-        ", the first near " + place_text(surface.points()[loops.front().front()]) +
-        "; `clip-opening` caps a vessel end, `fill-hole` closes one hole, `repair` with "
-        "close_holes_up_to closes all up to a size");
+    throw InvalidInput("3MF: a print needs a closed surface, but this one has " +
+                       counted(loops.size(), "hole") + ", the first near " +
+                       place_text(surface.points()[loops.front().front()]) +
+                       "; `clip-opening` caps a vessel end, `fill-hole` closes a single hole, "
+                       "`repair` with close_holes_up_to all up to a size");
 }
 
 }  // namespace

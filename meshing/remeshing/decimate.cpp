@@ -19,16 +19,16 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kMostAttempts = 6;  // at a result without new crossings
+constexpr int kMostAttempts = 6;  // to avoid new crossings
 
 void require_sound(const Surface& surface, const DecimateParameters& parameters,
                    std::span<const double> weights) {
     if (surface.empty()) throw InvalidInput("there is no surface to decimate");
     require_finite(surface.points());
     if (!parameters.triangles && !parameters.max_error)
-        throw InvalidInput("decimation needs a number of triangles or a largest error to stop at");
+        throw InvalidInput("decimation needs a number of triangles or a largest error as a limit");
     if (parameters.triangles && *parameters.triangles == 0)
-        throw InvalidInput("triangles = 0 leaves no surface: ask for 1 or more");
+        throw InvalidInput("triangles = 0 leaves no surface: give at least 1");
     if (const auto error = parameters.max_error; error && !(*error > 0.0 && std::isfinite(*error)))
         throw InvalidInput("max_error = " + std::to_string(*error) + " must be above 0 mm");
     if (!weights.empty() && weights.size() != surface.vertex_count())
@@ -36,7 +36,7 @@ void require_sound(const Surface& surface, const DecimateParameters& parameters,
                            std::to_string(surface.vertex_count()) + " vertices");
     for (const double weight : weights)
         if (!(weight >= 0.0 && weight <= 1.0))
-            throw InvalidInput("a weight of " + std::to_string(weight) + " is outside of [0, 1]");
+            throw InvalidInput("a weight of " + std::to_string(weight) + " is outside [0, 1]");
 }
 
 /// A ball around two triangles that cross.
@@ -60,8 +60,8 @@ std::vector<Place> crossing_places(const Surface& surface, const Progress& progr
     return places;
 }
 
-/// Where the result crosses itself and the source does not.
-/// \param old where the source does; looked for when it is needed first
+/// The places where the result crosses itself and the source does not.
+/// \param old the places where the source does; found on first use
 std::vector<Place> new_crossings(const Surface& source, const Surface& result,
                                  std::optional<std::vector<Place>>& old, const Progress& progress) {
     std::vector<Place> places = crossing_places(result, progress);
@@ -87,7 +87,7 @@ void lock_around(const Surface& source, const std::vector<Place>& places, double
     }
 }
 
-/// One run; the vertices of `locked` stay.
+/// One run; the vertices in `locked` are kept.
 Surface decimated_once(const Surface& source, const DecimateParameters& parameters,
                        std::span<const double> weights, std::span<const std::uint8_t> locked,
                        DecimateReport& report, const Progress& progress) {
@@ -102,7 +102,7 @@ Surface decimated_once(const Surface& source, const DecimateParameters& paramete
     return decimater.result(source.patches);
 }
 
-/// Where walls come to cross, the source's triangles are kept, in wider and wider balls.
+/// Where walls start to cross, the source's triangles are kept, in increasing balls.
 Decimated decimated_apart(const Surface& surface, const DecimateParameters& parameters,
                           std::span<const double> weights, const Progress& progress) {
     DecimateReport report{.triangles_before = surface.triangle_count()};
@@ -110,11 +110,11 @@ Decimated decimated_apart(const Surface& surface, const DecimateParameters& para
     std::optional<std::vector<Place>> old;
     Surface result;
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-        // How many are needed is not known: each takes half of what is left.
+        // Their number is unknown: each takes half of the remaining progress.
         const Progress own =
             progress.part(1.0 - std::exp2(-attempt), 1.0 - std::exp2(-attempt - 1));
         result = decimated_once(surface, parameters, weights, locked, report, own.part(0.0, 0.9));
-        own.report(0.9, "looking for crossings");
+        own.report(0.9, "finding crossings");
         const std::vector<Place> places = new_crossings(surface, result, old, own.silent());
         report.vertices_locked = std::ranges::count(locked, 1);
         report.crossings_left = places.size();
@@ -130,12 +130,12 @@ Decimated decimated_apart(const Surface& surface, const DecimateParameters& para
 Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
                    std::span<const double> weights, const Progress& progress) {
     require_sound(surface, parameters, weights);
-    constexpr double kBelow = 0.97;  // of what the last overrun asks for
+    constexpr double kBelow = 0.97;  // of the limit implied by the last overrun
     DecimateParameters used = parameters;
     Decimated decimated = decimated_apart(surface, used, weights, progress.part(0.0, 0.5));
     for (int attempt = 0; parameters.max_error && attempt < kMostAttempts; ++attempt) {
-        // The bound is kept at samples of triangles on their way: what lies between them is seen
-        // in the end.
+        // The bound is enforced at samples of the triangles; the surface between them is checked at
+        // the end.
         progress.report(1.0 - std::exp2(-attempt - 1), "measuring the error");
         if (!(area(surface) > 0.0 && area(decimated.surface) > 0.0)) break;
         const double largest = compare_with_reference(decimated.surface, surface).hausdorff;

@@ -11,48 +11,48 @@ namespace vesselbench {
 
 namespace {
 
-/// Share of the squared distances from the vertices that have become one, beside those from the
-/// planes [-]: where planes leave a choice the middle is taken, and short edges go first.
+/// Weight of the squared distances from the merged vertices relative to those from the planes [-]:
+/// where planes are ambiguous the middle is taken, and short edges collapse first.
 constexpr double kPoints = 1e-5;
 
-/// Weights below this count as this [-]. With much less, what is free is ruined to keep the rest,
-/// and takes the rest's border with it.
+/// Weights below this are raised to it [-]. Much smaller ones ruin the free part to preserve the
+/// rest, and the rest's border with it.
 constexpr double kLeastWeight = 0.1;
 
-/// At weight 0 a collapse costs at least as much as moving its ends by a third of the edge would
-/// cost at weight 1: so even plane parts stay until then.
+/// At weight 0 a collapse costs at least as much as moving its ends by a third of the edge at
+/// weight 1, so that even planar parts are kept until then.
 constexpr double kKept = 0.1;
 
 /// Finite penalties for triangles without area [-].
 constexpr double kLeastDivisor = 1e-3;
 
-/// A triangle's normal may turn so far in one collapse (cosine).
+/// Largest turn of a triangle's normal in one collapse (cosine).
 constexpr double kLeastCosine = 0.2;
 
-/// The normal of a triangle worse than this is an accident; that of the vertex counts [-].
+/// The normal of a triangle worse than this is arbitrary; the vertex's is used [-].
 constexpr double kNoNormal = 0.02;
 
-/// Triangles worse than this are made only of worse ones; 1 is equilateral [-].
+/// Triangles worse than this are only made from worse ones; 1 is equilateral [-].
 constexpr double kLeastShape = 0.15;
 
-/// How much dearer a collapse is that makes bad triangles, 1 + kShape (1 / shape - 1), or turns
-/// normals, 1 + kTurn (1 - cosine). Both were tried on real surfaces: the mean distance and the
-/// largest one fall together with the skewness.
+/// Penalty factors for collapses that create bad triangles, 1 + kShape (1 / shape - 1), or turn
+/// normals, 1 + kTurn (1 - cosine). Both were tuned on real surfaces: the mean and the largest
+/// distance decrease together with the skewness.
 constexpr double kShape = 0.05;
 constexpr double kTurn = 50.0;
 
-/// Edges of borders count this many times: on a rim, few vertices carry an opening's shape.
+/// Weight of border edges: on a rim, few vertices define an opening's shape.
 constexpr double kBorder = 3.0;
 
-/// A place is thrown away that is farther from the edge than it is long times this.
+/// A place farther from the edge than this many edge lengths is rejected.
 constexpr double kFarthest = 2.0;
 
-/// Where all triangles have no area to speak of, a collapse is this much dearer at most (inverse).
+/// Largest penalty (inverse) if all triangles are nearly degenerate.
 constexpr double kLeastShare = 1e-6;
 
 constexpr std::size_t kReportEvery = 1024;  // collapses
 
-/// Of the angle between two directions; 1 where one of them is none.
+/// Cosine of the angle between two directions; 1 if one of them is zero.
 double cosine(const Vec3& a, const Vec3& b) {
     const double lengths = a.norm() * b.norm();
     return lengths > 0.0 ? a.dot(b) / lengths : 1.0;
@@ -66,7 +66,8 @@ double importance_of(const Triangle& triangle, std::span<const double> weights) 
     return 1.0 / (weight * weight);
 }
 
-/// Calls visit(u, w) for the corners that a survivor of a collapse of a and b has beside a.
+/// Calls visit(u, w) for the other two corners of the triangles at a that survive a collapse of a
+/// and b.
 template <class Visit>
 void for_each_survivor(const EditMesh& mesh, VertexId a, VertexId b, const Visit& visit) {
     mesh.for_each_leaving(a, [&](EditMesh::HalfEdge k) {
@@ -118,7 +119,7 @@ void Decimater::add_quadrics(const Surface& source, std::span<const double> weig
     }
 }
 
-/// Planes through an edge of a border, upright on its triangle, hold the border in place.
+/// Planes through a border edge, perpendicular to its triangle, hold the border in place.
 void Decimater::add_border(HalfEdge h, double importance) {
     if (!mesh_.is_feature(h)) return;
     const VertexId a = mesh_.origin(h), b = mesh_.target(h);
@@ -137,7 +138,7 @@ bool Decimater::is_current(const Entry& entry) const {
            stamps_[mesh_.target(h)] == entry.target_stamp;
 }
 
-/// Where the vertex goes that a and b become, neither of them on a border.
+/// The place of the vertex merged from a and b, neither of them on a border.
 Vec3 Decimater::place_inside(VertexId a, VertexId b, const Quadric& sum) const {
     const Vec3 middle = 0.5 * (mesh_.points[a] + mesh_.points[b]);
     const Vec3 least = centre_ + sum.least(middle - centre_);
@@ -158,7 +159,7 @@ std::optional<Decimater::Collapse> Decimater::best_collapse(HalfEdge h) {
         const Vec3 place = place_inside(a, b, sum);
         return Collapse{h, place, sum.at(place - centre_)};
     }
-    // What stays of a border does not move, so that it stays on the curve.
+    // The remaining vertices of a border do not move, so that they stay on the curve.
     if (border_[a] != 0 && border_[b] != 0 && !mesh_.is_feature(h)) return std::nullopt;
     if (border_[a] == 0) return onto(h);
     if (border_[b] == 0) return onto(g);
@@ -168,7 +169,7 @@ std::optional<Decimater::Collapse> Decimater::best_collapse(HalfEdge h) {
     return to_b ? back : there;
 }
 
-/// The direction that triangle t at v faces.
+/// The direction of triangle t at v.
 Vec3 Decimater::facing(TriangleId t, VertexId v) const {
     const Vec3 &a = mesh_.points[mesh_.origin(3 * t)], &b = mesh_.points[mesh_.origin(3 * t + 1)],
                &c = mesh_.points[mesh_.origin(3 * t + 2)];
@@ -198,8 +199,8 @@ bool Decimater::folds(const Collapse& collapse) const {
     return found || (worst_after < kLeastShape && worst_after < worst_before);
 }
 
-/// What the quadrics do not see: bad triangles, turned normals, and that a vertex of tiny triangles
-/// carries large ones as well.
+/// Penalties beyond the quadrics: bad triangles, turned normals, and a vertex of tiny triangles
+/// that also belongs to large ones.
 double Decimater::dearness(const Collapse& collapse) const {
     const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
     double worst = 1.0, least_cosine = 1.0, area = 0.0;
@@ -285,7 +286,7 @@ bool Decimater::try_collapse(const Entry& entry) {
     return true;
 }
 
-/// True if the bound allows the collapse, which it then counts as done.
+/// True if the bound permits the collapse, which it then records.
 bool Decimater::stays_near(const Collapse& collapse) {
     const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
     std::vector<TriangleId> gone;
@@ -302,7 +303,7 @@ bool Decimater::stays_near(const Collapse& collapse) {
     return true;
 }
 
-/// \return whether anything has collapsed
+/// \return true if anything has collapsed
 bool Decimater::work_off_queue(std::size_t triangles, const Progress& progress) {
     std::size_t visited = 0;
     bool changed = false;
@@ -319,7 +320,7 @@ bool Decimater::work_off_queue(std::size_t triangles, const Progress& progress) 
 }
 
 void Decimater::run(std::size_t triangles, const Progress& progress) {
-    // What was refused in one round may be allowed once its neighbours have changed.
+    // A collapse rejected in one round may be permitted once its neighbours have changed.
     do push_all();
     while (work_off_queue(triangles, progress) && triangles_ > triangles);
 }

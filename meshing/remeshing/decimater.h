@@ -16,18 +16,18 @@ namespace vesselbench {
 /// A surface under decimation: its mesh, a quadric for each vertex, and the queue of edges.
 class Decimater {
 public:
-    /// \param weights as decimate() takes them
-    /// \param locked 1 at vertices that stay as they are, #V; empty: none
+    /// \param weights as for decimate()
+    /// \param locked 1 at vertices to keep, #V; empty: none
     /// \param bound may be null
     Decimater(const Surface& source, std::span<const double> weights,
               std::span<const std::uint8_t> locked, ErrorBound* bound);
 
-    /// Collapses edges until no more than `triangles` are left, or none may be collapsed.
+    /// Collapses edges until at most `triangles` are left, or no edge may be collapsed.
     void run(std::size_t triangles, const Progress& progress);
 
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
 
-    /// Vertices of weight 0 that are gone or have moved.
+    /// Vertices of weight 0 that were removed or moved.
     [[nodiscard]] std::size_t kept_vertices_lost() const { return kept_lost_; }
 
     /// The decimated surface with the source's patches; attributes are not set.
@@ -36,20 +36,20 @@ public:
 private:
     using HalfEdge = EditMesh::HalfEdge;
 
-    /// The origin of `edge` goes into its target, which goes to `place`.
+    /// Merges the origin of `edge` into its target, which moves to `place`.
     struct Collapse {
         HalfEdge edge = EditMesh::kNone;
         Vec3 place = Vec3::Zero();
         double cost = 0.0;
     };
 
-    /// An edge in the queue, as of the time when its ends had these stamps.
+    /// An edge in the queue, valid while its ends have these stamps.
     struct Entry {
         double cost = 0.0;
         HalfEdge edge = EditMesh::kNone;
         std::uint32_t origin_stamp = 0, target_stamp = 0;
 
-        /// For a queue whose top is what comes first.
+        /// For a queue with the first edge on top.
         bool operator<(const Entry& other) const;
     };
 
@@ -74,15 +74,15 @@ private:
 
     EditMesh mesh_;
     std::vector<Quadric> quadrics_;      ///< by vertex
-    std::vector<double> areas_;          ///< that has become one vertex [mm^2], by vertex
-    std::vector<std::uint8_t> keep_;     ///< 1 where a weight is 0 of what has become one vertex
-    std::vector<std::uint8_t> intact_;   ///< 1 where the weight is 0 and the vertex as it was
+    std::vector<double> areas_;          ///< merged into one vertex [mm^2], by vertex
+    std::vector<std::uint8_t> keep_;     ///< 1 if a weight of the merged vertices is 0
+    std::vector<std::uint8_t> intact_;   ///< 1 if the weight is 0 and the vertex unchanged
     std::vector<std::uint8_t> locked_;   ///< by vertex
     std::vector<std::uint8_t> border_;   ///< 1 at vertices on borders of patches, by vertex
-    std::vector<std::uint32_t> stamps_;  ///< how often a vertex' quadric has changed
+    std::vector<std::uint32_t> stamps_;  ///< number of changes of a vertex's quadric
     std::priority_queue<Entry> queue_;
     ErrorBound* bound_ = nullptr;
-    Vec3 centre_ = Vec3::Zero();  ///< of the points, which are kept relative to it
+    Vec3 centre_ = Vec3::Zero();  ///< of the points, which are stored relative to it
     std::size_t triangles_ = 0;
     std::size_t start_triangles_ = 0;
     std::size_t kept_lost_ = 0;

@@ -21,7 +21,7 @@ EditMesh::EditMesh(const Surface& surface)
       first_hole_(static_cast<std::uint32_t>(surface.patches.size())) {
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const auto& [a, b, c] = surface.triangles()[t];
-        if (a == b || b == c || c == a) refuse("a triangle names a vertex twice", points[a]);
+        if (a == b || b == c || c == a) refuse("a triangle uses a vertex twice", points[a]);
         add_triangle(a, b, c, (*surface.patch_labels)[t]);
     }
     find_twins(surface);
@@ -51,7 +51,7 @@ void EditMesh::find_twins(const Surface& surface) {
         for (const TriangleId t : fans.row(b))
             for (HalfEdge g = 3 * t; g < 3 * t + 3; ++g) {
                 if (g != h && origin(g) == a && target(g) == b)
-                    refuse("triangles overlap or are not oriented alike", points[a]);
+                    refuse("triangles overlap or have inconsistent orientations", points[a]);
                 if (origin(g) != b || target(g) != a) continue;
                 if (twin_[h] != kNone && twin_[h] != g)
                     refuse("an edge has more than two triangles", points[a]);
@@ -62,7 +62,7 @@ void EditMesh::find_twins(const Surface& surface) {
 
 void EditMesh::fill_holes() {
     const std::size_t count = origin_.size();
-    std::vector<HalfEdge> open_at(points.size(), kNone);  // boundary half-edge that leaves a vertex
+    std::vector<HalfEdge> open_at(points.size(), kNone);  // boundary half-edge leaving a vertex
     for (HalfEdge h = 0; h < count; ++h) {
         if (twin_[h] != kNone) continue;
         if (open_at[origin(h)] != kNone) refuse("two open boundaries touch", points[origin(h)]);
@@ -91,7 +91,7 @@ void EditMesh::require_single_fans() const {
     for (const VertexId v : origin_) ++corners[v];
     for (VertexId v = 0; v < points.size(); ++v)
         if (leaving_[v] != kNone && valence(v) != corners[v])
-            refuse("two parts of the surface touch in one vertex", points[v]);
+            refuse("two parts of the surface touch at one vertex", points[v]);
 }
 
 int EditMesh::valence(VertexId v) const {
@@ -167,8 +167,8 @@ bool EditMesh::can_collapse(HalfEdge h) {
     if (features > 2 || (features > 0 && !is_feature(h))) return false;
     const VertexId a = origin(h), b = target(h), c = apex(h), d = apex(g);
     if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
-    // The neighbours that both ends share must be c and d alone. Marks find them in one walk around
-    // either end; hubs of fans have hundreds of neighbours.
+    // The only shared neighbours of both ends must be c and d. Marks find them in one walk around
+    // each end; hubs of fans have hundreds of neighbours.
     marked_.resize(points.size(), kNone);
     for_each_leaving(a, [&](HalfEdge k) { marked_[target(k)] = a; });
     int common = 0;

@@ -12,9 +12,9 @@ namespace vesselbench {
 /// (i + 1) % 3.
 ///
 /// The mesh is always closed: each boundary loop of an open surface is filled with triangles to one
-/// virtual vertex, which form a hole patch of their own and have no geometry. An edge is a
-/// *feature* where the patches of its two triangles differ; so rims of caps and open boundaries are
-/// features, and an edit that keeps patches keeps them.
+/// virtual vertex, which form a separate hole patch and have no geometry. An edge is a *feature* if
+/// the patches of its two triangles differ: rims of caps and open boundaries are features, and an
+/// edit that preserves patches preserves them.
 class EditMesh {
 public:
     using HalfEdge = std::uint32_t;
@@ -37,19 +37,21 @@ public:
 
     [[nodiscard]] HalfEdge twin(HalfEdge h) const { return twin_[h]; }
 
-    /// One half-edge that leaves v; kNone where v is removed.
+    /// One half-edge leaving v; kNone if v is removed.
     [[nodiscard]] HalfEdge leaving(VertexId v) const { return leaving_[v]; }
 
-    /// The half-edge that leaves the same vertex and lies clockwise of h.
+    /// The half-edge leaving the same vertex that is clockwise of h.
     [[nodiscard]] HalfEdge around(HalfEdge h) const { return twin_[prev(h)]; }
 
     [[nodiscard]] std::size_t half_edge_count() const { return origin_.size(); }
 
     [[nodiscard]] std::size_t triangle_count() const {
         return patch_.size();
-    }  ///< removed ones too
+    }  ///< including removed ones
 
-    [[nodiscard]] std::size_t vertex_count() const { return points.size(); }  ///< removed ones too
+    [[nodiscard]] std::size_t vertex_count() const {
+        return points.size();
+    }  ///< including removed ones
 
     [[nodiscard]] bool is_alive(TriangleId t) const { return origin_[3 * t] != kNone; }
 
@@ -61,7 +63,7 @@ public:
 
     [[nodiscard]] bool is_feature(HalfEdge h) const { return patch_at(h) != patch_at(twin_[h]); }
 
-    /// Calls visit(h) for every half-edge that leaves v.
+    /// Calls visit(h) for every half-edge leaving v.
     template <class Visit>
     void for_each_leaving(VertexId v, const Visit& visit) const {
         const HalfEdge start = leaving_[v];
@@ -75,24 +77,24 @@ public:
     [[nodiscard]] int valence(VertexId v) const;
     [[nodiscard]] bool are_neighbours(VertexId a, VertexId b) const;
 
-    /// Splits the edge of h by a new vertex at `point`, which it returns; h keeps its origin.
+    /// Splits the edge of h at a new vertex at `point`, which it returns; h keeps its origin.
     VertexId split(HalfEdge h, const Vec3& point);
 
-    /// True where the edge's other diagonal may replace it: no feature, no hole, no double edge.
+    /// True if the edge may be flipped to the other diagonal: no feature, no hole, no double edge.
     [[nodiscard]] bool can_flip(HalfEdge h) const;
     void flip(HalfEdge h);
 
-    /// True where the origin of h may be merged into its target and the surface stays a manifold
-    /// of the same kind.
+    /// True if merging the origin of h into its target preserves the manifold and its
+    /// topology.
     [[nodiscard]] bool can_collapse(HalfEdge h);
-    /// Merges the origin of h into its target, which stays where it is.
+    /// Merges the origin of h into its target, which does not move.
     void collapse(HalfEdge h);
 
-    /// Drops the places of removed triangles, so that half-edges and triangles get new numbers (in
-    /// the old order); vertices keep theirs.
+    /// Removes the gaps of removed triangles: half-edges and triangles get new numbers (in the old
+    /// order); vertices keep theirs.
     void compact();
 
-    /// Area normal of triangle t [mm^2], twice the area long.
+    /// Area normal of triangle t [mm^2], its length is twice the area.
     [[nodiscard]] Vec3 area_normal_of(TriangleId t) const;
 
     /// The surface without holes and removed parts; vertices keep their order.
@@ -100,7 +102,7 @@ public:
     [[nodiscard]] Surface to_surface(const std::vector<Patch>& patches,
                                      std::vector<VertexId>& kept) const;
 
-    Positions points;  ///< [mm], by vertex; those of removed and virtual vertices mean nothing
+    Positions points;  ///< [mm], by vertex; undefined for removed and virtual vertices
 
 private:
     void add_triangle(VertexId a, VertexId b, VertexId c, std::uint32_t patch);

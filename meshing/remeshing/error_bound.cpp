@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// A triangle is large whose longest edge is this many spacings of samples.
+/// Longest edge, in sample spacings, from which a triangle counts as large.
 constexpr double kLarge = 3.0;
 
 }  // namespace
@@ -32,14 +32,14 @@ ErrorBound::ErrorBound(const Surface& source, std::span<const double> weights, d
             const VertexId a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
             if (seen[a] == 0) add_sample(points_[a], weights_[a], t);
             seen[a] = 1;
-            if (a < b || (on_boundary[a] != 0 && on_boundary[b] != 0))  // the other side has it
+            if (a < b || (on_boundary[a] != 0 && on_boundary[b] != 0))  // belongs to the other side
                 add_sample(0.5 * (points_[a] + points_[b]), 0.5 * (weights_[a] + weights_[b]), t);
         }
         add_inner_samples(t);
     }
 }
 
-/// The centroid, or the centres of equal parts of a triangle that is larger than most.
+/// The centroid, or the centres of equal parts of a triangle if it is larger than most.
 void ErrorBound::add_inner_samples(TriangleId t) {
     const auto [a, b, c] = triangles_[t];
     const double longest = longest_edge(points_, triangles_[t]);

@@ -8,28 +8,28 @@
 
 namespace vesselbench {
 
-/// Keeps a mesh within a distance of the surface it came from while its triangles are replaced,
-/// few by few. Samples of the source (vertices, middles of edges, inner places) belong to the
-/// triangle they are nearest to among those that took their triangle's place, so that their true
-/// distance is at most the one that is looked at; places in the new triangles are looked up in the
-/// source. Source: the bookkeeping of Klein, Liebich & Strasser, "Mesh reduction with error
-/// control", Visualization 1996.
+/// Keeps a mesh within a distance of its source surface while its triangles are replaced in
+/// small groups. Samples of the source (vertices, edge midpoints, inner points) belong to the
+/// nearest triangle among those that replaced theirs, so that their true distance is at most the
+/// one checked; points in the new triangles are checked against the source. Source: the
+/// bookkeeping of Klein, Liebich & Strasser, "Mesh reduction with error control", Visualization
+/// 1996.
 class ErrorBound {
 public:
-    /// A triangle that takes a place in the mesh.
+    /// A triangle to be placed in the mesh.
     struct Fresh {
         TriangleId triangle = 0;
         Vec3 a, b, c;  ///< corners [mm]
     };
 
-    /// \param weights share of `max_error` that is allowed at each vertex, in [0, 1]; empty: 1
+    /// \param weights fraction of `max_error` permitted at each vertex, in [0, 1]; empty: 1
     ErrorBound(const Surface& source, std::span<const double> weights, double max_error);
 
-    /// True if the fresh triangles may stand where the gone ones do, which `fresh` may name again;
-    /// remembers where the samples go.
+    /// True if the fresh triangles may replace the gone ones, which `fresh` may include; stores the
+    /// new triangles of the samples.
     [[nodiscard]] bool allows(std::span<const TriangleId> gone, std::span<const Fresh> fresh);
 
-    /// Replaces the triangles that were allowed last.
+    /// Replaces the triangles that were permitted last.
     void accept(std::span<const TriangleId> gone, std::span<const Fresh> fresh);
 
 private:
@@ -47,8 +47,8 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<double> weights_;
     double max_error_ = 0.0;
-    /// Of samples in triangles, but for giant ones (sample_parts): half of the source's mean edge
-    /// [mm]
+    /// Spacing of samples in triangles, except giant ones (sample_parts): half of the source's mean
+    /// edge [mm]
     double spacing_ = 0.0;
     SurfaceDistance search_;
     std::vector<Sample> samples_;

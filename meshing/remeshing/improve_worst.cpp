@@ -11,17 +11,17 @@ namespace vesselbench {
 namespace {
 
 constexpr int kMostRounds = 10;
-constexpr double kGain = 1e-3;  // smallest improvement that counts: ends endless exchanges
+constexpr double kGain = 1e-3;  // smallest improvement that counts: prevents endless exchanges
 
-/// Two triangles at an edge whose mean edges differ by more than this factor count as bad: a little
-/// below the gradation of 1.5 that is promised by default.
+/// Two triangles at an edge whose mean edges differ by more than this factor count as bad: slightly
+/// below the default gradation of 1.5.
 constexpr double kUneven = 1.46;
 
 double shape_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::min(1.0 - equiangle_skewness(a, b, c), radius_ratio(a, b, c));
 }
 
-/// What polishing lowers the sum of: the radius ratio sees all of the shape, the skewness the
+/// The summand minimised by polishing: the radius ratio reflects the whole shape, the skewness the
 /// worst angle.
 double badness(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 0.2 * equiangle_skewness(a, b, c) + 1.0 - radius_ratio(a, b, c);
@@ -40,16 +40,16 @@ private:
 
     [[nodiscard]] EditMesh& mesh() const { return state_.mesh; }
 
-    /// Moves a vertex to the best of some places around it that `score` (vertex, place) rates
-    /// higher than where it is.
+    /// Moves a vertex to the best of some places around it if `score` (vertex, place) rates it
+    /// higher than the current one.
     template <class Score>
     bool try_places(VertexId v, double first_step, double last_step, const Score& score);
 
     /// Sum of the edge lengths of triangle t if v were at x [mm].
     [[nodiscard]] double edges_around(TriangleId t, VertexId v, const Vec3& x) const;
-    /// Below 0.5 where the triangles on both sides of h differ too much in size, if v were at x.
+    /// Below 0.5 if the triangles on both sides of h differ too much in size with v at x.
     [[nodiscard]] double evenness_across(HalfEdge h, VertexId v, const Vec3& x) const;
-    /// At most 1; below 0.5 if t is ill-shaped or of another size than a neighbour.
+    /// At most 1; below 0.5 if t is ill-shaped or differs in size from a neighbour.
     [[nodiscard]] double quality_of(TriangleId t) const;
     [[nodiscard]] double shape_around(VertexId v, const Vec3& x) const;
     [[nodiscard]] double worst_around(VertexId v, const Vec3& x) const;

@@ -10,9 +10,9 @@ namespace vesselbench {
 /// Raises the mean quality by flips and moves of single vertices.
 void polish(RemeshState& state);
 
-/// Works on the triangles that are worse than `quality` (the smaller of 1 - equiangle skewness and
-/// radius ratio) or of another size than a neighbour: flips, moves of single vertices, collapses.
-/// \return the worst that is left
+/// Improves the triangles that are worse than `quality` (the smaller of 1 - equiangle skewness and
+/// radius ratio) or differ in size from a neighbour: flips, moves of single vertices, collapses.
+/// \return the worst remaining quality
 double improve_worst(RemeshState& state, double quality);
 
 }  // namespace vesselbench

@@ -16,8 +16,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kMostRayVertices = 8000;  // more are filled in from their neighbours
-constexpr double kBlindTip = 2.0;  // a tip is an opening's if the opening is within 2 radii of it
+constexpr std::size_t kMostRayVertices = 8000;  // the others are filled in from their neighbours
+constexpr double kBlindTip = 2.0;               // a tip belongs to an opening within 2 radii of it
 
 struct LinePoint {
     Vec3 position;
@@ -71,8 +71,8 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Largest radius that a branch may claim: a blind branch (a sac) that of the vessel it leaves, a
-/// vessel a quarter more than its usual one, so that a bulge on it does not count either.
+/// Largest radius of a branch: for a blind branch (a sac) that of its parent vessel, for a vessel a
+/// quarter more than its typical one, so that a bulge on it does not count either.
 double branch_limit(const CenterlineGraph& lines, std::size_t b,
                     const std::vector<Opening>& openings) {
     const CenterlineBranch& branch = lines.branches[b];
@@ -122,12 +122,12 @@ std::vector<double> radii_from_lines(const Surface& surface, const std::vector<L
 }
 
 /// Half the median length of rays across the lumen, in a cone of 30 degrees about the inward
-/// normal; 0 where they meet nothing. In a tube the rays along the axis are as much too long as
+/// normal; 0 if they hit nothing. In a tube the rays along the axis are too long by as much as
 /// those across are too short.
 double radius_from_rays(const SurfaceDistance& search, const Vec3& at, const Vec3& inward,
                         double farthest) {
     constexpr int kRays = 6;
-    const double skin = 1e-6 * farthest;  // leaves the wall that the ray starts on behind
+    const double skin = 1e-6 * farthest;  // skips the wall that the ray starts on
     const Vec3 x = inward.unitOrthogonal(), y = inward.cross(x);
     std::vector<double> lengths;
     const auto shoot = [&](const Vec3& direction) {
@@ -160,7 +160,7 @@ std::vector<double> radii_from_rays(const Surface& surface, double limit) {
     return radii;
 }
 
-/// On caps rays and lines tell nothing about the wall: the rim's mean serves.
+/// On caps, rays and lines say nothing about the wall: the rim's mean is used.
 void take_from_rims(const Surface& surface, std::vector<double>& radii) {
     const CapVertices caps = cap_vertices(surface);
     std::vector<double> sum(surface.patches.size(), 0.0), count(surface.patches.size(), 0.0);

@@ -8,10 +8,10 @@
 
 namespace vesselbench {
 
-/// Local vessel radius at every vertex [mm], #V: from the centerlines where there are some (the
-/// radius at the point of the lines whose inscribed sphere is nearest), from rays across the lumen
-/// otherwise. A bulge does not count: a blind branch is capped by the radius of the vessel that it
-/// leaves, everything by the largest opening's radius, if there are openings. On caps: the rim's.
+/// Local vessel radius at every vertex [mm], #V: from the centerlines if there are any (the radius
+/// at the point of the lines with the nearest inscribed sphere), else from rays across the lumen.
+/// Bulges do not count: a blind branch is limited by its parent's radius, everything by the largest
+/// opening's radius, if there are openings. On caps: the rim's.
 /// \param lines may be null
 [[nodiscard]] std::vector<double> local_radii(const Surface& surface, const CenterlineGraph* lines,
                                               const Progress& progress = {});

@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// Weighted sum of squared distances from planes and points, as a function of the place:
-/// x'Ax + 2b'x + c.
+/// Weighted sum of squared distances from planes and points, as a function of position: x'Ax + 2b'x
+/// + c.
 /// Source: Garland & Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997.
 struct Quadric {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -43,7 +43,7 @@ struct Quadric {
         return std::max(0.0, x.dot(A * x + 2.0 * b) + c);
     }
 
-    /// Where the sum is least, seen from `start`, which it stays near where A says nothing.
+    /// The minimum of the sum, close to `start` in directions that A leaves undetermined.
     [[nodiscard]] Vec3 least(const Vec3& start) const {
         return start - A.inverse() * (A * start + b);
     }

@@ -21,28 +21,28 @@ namespace vesselbench {
 namespace {
 
 constexpr int kRounds = 12;  // of split, collapse, flip, relax
-/// In the first round edges are split well below the wanted length [-]: what is collapsed next then
-/// forgets the pattern of a coarse source.
+/// In the first round edges are split well below the target length [-]: the following collapses
+/// then remove the pattern of a coarse source.
 constexpr double kFirstSplit = 0.8;
 
-/// While the mesh still finds its pattern, edges are split sooner than later on [-].
+/// While the mesh is still settling, edges are split earlier than later on [-].
 constexpr double kEarlySplit = 1.2;
 constexpr int kEarlyRounds = 4;
 
 constexpr int kFinalRounds = 5;         // of flip and relax: sizes have settled, angles follow
-constexpr int kMostAttempts = 3;        // at a result without bad places, finer there each time
+constexpr int kMostAttempts = 3;        // to remove bad places, finer there each time
 constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
 
 constexpr double kEdgePerRadius = 0.28;              // 22 triangles around
 constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
 
-/// Polishing visits so many triangles in all, but twice each at least: small meshes, in which rims
-/// take a larger share, need it most and can afford it.
+/// Polishing visits this many triangles in total, but each at least twice: small meshes, with a
+/// larger fraction of rims, need it most and can afford it.
 constexpr std::size_t kPolishBudget = 20000;
 constexpr int kFewestPolishRounds = 2, kMostPolishRounds = 8;
 
-constexpr double kQuality = 0.5;  // below it a triangle is worked on singly
+constexpr double kQuality = 0.5;  // below it a triangle is improved individually
 
 /// Angles, once the sizes have settled.
 Surface finished(Remesher& remesher, const Progress& progress) {
@@ -68,7 +68,7 @@ double split_limit(int round) {
 }
 
 void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
-    remesher.collapse_short_edges();  // before needles are split into crowds of short edges
+    remesher.collapse_short_edges();  // before needles are split into many short edges
     for (int round = 0; round < rounds; ++round) {
         progress.report(static_cast<double>(round) / rounds, "remeshing");
         remesher.split_long_edges(split_limit(round));
@@ -81,7 +81,7 @@ void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
     }
 }
 
-/// One attempt, which begins with the mesh `start`.
+/// One attempt that starts with the mesh `start`.
 Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Surface& start,
                       const Progress& progress) {
     for (double& size : sizes) size /= Remesher::kStretch;
@@ -114,7 +114,7 @@ void measure_quality(const Surface& surface, RemeshReport& report) {
     report.caps_skewness_mean /= std::max(caps, 1.0);
 }
 
-/// Where the result crosses itself, or a triangle could not be made well-shaped.
+/// The places where the result crosses itself, or a triangle could not be made well-shaped.
 Positions bad_places(const Surface& result) {
     const Positions& points = result.points();
     Positions places;
@@ -135,7 +135,7 @@ Positions bad_places(const Surface& result) {
     return places;
 }
 
-/// Shortens the wanted edges of the source within two edges of the places.
+/// Shortens the target edges of the source within two edges of the places.
 void refine(const Surface& source, const Positions& places, double gradation,
             std::vector<double>& sizes) {
     for (std::size_t v = 0; v < sizes.size(); ++v)
@@ -158,8 +158,8 @@ void refine(const Surface& source, const Positions& places, double gradation,
                            "; use a smaller edge, or separate the walls that touch there");
 }
 
-/// Walls that all but touch may cross however fine their edges are: there, crossings are smoothed
-/// or cut out and filled again.
+/// Walls that almost touch may cross however fine their edges are: crossings there are smoothed, or
+/// cut out and filled again.
 Surface parted(const Surface& source, const Surface& result, RemeshReport& report) {
     const auto crossings = self_intersections(result);
     if (crossings.empty()) return result;
@@ -168,10 +168,10 @@ Surface parted(const Surface& source, const Surface& result, RemeshReport& repor
     try {
         Repaired repaired =
             repair(result, {.keep_components = std::numeric_limits<std::size_t>::max()});
-        // repair faces every component outward, which would fill a cavity
+        // repair turns every component outward, which would fill a cavity
         if (!repaired.report.turned_inside_out) return std::move(repaired.surface);
     } catch (const AlgorithmFailure&) {
-        // told below, in terms of this operation
+        // reported below, in terms of this operation
     }
     refuse_crossing(source, result);
 }
@@ -212,7 +212,7 @@ Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshR
                                 progress.part(0.2, 1.0));
 }
 
-/// CGAL knows one edge length only, and leaves slivers at rims; its mesh is where the rounds start.
+/// CGAL supports one edge length only, and leaves slivers at rims; the rounds start from its mesh.
 Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
                 const Progress& progress) {
     progress.report(0.0, "remeshing");

@@ -12,15 +12,15 @@ enum class RemeshMode { Graded, Uniform };
 
 struct RemeshParameters {
     RemeshMode mode = RemeshMode::Graded;
-    /// Edge length where the vessel has its usual radius (the median over the wall's area), of all
-    /// edges in uniform mode [mm]; default 0.28 of that radius: 22 triangles around.
+    /// Edge length at the vessel's typical radius (the median over the wall's area), in uniform
+    /// mode of all edges [mm]; default 0.28 of that radius: 22 triangles around.
     std::optional<double> edge = {};
-    std::optional<double> min_edge = {};  ///< graded: no edge shorter [mm]; default edge / 5
-    std::optional<double> max_edge = {};  ///< graded: no edge longer [mm]; default 2 edge
-    double gradation = 1.5;  ///< graded: neighbouring edges differ by at most this factor, > 1
+    std::optional<double> min_edge = {};  ///< graded: shortest edge [mm]; default edge / 5
+    std::optional<double> max_edge = {};  ///< graded: longest edge [mm]; default 2 edge
+    double gradation = 1.5;               ///< graded: largest ratio of neighbouring edges, > 1
 };
 
-/// What remeshing decided and reached.
+/// Decisions and results of remeshing.
 struct RemeshReport {
     double usual_radius = 0.0;              ///< [mm]
     double edge = 0.0;                      ///< [mm]
@@ -29,8 +29,8 @@ struct RemeshReport {
     double wall_skewness_mean = 0.0, wall_skewness_max = 0.0;          ///< equiangle skewness [-]
     double wall_radius_ratio_mean = 0.0, wall_radius_ratio_min = 0.0;  ///< 2 r_in / r_out [-]
     double caps_skewness_mean = 0.0;                                   ///< 0 without caps [-]
-    /// Pairs of triangles that crossed where walls all but touch, until the walls were parted
-    /// there, which leaves worse triangles; and where the first was [mm].
+    /// Pairs of triangles that crossed where walls almost touch, until the walls were separated
+    /// there, which leaves worse triangles; and the place of the first [mm].
     std::size_t crossings_parted = 0;
     Vec3 crossing = Vec3::Zero();
 };
@@ -40,19 +40,19 @@ struct Remeshed {
     RemeshReport report;
 };
 
-/// Covers the surface with well-shaped triangles of a wanted size: graded (small where the vessel
-/// is thin, curved, or close to another wall) or uniform.
-/// Vertices lie on the input, but for the small lift that gives its volume back to the flat
-/// triangles. Patches stay; rims of caps and open boundaries stay features (on their circle where
-/// round, on their polyline otherwise), flat caps stay exactly flat; attributes are interpolated at
-/// the closest point.
-/// Sources: Botsch & Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004; Dunyach
-/// et al., "Adaptive remeshing for real-time mesh deformation", Eurographics short papers 2013.
+/// Remeshes the surface with well-shaped triangles of a target size: graded (small where the
+/// vessel is thin, curved, or close to another wall) or uniform. Vertices lie on the input, except
+/// for the small lift that restores the volume lost to flat triangles. Patches are kept; rims of
+/// caps and open boundaries remain features (on their circle if round, else on their polyline),
+/// flat caps stay exactly flat; attributes are interpolated at the closest point.
+/// Sources: Botsch & Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004;
+/// Dunyach et al., "Adaptive remeshing for real-time mesh deformation", Eurographics short papers
+/// 2013.
 /// \param surface an oriented manifold, closed or open
-/// \param lines centerlines for the vessel's radius; null: it is measured by rays
+/// \param lines centerlines for the vessel's radius; null: measured by rays
 /// \throw InvalidInput if a parameter is out of its range or the surface is not a manifold;
 ///        AlgorithmFailure that names the place if the result would intersect itself and
-///        its walls cannot be parted
+///        its walls cannot be separated
 [[nodiscard]] Remeshed remesh(const Surface& surface, const RemeshParameters& parameters = {},
                               const CenterlineGraph* lines = nullptr,
                               const Progress& progress = {});

@@ -6,7 +6,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Cosine of the largest turn of a triangle's normal that an edit may make.
+/// Cosine of the largest turn of a triangle's normal in one edit.
 constexpr double kTurn = 0.3;
 
 bool turns_too_far(const Vec3& before, const Vec3& after) {
@@ -59,7 +59,8 @@ void RemeshState::move(VertexId v, const TargetPlace& place) {
 bool RemeshState::may_collapse(HalfEdge h, double limit) {
     if (!mesh.can_collapse(h)) return false;
     const VertexId a = mesh.origin(h), b = mesh.target(h);
-    constexpr double kSlack = 1.01;  // edges that are long already may stay so: needles go first
+    constexpr double kSlack =
+        1.01;  // edges that are already long may stay so: needles are collapsed first
     const Vec3& pa = mesh.points[a];
     bool allowed = true;
     mesh.for_each_leaving(a, [&](HalfEdge k) {

@@ -18,12 +18,12 @@ struct RemeshState {
 
     struct VertexKind {
         int features = 0;            ///< feature edges at the vertex: 0 inside a patch, 2 on a rim
-        std::uint32_t p = 0, q = 0;  ///< the patches it lies in; on rims both
+        std::uint32_t p = 0, q = 0;  ///< the patches it belongs to; on rims both
     };
 
-    /// \param source what the result has to lie on
-    /// \param source_sizes wanted edge length at each vertex of the source [mm], #V
-    /// \param start the mesh to begin with: the source, or one near it with the same patches
+    /// \param source the target geometry of the result
+    /// \param source_sizes target edge length at each vertex of the source [mm], #V
+    /// \param start the initial mesh: the source, or one near it with the same patches
     /// \throw InvalidInput that names the place if the start is not an oriented manifold
     RemeshState(const Surface& source, const std::vector<double>& source_sizes,
                 const Surface& start);

@@ -11,14 +11,14 @@ namespace vesselbench {
 
 namespace {
 
-/// A patch counts as flat when no vertex is farther from its plane than this share of its size
+/// A patch counts as flat if no vertex is farther from its plane than this fraction of its size
 /// (square root of its area): clipped caps are flat to float precision, curved walls are not.
 constexpr double kFlatness = 2e-3;
 
-/// A rim counts as round when its vertices are this close to a circle, in radii, and no edge spans
+/// A rim counts as round if its vertices are this close to a circle, in radii, and no edge spans
 /// more than 30 degrees: extruded and blended openings are round to float precision.
 constexpr double kRoundness = 1e-3;
-constexpr double kRoundestEdge = 0.53;  // edge length in radii, 2 sin(15 deg) and a little
+constexpr double kRoundestEdge = 0.53;  // edge length in radii, slightly above 2 sin(15 deg)
 
 }  // namespace
 
@@ -129,7 +129,7 @@ std::optional<RemeshTarget::Circle> RemeshTarget::fitted_circle(const RimTarget&
 SurfacePoint RemeshTarget::closest(const SurfaceDistance& search,
                                    const std::vector<Triangle>& triangles, const Vec3& x,
                                    TriangleId near) const {
-    constexpr double kSlack = 1.0 + 1e-9;  // rounding must not put the hint out of its own reach
+    constexpr double kSlack = 1.0 + 1e-9;  // rounding must not exclude the hint itself
     if (near >= triangles.size()) return search.closest_point(x);
     const auto& [a, b, c] = triangles[near];
     const Positions& points = surface_.points();

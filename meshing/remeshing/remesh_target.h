@@ -11,30 +11,31 @@
 
 namespace vesselbench {
 
-/// A place on the surface that a remeshed vertex must lie on.
+/// A place on the surface for a remeshed vertex.
 struct TargetPlace {
     Vec3 point = Vec3::Zero();   ///< [mm]
     Vec3 normal = Vec3::Zero();  ///< outward unit normal; zero on rims
-    double size = 0.0;           ///< wanted edge length there [mm]
+    double size = 0.0;           ///< target edge length there [mm]
     TriangleId near = 0;         ///< hint for the next search
 };
 
-/// What a remeshed surface has to lie on: each patch of the input (a flat one exactly in its
-/// plane), and the rims between them (a round one exactly on its circle, others on their polyline).
+/// The geometry that a remeshed surface must follow: each patch of the input (a flat one exactly in
+/// its plane), and the rims between them (a round one exactly on its circle, others on their
+/// polyline).
 class RemeshTarget {
 public:
-    /// \param sizes wanted edge length at each vertex [mm], #V
+    /// \param sizes target edge length at each vertex [mm], #V
     RemeshTarget(const Surface& surface, std::span<const double> sizes);
 
     /// The place of patch `patch` that is closest to x.
     [[nodiscard]] TargetPlace on_patch(std::uint32_t patch, const Vec3& x, TriangleId near) const;
 
     /// The place of the rim between two patches that is closest to x. A patch number beyond the
-    /// table stands for any hole.
+    /// table means any hole.
     [[nodiscard]] TargetPlace on_rim(std::uint32_t p, std::uint32_t q, const Vec3& x,
                                      TriangleId near) const;
 
-    /// The outward unit normal of a flat patch; nothing for the others.
+    /// The outward unit normal of a flat patch; empty for the others.
     [[nodiscard]] std::optional<Vec3> plane_normal(std::uint32_t patch) const;
 
 private:

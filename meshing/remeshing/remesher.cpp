@@ -10,23 +10,23 @@ namespace {
 // Botsch & Kobbelt's limits: splitting and collapsing then do not undo each other.
 constexpr double kLong = Remesher::kLong, kShort = 4.0 / 5.0;
 
-// Edges that may go for better valences, and the edges that this may leave: twice the height of an
-// equilateral triangle, and a little. Flips and moves shorten those.
+// Longest edges that may be collapsed for better valences, and longest edges that may result:
+// slightly above twice the height of an equilateral triangle. Flips and moves shorten those.
 constexpr double kDefect = 1.2, kAfterDefect = 1.8;
 
 /// A prime above any number of half-edges: i * kScatter mod count visits each edge once in a
-/// scattered order. In the order of their numbers every second row of a regular grid would go, and
-/// the rows that stay would be too far apart in one direction for ever.
+/// scattered order. In index order every second row of a regular grid would be collapsed, and the
+/// remaining rows would stay too far apart in one direction.
 constexpr std::uint64_t kScatter = 4294967311ULL;
 
-constexpr double kMostLift = 0.05;  // in wanted edges: twice what 14 edges around ask for
+constexpr double kMostLift = 0.05;  // in target edges: twice the lift for 14 edges around
 
-constexpr int kMostPasses = 12;  // of splits or collapses in one step; each halves what is left
+constexpr int kMostPasses = 12;  // of splits or collapses in one step; each halves the rest
 
-/// Edges this often too long belong to a coarse source; they go in steps of this factor.
+/// Edges too long by this factor belong to a coarse source; they are split in steps of this factor.
 constexpr double kCoarse = 8.0, kCoarseStep = 1.3;
 
-/// Vertices around which the last pass changed something: the next one looks at those only.
+/// Vertices around which the last pass changed something: the next one visits only those.
 class Touched {
 public:
     explicit Touched(std::size_t vertices) : now_(vertices, 1), next_(vertices, 1) {}
@@ -76,7 +76,7 @@ double Remesher::longest_share() const {
 }
 
 void Remesher::split_long_edges(double limit) {
-    // A coarse source loses its longest edges first: halved in any order, its triangles would
+    // In a coarse source the longest edges are split first: in arbitrary order its triangles would
     // become slivers of slivers, millions out of fifty.
     for (double coarse = longest_share() / kCoarseStep; coarse > kCoarse * limit;
          coarse /= kCoarseStep)
@@ -154,7 +154,7 @@ void Remesher::collapse_defects() {
 }
 
 int Remesher::flip_valence_excess(HalfEdge h) const {
-    // Rims count like any vertex: three triangles on either side are six.
+    // Rims count like any vertex: three triangles on each side make six.
     const auto gap = [&](VertexId v, int change) {
         const int off = valence_[v] - 6;
         return (off + change) * (off + change) - off * off;
@@ -189,7 +189,7 @@ void Remesher::flip_edges(FlipRule rule) {
     } while (touched.any() && touched.passes() < kMostPasses);
 }
 
-/// The middle of its rim neighbours, measured in wanted lengths.
+/// The middle of its rim neighbours, measured in target lengths.
 Vec3 Remesher::middle_on_rim(VertexId v) const {
     Vec3 sum = Vec3::Zero();
     double weights = 0.0;
@@ -245,7 +245,7 @@ void Remesher::relax(RelaxRule rule) {
         const VertexKind kind = kind_of(v);
         if (kind.features != 0 && kind.features != 2) continue;
         const TargetPlace place = place_for(v, kind, relaxed_position(v, kind, rule));
-        // Near another wall the closest place may lie on that one.
+        // Near another wall the closest place may be on that wall.
         if (!place.normal.isZero(0.0) && place.normal.dot(normal_at(v)) < 0.0) continue;
         if (move_keeps_shape(v, place.point)) move(v, place);
     }

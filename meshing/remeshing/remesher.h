@@ -12,26 +12,26 @@ class Remesher : public RemeshState {
 public:
     using RemeshState::RemeshState;
 
-    /// Edges come out this much longer than `sizes` say [-] (seen on tubes and vessels).
+    /// Resulting edges are longer than `sizes` by this factor [-] (observed on tubes and vessels).
     static constexpr double kStretch = 1.07;
 
-    /// Splits edges that are longer than `limit` wanted lengths, until there are none.
+    /// Splits edges longer than `limit` target lengths until there are none.
     void split_long_edges(double limit = kLong);
 
-    /// Collapses edges that are shorter than 4/5 of the wanted length, where that keeps rims,
-    /// makes no long edge and folds nothing over.
+    /// Collapses edges shorter than 4/5 of the target length if that preserves rims, makes no long
+    /// edge and folds nothing over.
     void collapse_short_edges();
 
-    /// Collapses edges of any length where that brings no valence farther from six on the whole: a
-    /// mesh that only fits its edge lengths is full of pairs of five and seven.
+    /// Collapses edges of any length if valences do not get farther from six in total: a mesh that
+    /// only meets its edge lengths is full of pairs of valence five and seven.
     void collapse_defects();
 
     enum class FlipRule { Valence, Angle };
 
-    /// Flips edges where that brings valences towards six, or removes an angle pair above 180 deg.
+    /// Flips edges if that moves valences towards six, or removes an angle pair above 180 deg.
     void flip_edges(FlipRule rule);
 
-    /// Size: towards the centroid of a vertex' triangles, weighted so that the sizes hold. Shape:
+    /// Size: towards the centroid of a vertex's triangles, weighted to preserve the sizes. Shape:
     /// towards the mean of the places that would make each of its triangles equilateral.
     enum class RelaxRule { Size, Shape };
 
@@ -41,12 +41,12 @@ public:
     /// Lifts the wall's vertices by the mean height of the source over the middles of their edges.
     /// Flat triangles between vertices on a convex wall cut its volume short, 1.4 % in a tube with
     /// 18 edges around; the mean of a quadratic over a triangle is that of its edges' middles, so
-    /// this gives it back. Last step: relaxing would undo it.
+    /// this restores it. Last step: relaxing would undo it.
     void keep_volume();
 
 private:
     [[nodiscard]] bool is_long(HalfEdge h, double limit) const;
-    [[nodiscard]] double longest_share() const;  ///< of all edges, in wanted lengths
+    [[nodiscard]] double longest_share() const;  ///< of all edges, in target lengths
     void split_edges_above(double limit);
     void count_valences();
     [[nodiscard]] int collapse_valence_excess(HalfEdge h) const;
@@ -57,7 +57,7 @@ private:
     [[nodiscard]] Vec3 centroid_around(VertexId v) const;
     [[nodiscard]] Vec3 shapely_position(VertexId v) const;
 
-    std::vector<int> valence_;  ///< by vertex, where a step counts them
+    std::vector<int> valence_;  ///< by vertex, if a step counts them
 };
 
 }  // namespace vesselbench

@@ -31,8 +31,8 @@ void require_parameters(const SizingParameters& p) {
     require(p.gradation > 1.0, "gradation", p.gradation, "above 1");
 }
 
-/// Normals averaged over about half an edge of the wanted mesh: bumps finer than that are noise
-/// that the new mesh cannot show.
+/// Normals averaged over about half an edge of the target mesh: finer bumps are noise that the new
+/// mesh cannot represent.
 Positions smoothed_normals(const Surface& surface, double edge) {
     const CompressedRows& rings = surface.topology->rings();
     const CapVertices caps = cap_vertices(surface);
@@ -52,7 +52,7 @@ Positions smoothed_normals(const Surface& surface, double edge) {
 }
 
 /// Curvature [1/mm] from the change of the normals along the edges; on a cylinder that is the
-/// largest principal curvature, for the mean square over all directions is half its square.
+/// largest principal curvature, because the mean square over all directions is half its square.
 std::vector<double> curvatures(const Surface& surface, double edge) {
     const Positions normals = smoothed_normals(surface, edge);
     const CompressedRows& rings = surface.topology->rings();
@@ -74,12 +74,12 @@ std::vector<double> curvatures(const Surface& surface, double edge) {
     return result;
 }
 
-/// Distance to the wall opposite outside [mm]; infinite where there is none within reach. Walls
-/// that do not face each other are the same wall with a bump.
+/// Distance to the opposite wall outside [mm]; infinite if there is none within reach. Walls that
+/// do not face each other are one wall with a bump.
 std::vector<double> outer_gaps(const Surface& surface, double reach) {
     constexpr double kFacing = -0.7;
     const SurfaceDistance search = distance_to(surface);
-    const double skin = 1e-6 * reach;  // leaves the wall that the ray starts on behind
+    const double skin = 1e-6 * reach;  // skips the wall that the ray starts on
     const Positions normals = wall_normals(surface);
     const CapVertices caps = cap_vertices(surface);
     std::vector<double> gaps(surface.vertex_count(), std::numeric_limits<double>::infinity());
@@ -118,7 +118,7 @@ double usual_radius(const Surface& surface, const std::vector<double>& radii) {
         below += area;
         if (below >= 0.5 * total && radius > 0.0) return radius;
     }
-    throw InvalidInput("the surface has no wall whose radius could be measured");
+    throw InvalidInput("the surface has no wall to measure the radius of");
 }
 
 void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes) {
@@ -140,7 +140,7 @@ std::vector<double> sizing_field(const Surface& surface, const std::vector<doubl
     progress.report(0.4, "measuring gaps");
     const std::vector<double> gaps =
         outer_gaps(surface, 2.0 * parameters.gap_edges * parameters.max_edge);
-    // An edge that is long for its vessel by wish turns further than `turn` on every wall.
+    // An edge that the user wants long for its vessel exceeds `turn` on every wall.
     const double turn = std::max(parameters.turn, 1.5 * parameters.edge / usual);
     std::vector<double> sizes(radii.size());
     for (std::size_t v = 0; v < sizes.size(); ++v) {

@@ -7,22 +7,22 @@
 
 namespace vesselbench {
 
-/// How long the edges of a graded mesh shall be.
+/// Target edge lengths of a graded mesh.
 struct SizingParameters {
-    double edge = 0.0;       ///< edge where the vessel has its usual radius [mm], > 0
-    double min_edge = 0.0;   ///< no edge shall be shorter [mm], > 0
-    double max_edge = 0.0;   ///< no edge shall be longer [mm], >= min_edge
-    double gradation = 1.5;  ///< neighbouring edges differ by at most this factor [-], > 1
+    double edge = 0.0;       ///< edge at the vessel's typical radius [mm], > 0
+    double min_edge = 0.0;   ///< shortest edge [mm], > 0
+    double max_edge = 0.0;   ///< longest edge [mm], >= min_edge
+    double gradation = 1.5;  ///< largest ratio of neighbouring edges [-], > 1
     double turn = 0.7;       ///< an edge spans at most this angle of the curved wall [rad]
-    double gap_edges = 1.0;  ///< edges that fit into the gap to the opposite wall outside [-]
+    double gap_edges = 1.0;  ///< edges that fit into the gap to the opposite wall [-]
 };
 
-/// The radius that half of the wall's area stays below [mm]. \throw InvalidInput without a wall
+/// The median radius over the wall's area [mm]. \throw InvalidInput without a wall
 [[nodiscard]] double usual_radius(const Surface& surface, const std::vector<double>& radii);
 
-/// Wanted edge length at every vertex [mm], #V: the smallest of edge * radius / usual radius, of
-/// what the curvature allows, and of the gap to the wall opposite outside; within the limits; then
-/// reduced until it grows so slowly that neighbouring edges differ by at most `gradation`.
+/// Target edge length at every vertex [mm], #V: the smallest of edge * radius / typical radius, of
+/// the length the curvature permits, and of the gap to the opposite wall outside; within the
+/// limits; then reduced until neighbouring edges differ by at most `gradation`.
 /// \throw InvalidInput if a parameter is out of its range
 [[nodiscard]] std::vector<double> sizing_field(const Surface& surface,
                                                const std::vector<double>& radii,
@@ -33,7 +33,7 @@ struct SizingParameters {
 void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes);
 
 /// Slope of the size that keeps neighbouring edges within `gradation` of each other: a quarter of
-/// the factor that is above 1, for real triangles scatter about their size.
+/// the factor minus 1, because real triangles scatter about their size.
 [[nodiscard]] double slope_of(double gradation);
 
 }  // namespace vesselbench

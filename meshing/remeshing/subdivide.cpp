@@ -12,7 +12,7 @@ namespace vesselbench {
 namespace {
 
 constexpr int kMostIterations = 6;
-constexpr std::size_t kMostTriangles = 40'000'000;  // about 4 GiB while it is made
+constexpr std::size_t kMostTriangles = 40'000'000;  // about 4 GiB while it is built
 
 struct Creases {
     std::vector<std::uint8_t> is_crease;              ///< by edge

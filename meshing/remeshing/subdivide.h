@@ -5,10 +5,10 @@
 
 namespace vesselbench {
 
-/// Divides every triangle into four and smooths, `iterations` times, by Loop's rules: the surface
-/// tends to a C2 one, and slightly inward. Rims between patches and open boundaries follow the rule
+/// Splits every triangle into four and smooths, `iterations` times, by Loop's rules: the surface
+/// converges to a C2 one, slightly inward. Rims between patches and open boundaries follow the rule
 /// for boundary curves (a cubic B-spline of their own vertices), so flat caps stay flat; where more
-/// than two of them meet, the vertex stays. Patches are kept; attributes are averaged like
+/// than two of them meet, the vertex is fixed. Patches are kept; attributes are averaged like
 /// positions of new vertices, and kept at old ones. Source: Loop, "Smooth subdivision surfaces
 /// based on triangles", 1987; boundary rules after Hoppe et al., "Piecewise smooth surface
 /// reconstruction", SIGGRAPH 1994.

@@ -24,8 +24,8 @@ Neighbours cell_neighbours(const VolumeMesh& mesh) {
     return neighbours;
 }
 
-// Cells in breadth-first order from `start` on; what cannot be reached follows from its lowest
-// cell.
+// Cells in breadth-first order from `start`; unreachable cells follow, starting from the lowest
+// one.
 std::vector<std::uint32_t> breadth_first(const Neighbours& neighbours, std::uint32_t start) {
     std::vector<std::uint32_t> order;
     order.reserve(neighbours.size());
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> breadth_first(const Neighbours& neighbours, std::uint
 VolumeMesh in_cell_order(VolumeMesh mesh) {
     const Neighbours neighbours = cell_neighbours(mesh);
     if (neighbours.empty()) return mesh;
-    // The cell reached last lies at one end of the vessel: a good start for narrow fronts.
+    // The last cell reached lies at one end of the vessel: a good start for narrow fronts.
     const auto order = breadth_first(neighbours, breadth_first(neighbours, 0).back());
     std::vector<Tetrahedron> sorted;
     sorted.reserve(order.size());

@@ -4,8 +4,8 @@
 
 namespace vesselbench {
 
-/// Renumbers the cells so that neighbours have near numbers (solvers run faster and converge
-/// better); points, boundary and patches stay.
+/// Renumbers the cells so that neighbours have close numbers (solvers run faster and converge
+/// better); points, boundary and patches are unchanged.
 /// Source: Cuthill & McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969.
 [[nodiscard]] VolumeMesh in_cell_order(VolumeMesh mesh);
 

@@ -16,7 +16,8 @@ namespace {
 using CellId = TetStore::CellId;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// An exchange or a move must gain this part of the energy, so that rounding makes no endless swaps.
+// An exchange or a move must gain this fraction of the energy, so that rounding cannot cause
+// endless swaps.
 constexpr double kGain = 1e-6;
 
 double energy(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -113,8 +114,8 @@ std::size_t sweep_moves(TetStore& store) {
 
 // Exchanges of edges and faces -------------------------------------------------------------------
 
-// Cheapest triangulation of the ring around an edge, each triangle making a cell with either end
-// (Klincsek's dynamic programming).
+// Triangulation of least cost of the ring around an edge, each triangle forming a cell with either
+// end (Klincsek's dynamic programming).
 class RingTriangulation {
 public:
     RingTriangulation(const TetStore& store, VertexId a, VertexId b,
@@ -174,7 +175,7 @@ bool remove_edge(TetStore& store, VertexId a, VertexId b, std::size_t largest_ri
     thread_local TetStore::Ring ring;
     if (!store.find_ring(a, b, largest_ring, ring)) return false;
     const double limit = energy(store, ring.cells) * (1.0 - kGain);
-    // Each of the 2 (n - 2) new cells has an energy of 1 at least.
+    // Each of the 2 (n - 2) new cells has an energy of at least 1.
     if (2.0 * static_cast<double>(ring.vertices.size() - 2) >= limit) return false;
     const RingTriangulation triangulation(store, a, b, ring.vertices);
     if (triangulation.cost() >= limit) return false;
@@ -182,13 +183,13 @@ bool remove_edge(TetStore& store, VertexId a, VertexId b, std::size_t largest_ri
     return true;
 }
 
-// Two cells at a face become three at the edge between their tips.
+// Two cells at a face become three around the edge between their tips.
 bool remove_face(TetStore& store, CellId cell, int corner) {
     const auto other = store.behind(cell, corner);
     if (!other) return false;
     const VertexId tip = store.cell(cell)[corner];
-    const Triangle face =
-        faces_of(store.cell(cell))[corner];  // outward, seen from the other tip ccw
+    const Triangle face = faces_of(
+        store.cell(cell))[corner];  // outward, counter-clockwise as seen from the other tip
     VertexId far = 0;
     for (const VertexId v : store.cell(*other))
         if (v != face[0] && v != face[1] && v != face[2]) far = v;

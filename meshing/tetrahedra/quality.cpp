@@ -16,11 +16,11 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::uint32_t kOutside = MeshFace::kOutside;
 
 struct Side {
-    VertexId middle, high;    // the corners beside the lowest one, ascending
+    VertexId middle, high;    // the other two corners, ascending
     std::uint32_t cell_face;  // 4 * cell + number of the face
 };
 
-// The sides of all cells in buckets by their lowest corner, in the order of the cells.
+// The sides of all cells in buckets by their lowest corner, in cell order.
 struct SideBuckets {
     std::vector<std::uint32_t> offsets;
     std::vector<Side> sides;
@@ -91,8 +91,8 @@ struct CellShape {
     double volume;
 };
 
-// primitiveMeshTools::cellClosedness: 2D extent of the sums of |face area| against 3D, and
-// 1/6 of the L1 sum against volume^(2/3); the larger one.
+// primitiveMeshTools::cellClosedness: ratio of the 2D extents of the sums of |face area|, and in 3D
+// 1/6 of the L1 sum over volume^(2/3); the larger one.
 double aspect_ratio(const VolumeMesh& mesh, const Tetrahedron& tet, double volume) {
     Vec3 sum = Vec3::Zero();
     const auto& p = mesh.points;
@@ -144,8 +144,8 @@ void add_cells(const VolumeMesh& mesh, VolumeQuality& quality, std::vector<CellS
     quality.mean_smallest_dihedral /= count;
 }
 
-// Distance of the point where the line between the cell centres meets the face from the face's
-// centre, against the face's extent in that direction (primitiveMeshTools::faceSkewness).
+// Distance between the face's centre and the point where the line between the cell centres meets
+// the face, relative to the face's extent in that direction (primitiveMeshTools::faceSkewness).
 double skewness(const VolumeMesh& mesh, const MeshFace& face, const Vec3& normal, const Vec3& from,
                 const Vec3& to) {
     const auto& p = mesh.points;
@@ -160,7 +160,7 @@ double skewness(const VolumeMesh& mesh, const MeshFace& face, const Vec3& normal
     return length / (extent + 1e-300);
 }
 
-// At the boundary the line is the owner's centre dropped along the normal
+// At the boundary the line is the normal through the owner's centre
 // (primitiveMeshTools::boundaryFaceSkewness).
 double boundary_skewness(const VolumeMesh& mesh, const MeshFace& face, const Vec3& normal,
                          const Vec3& owner) {
@@ -203,7 +203,7 @@ void add_faces(const VolumeMesh& mesh, const std::vector<CellShape>& shapes,
             quality.largest_skewness, skewness(mesh, face, normal, owner.centre, neighbour.centre));
     }
     const auto inner = static_cast<double>(std::max<std::size_t>(1, quality.inner_faces));
-    // As checkMesh: the angle of the mean cosine.
+    // As in checkMesh: the angle of the mean cosine.
     quality.mean_non_orthogonality = degrees_of(cosines / inner);
     quality.mean_volume_ratio = ratios / inner;
 }

@@ -9,28 +9,28 @@
 
 namespace vesselbench {
 
-/// A face of a polyhedral mesh: its corners, the cell it looks away from (owner) and the one behind
+/// A face of a polyhedral mesh: its corners, the cell it points out of (owner) and the cell behind
 /// it (neighbour), which is `kOutside` at the boundary.
 struct MeshFace {
     static constexpr std::uint32_t kOutside = 0xFFFFFFFF;
 
-    Triangle corners;  ///< normal by the right hand points out of the owner
+    Triangle corners;  ///< right-hand normal points out of the owner
     std::uint32_t owner = 0;
     std::uint32_t neighbour = kOutside;
     std::uint16_t patch = 0;  ///< at the boundary
 };
 
 /// All faces in OpenFOAM's order: inner faces by owner, then by neighbour (upper triangular), then
-/// the boundary by patch, then by owner. The owner is the cell of the lower number.
-/// \throw InvalidInput if a face has more than two cells, or is outer and not in `mesh.boundary`
+/// the boundary by patch, then by owner. The owner is the cell with the lower number.
+/// \throw InvalidInput if a face has more than two cells, or an outer one is not in `mesh.boundary`
 [[nodiscard]] std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh);
 
-/// How well the tetrahedra are shaped. Non-orthogonality, skewness and aspect ratio are OpenFOAM's
-/// (checkMesh of v1912, meshTools/primitiveMeshCheck), so that both name the same numbers.
+/// Shape quality of the tetrahedra. Non-orthogonality, skewness and aspect ratio are OpenFOAM's
+/// (checkMesh of v1912, meshTools/primitiveMeshCheck), so both report the same numbers.
 struct VolumeQuality {
     std::size_t points = 0, cells = 0, faces = 0, inner_faces = 0;
     double volume = 0.0;                ///< [mm^3]
-    double smallest_cell = 0.0;         ///< [mm^3]; not above 0: an inverted cell
+    double smallest_cell = 0.0;         ///< [mm^3]; <= 0: an inverted cell
     double mean_edge = 0.0;             ///< [mm]
     double smallest_dihedral = 0.0;     ///< [deg]
     double mean_smallest_dihedral = 0;  ///< mean over the cells of each cell's smallest angle [deg]
@@ -41,13 +41,13 @@ struct VolumeQuality {
     std::size_t faces_over_70_deg = 0;
     double largest_skewness = 0.0;      ///< [-]
     double largest_aspect_ratio = 0.0;  ///< [-]
-    double mean_volume_ratio = 1.0;     ///< of the larger to the smaller cell at a face [-]
+    double mean_volume_ratio = 1.0;     ///< larger over smaller cell at a face [-]
     double largest_volume_ratio = 1.0;  ///< [-]
 };
 
 [[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh);
 
-/// Its largest_non_orthogonality alone [deg], where the faces are known already.
+/// Only its largest_non_orthogonality [deg], for faces known already.
 /// \param faces of mesh_faces
 [[nodiscard]] double largest_non_orthogonality(const VolumeMesh& mesh,
                                                std::span<const MeshFace> faces);

@@ -23,7 +23,7 @@ struct Offset {
     float length;
 };
 
-// The 13 neighbours that come before a node in scan order; negated, those that come after.
+// The 13 neighbours that come before a node in scan order; negated, those that come after it.
 std::vector<Offset> half_neighbourhood() {
     std::vector<Offset> offsets;
     for (int k = -1; k <= 0; ++k)

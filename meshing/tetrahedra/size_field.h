@@ -9,9 +9,9 @@ namespace vesselbench {
 /// Mean length of the edges at every vertex [mm], #V.
 [[nodiscard]] std::vector<double> vertex_edge_lengths(const Surface& surface);
 
-/// Wanted edge length in the lumen [mm] on a regular grid around a surface. At the surface it is
-/// the surface's own edge length, inwards it grows by `growth` per unit of distance at most, and is
-/// scaled by `factor` from two edges of depth on, so that a change of size has room.
+/// Target edge length in the lumen [mm] on a regular grid around a surface. At the surface it is
+/// the surface's own edge length; inwards it grows by at most `growth` per unit of distance, and
+/// from a depth of two edges on it is scaled by `factor`, which leaves room for the transition.
 class SizeField {
 public:
     /// \param growth largest growth of the edge length per distance [-], >= 0
@@ -22,13 +22,13 @@ public:
         float distance;  ///< to the surface's vertices [mm], along the grid
     };
 
-    /// The nearest grid node to a place.
+    /// The grid node nearest to a point.
     [[nodiscard]] const Node& near(const Vec3& place) const;
 
-    /// Wanted edge length at a node [mm].
+    /// Target edge length at a node [mm].
     [[nodiscard]] static double size_of(const Node& node, double factor);
 
-    /// Wanted edge length at a place [mm], trilinear; beyond the grid the nearest place's.
+    /// Target edge length at a point [mm], trilinear; beyond the grid that of the nearest point.
     [[nodiscard]] double at(const Vec3& place, double factor) const;
 
 private:

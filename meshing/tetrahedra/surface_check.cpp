@@ -16,10 +16,10 @@ namespace {
 using Kind = SurfaceProblem::Kind;
 
 constexpr std::size_t kNamedPlaces = 3;
-// A triangle whose height is below this part of its longest edge has an angle below 0.6 degrees:
-// the cells on it cannot become good ones.
+// A triangle whose height is below this fraction of its longest edge has an angle below 0.6
+// degrees: the cells on it cannot become good ones.
 constexpr double kSliverHeight = 0.01;
-// Below this part the triangle has no usable normal in double precision.
+// Below this fraction the triangle has no usable normal in double precision.
 constexpr double kDegenerateHeight = 1e-9;
 
 class Finder {
@@ -65,7 +65,7 @@ void Finder::find_not_finite() {
     for (const Vec3& p : surface_.points())
         if (!p.allFinite()) places.push_back(p);
     add(Kind::NotFinite, {}, std::move(places), "a coordinate is not a finite number",
-        "the file is damaged: write it again from its source");
+        "the file is damaged: export it again from its source");
 }
 
 void Finder::find_duplicates() {
@@ -83,11 +83,11 @@ void Finder::find_duplicates() {
             triangles.push_back(keys[i].second);
             places.push_back(centre(keys[i].second));
         }
-    add(Kind::Duplicate, std::move(triangles), std::move(places), "a triangle is there twice",
+    add(Kind::Duplicate, std::move(triangles), std::move(places), "a triangle occurs twice",
         "run `repair`");
 }
 
-// Height over the longest edge, by that edge's length [-].
+// Height relative to the longest edge, by that edge's length [-].
 double relative_height(const Surface& surface, TriangleId t) {
     const auto& [a, b, c] = surface.triangles()[t];
     const auto& p = surface.points();
@@ -131,9 +131,9 @@ void Finder::find_defects() {
     for (const auto& edge : defects.inconsistent_edges) turned.push_back(middle(edge));
     for (const VertexId v : defects.vertices) vertices.push_back(surface_.points()[v]);
     add(Kind::NonManifoldEdge, {}, edges, "more than two triangles share an edge", "run `repair`");
-    add(Kind::NonManifoldVertex, {}, vertices, "parts of the surface touch in a single vertex",
+    add(Kind::NonManifoldVertex, {}, vertices, "parts of the surface touch at a single vertex",
         "run `repair` or `separate`");
-    add(Kind::Orientation, {}, turned, "two neighbouring triangles face opposite ways",
+    add(Kind::Orientation, {}, turned, "two adjacent triangles have opposite orientations",
         "run `repair`");
 }
 
@@ -163,7 +163,7 @@ void Finder::find_intersections(const Progress& progress) {
         places.push_back(0.5 * (centre(s) + centre(t)));
     }
     add(Kind::SelfIntersection, triangles, places, "two triangles intersect",
-        "run `repair`; where two branches touch, extract them apart (a mask, another threshold)");
+        "run `repair`; if two branches touch, extract them separately (a mask, another threshold)");
 }
 
 }  // namespace

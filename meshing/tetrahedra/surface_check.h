@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// One kind of defect that keeps a surface from being filled with tetrahedra, or from being
+/// One kind of defect that prevents a surface from being filled with tetrahedra, or from being
 /// printed.
 struct SurfaceProblem {
     enum class Kind {
@@ -26,9 +26,9 @@ struct SurfaceProblem {
     };
 
     Kind kind = Kind::Gap;
-    std::size_t count = 0;              ///< how many places
+    std::size_t count = 0;              ///< number of places
     Positions places;                   ///< of the first few of them [mm]
-    std::vector<TriangleId> triangles;  ///< the triangles concerned, ascending
+    std::vector<TriangleId> triangles;  ///< the triangles affected, ascending
     std::string cause;                  ///< "the surface has a gap (edges with one triangle)"
     std::string remedy;                 ///< "run `fill-hole` or `repair`"
 };
@@ -36,12 +36,12 @@ struct SurfaceProblem {
 /// "3 x cause, at (1.0, 2.0, 3.0) mm, ...; remedy".
 [[nodiscard]] std::string to_string(const SurfaceProblem& problem);
 
-/// All defects of a surface, the gravest first; none: closed, 2-manifold, oriented outward, one
+/// All defects of a surface, the most severe first; none: closed, 2-manifold, oriented outward, one
 /// part, free of self-intersections, slivers and degenerate triangles.
 [[nodiscard]] std::vector<SurfaceProblem> surface_problems(const Surface& surface,
                                                            const Progress& progress = {});
 
-/// Slivers are a nuisance, not an obstacle. \return true if filling the surface is hopeless
+/// True if the defect rules out filling the surface; slivers do not.
 [[nodiscard]] bool is_obstacle(const SurfaceProblem& problem);
 
 }  // namespace vesselbench

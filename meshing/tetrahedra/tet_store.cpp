@@ -10,7 +10,7 @@ bool has(const Tetrahedron& cell, VertexId v) {
     return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v;
 }
 
-// The two other corners p, q of a positive cell, so that (a, b, p, q) is positive too.
+// The other two corners p, q of a positive cell, ordered so that (a, b, p, q) is positive too.
 std::array<VertexId, 2> others(const Tetrahedron& cell, VertexId a, VertexId b) {
     const int i = static_cast<int>(std::find(cell.begin(), cell.end(), a) - cell.begin());
     const int j = static_cast<int>(std::find(cell.begin(), cell.end(), b) - cell.begin());

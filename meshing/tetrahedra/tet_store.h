@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// Tetrahedra that are being changed: each vertex knows its cells, cells are removed and added.
-/// The boundary's triangles stay as they are.
+/// A tetrahedral mesh under modification: each vertex knows its cells; cells are removed and added.
+/// The boundary triangles do not change.
 class TetStore {
 public:
     using CellId = std::uint32_t;
@@ -29,23 +29,23 @@ public:
 
     [[nodiscard]] bool on_boundary(VertexId v) const { return on_boundary_[v] != 0; }
 
-    /// The cells around an edge a-b and the vertices between them, so that (a, b, r[i], r[i + 1])
-    /// is a positive cell.
+    /// The cells around an edge a-b and the vertices between them, ordered so that (a, b, r[i], r[i
+    /// + 1]) is a positive cell.
     struct Ring {
         std::vector<CellId> cells;
         std::vector<VertexId> vertices;
     };
 
-    /// \return false if the edge lies on the boundary or has more than `largest` or kLargestRing
+    /// \return false if the edge is on the boundary or has more than `largest` or kLargestRing
     /// cells
     [[nodiscard]] bool find_ring(VertexId a, VertexId b, std::size_t largest, Ring& ring) const;
 
-    /// The cell behind the face opposite to corner `corner`, unless that is at the boundary.
+    /// The cell behind the face opposite to corner `corner`, unless that face is on the boundary.
     [[nodiscard]] std::optional<CellId> behind(CellId cell, int corner) const;
 
     void replace(const std::vector<CellId>& old, const std::vector<Tetrahedron>& fresh);
 
-    /// The living cells, in order.
+    /// The live cells, in order.
     [[nodiscard]] std::vector<Tetrahedron> cells() const;
 
     Positions points;  ///< [mm]

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-// TetGen's refinement callback has no room for a context.
+// TetGen's refinement callback takes no context.
 thread_local const TooLarge* current_wish = nullptr;
 
 bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL* /*metric*/, REAL /*volume*/) {
@@ -26,13 +26,13 @@ std::string meaning_of(int code) {
         case 1:
             return "out of memory";
         case 2:
-            return "TetGen met an internal error";
+            return "internal error of TetGen";
         case 3:
             return "two facets of the surface intersect";
         case 4:
             return "a feature of the surface is too small for the tolerance";
         case 5:
-            return "two facets of the surface lie almost on each other";
+            return "two facets of the surface nearly coincide";
         case 10:
             return "TetGen does not accept the surface as input";
         default:
@@ -75,7 +75,7 @@ std::vector<Tetrahedron> tetrahedra_of(const tetgenio& output, const Positions& 
     return tetrahedra;
 }
 
-// The sides, outward, of all tetrahedra that consist of boundary vertices only, by their corners.
+// The outward sides of all tetrahedra that consist of boundary vertices only, by their corners.
 std::vector<std::pair<Triangle, Triangle>> sides_on(const std::vector<std::uint8_t>& on_boundary,
                                                     const std::vector<Tetrahedron>& tetrahedra) {
     std::vector<std::pair<Triangle, Triangle>> sides;

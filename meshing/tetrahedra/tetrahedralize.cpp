@@ -20,13 +20,13 @@ namespace vesselbench {
 
 namespace {
 
-// A regular tetrahedron of edge h holds 0.118 h^3. TetGen splits what is larger than the bound, so
-// that the mean lies at 0.6 of it: with 0.19 h^3 the mean edge is about h.
+// A regular tetrahedron of edge h has a volume of 0.118 h^3. TetGen splits cells above the bound,
+// so the mean is 0.6 of it: with 0.19 h^3 the mean edge is about h.
 constexpr double kVolumeBound = 0.19;
-// Cells that TetGen makes in a cube of the wanted edge length, with the bound above.
+// Cells that TetGen makes in a cube of the target edge length, with the bound above.
 constexpr double kCellsPerCube = 9.9;
 constexpr double kCellsTolerance = 0.08;
-// Exchanges leave this part of TetGen's cells.
+// Exchanges leave this fraction of TetGen's cells.
 constexpr double kCellsAfterExchanges = 0.945;
 constexpr double kVolumeTolerance = 1e-6;
 
@@ -74,7 +74,7 @@ std::vector<std::size_t> patch_counts(const PatchLabels& labels, std::size_t pat
     return counts;
 }
 
-// Cells that hang together through faces; more than one group means that the region fell apart.
+// Groups of cells connected through faces; more than one group means that the region fell apart.
 std::size_t region_count(const VolumeMesh& mesh) {
     DisjointSets sets(mesh.tetrahedra.size());
     std::size_t regions = mesh.tetrahedra.size();
@@ -84,7 +84,7 @@ std::size_t region_count(const VolumeMesh& mesh) {
     return regions;
 }
 
-// What the mesh lost of the surface; empty: nothing.
+// What the mesh lost of the surface; empty if nothing.
 std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surface) {
     if (mesh.tetrahedra.empty()) return "no cells";
     const double wanted = volume(surface), got = volume(mesh);
@@ -108,8 +108,8 @@ std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surf
 }
 
 // Points that fill a tetrahedron evenly, as weights of three of its corners.
-// Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018 (R3); the unit
-// cube is folded to the tetrahedron by sorting.
+// Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018 (R3); sorting
+// folds the unit cube to the tetrahedron.
 Vec3 place_in_tetrahedron(int k) {
     constexpr double g = 1.2207440846057596;
     std::array<double, 3> t;
@@ -120,7 +120,7 @@ Vec3 place_in_tetrahedron(int k) {
 
 struct VolumeSample {
     double volume;         // [mm^3]
-    SizeField::Node node;  // the size wanted there
+    SizeField::Node node;  // target size there
 };
 
 class Mesher {
@@ -133,7 +133,7 @@ public:
           report_(report),
           progress_(progress) {}
 
-    // One mesh, made by the first rung that works.
+    // One mesh, made by the first rung of the ladder that works.
     VolumeMesh mesh(double factor) {
         const TooLarge too_large = [&](const Vec3& centre, double cell_volume) {
             const double h = sizes_.at(centre, factor);
@@ -158,7 +158,7 @@ public:
         fail();
     }
 
-    // How the lumen's volume is spread over the wanted sizes: samples of a coarse filling.
+    // Distribution of the lumen's volume over the target sizes: samples of a coarse filling.
     [[nodiscard]] std::vector<VolumeSample> samples() const {
         std::vector<VolumeSample> all;
         const VolumeMesh coarse = run_tetgen(surface_, "pY").mesh;
@@ -188,11 +188,11 @@ private:
             const Vec3 centre =
                 (surface_.points()[a] + surface_.points()[b] + surface_.points()[c]) / 3.0;
             text += "\n  facet " + std::to_string(culprits[i]) + " at " + place_text(centre) +
-                    " meets another one";
+                    " intersects another one";
         }
         throw AlgorithmFailure(text +
                                "\nrun `repair` and `remesh` before it, with a smaller edge length "
-                               "where walls lie close");
+                               "where walls are close");
     }
 
     const Surface& surface_;
@@ -236,7 +236,7 @@ VolumeMesh mesh_of_size(Mesher& mesher, const TetrahedralizeParameters& paramete
     return mesh;
 }
 
-// Below this factor the lumen is resolved much better than the wall, where the shear is wanted.
+// Below this factor the lumen is resolved much finer than the wall, where the shear matters.
 constexpr double kFineLumen = 0.6;
 
 void warn_of_number(double wanted, TetrahedralizeReport& report) {
@@ -244,13 +244,13 @@ void warn_of_number(double wanted, TetrahedralizeReport& report) {
     char text[200] = "";
     if (std::abs(reached / wanted - 1.0) > 0.1)
         std::snprintf(text, sizeof text,
-                      "asked for %.0f cells, reached %.0f: the surface's edge length decides; "
-                      "change it with `remesh`",
+                      "%.0f cells requested, %.0f reached: the surface's edge length limits the "
+                      "number; change it with `remesh`",
                       wanted, reached);
     else if (report.size < kFineLumen)
         std::snprintf(text, sizeof text,
-                      "the lumen's edges are %.2g of the surface's: for %.0f cells, `remesh` with "
-                      "an edge length of about that part resolves the wall as well",
+                      "the lumen's edges are %.2g of the surface's: to resolve the wall as well "
+                      "with %.0f cells, `remesh` with an edge length scaled by about that factor",
                       report.size, wanted);
     if (text[0] != 0) report.warnings.emplace_back(text);
 }
@@ -263,7 +263,7 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
     TetrahedralizeResult result;
     progress.report(0.0, "checking the surface");
     check_input(given, result.report, progress);
-    // TetGen would take vertices that no triangle uses as points of the lumen.
+    // TetGen would take unused vertices as points of the lumen.
     const Surface surface =
         select_triangles(given, std::vector<bool>(given.triangle_count(), true));
     progress.report(0.1, "filling the lumen");
@@ -276,11 +276,11 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
     result.mesh = in_cell_order(std::move(result.mesh));
     const std::string lost = loss(result.mesh, surface, result.report.surface_kept);
     if (!lost.empty())
-        throw AlgorithmFailure("tetrahedralize: the improved mesh is not sound (" + lost +
+        throw AlgorithmFailure("tetrahedralize: the improved mesh is not valid (" + lost +
                                "); use improve=0");
     if (!result.report.surface_kept)
         result.report.warnings.emplace_back(
-            "TetGen needed to divide triangles of the surface; the volume mesh's boundary is finer "
+            "TetGen had to divide triangles of the surface: the volume mesh's boundary is finer "
             "than the surface");
     result.report.quality = volume_quality(result.mesh);
     if (parameters.cells) warn_of_number(*parameters.cells, result.report);

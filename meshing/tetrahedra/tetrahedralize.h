@@ -12,18 +12,18 @@
 namespace vesselbench {
 
 struct TetrahedralizeParameters {
-    std::optional<double> cells;  ///< wanted number of cells, met within 10 %; decides `size`
-    double size = 1.0;            ///< edge length in the lumen by that of the surface [-], > 0
+    std::optional<double> cells;  ///< target number of cells, met within 10 %; overrides `size`
+    double size = 1.0;     ///< edge length in the lumen relative to that of the surface [-], > 0
     double growth = 0.15;  ///< growth of the edge length per distance from the wall [-], >= 0
-    double quality = 1.2;  ///< largest circumradius by shortest edge in TetGen [-], >= 1.1
+    double quality = 1.2;  ///< largest ratio of circumradius to shortest edge in TetGen [-], >= 1.1
     int improve = 4;       ///< rounds of improvement after TetGen; 0: none
 };
 
-/// What was tried and reached.
+/// Settings tried and results.
 struct TetrahedralizeReport {
     double size = 1.0;                  ///< the edge length factor used [-]
     std::string switches;               ///< TetGen's switches that led to the mesh
-    std::vector<std::string> attempts;  ///< each call of TetGen: switches, and how it ended
+    std::vector<std::string> attempts;  ///< each call of TetGen: switches and outcome
     std::vector<std::string> warnings;
     bool surface_kept = true;  ///< the boundary triangles are the surface's triangles
     VolumeQuality raw;         ///< as TetGen left it
@@ -37,10 +37,10 @@ struct TetrahedralizeResult {
 
 /// Fills a closed surface with tetrahedra. The surface's triangles become the mesh's boundary
 /// triangles, patches included; only the lumen receives new vertices. Edge lengths follow the
-/// surface's. Where TetGen fails, a ladder of other settings is tried; each is reported.
-/// \throw InvalidInput if the surface is open, intersects itself, is not manifold, has coordinates
-///        that are no numbers ...: the text names each cause and its places (surface_check.h)
-/// \throw AlgorithmFailure if no setting leads to a sound mesh; names the facets
+/// surface's. If TetGen fails, a ladder of other settings is tried; each is reported.
+/// \throw InvalidInput if the surface is open, intersects itself, is not manifold, has non-finite
+/// coordinates ...: the text names each cause and its places (surface_check.h)
+/// \throw AlgorithmFailure if no setting yields a valid mesh; names the facets
 [[nodiscard]] TetrahedralizeResult tetrahedralized(const Surface& surface,
                                                    const TetrahedralizeParameters& parameters,
                                                    const Progress& progress = {});

@@ -20,12 +20,12 @@ struct VolumeMesh {
     std::vector<Patch> patches;      ///< patches[0] is the wall, then openings, inlet first
 };
 
-/// The four faces of a tetrahedron, outward; face i lies opposite to corner i.
+/// The four faces of a tetrahedron, outward; face i is opposite to corner i.
 [[nodiscard]] constexpr std::array<Triangle, 4> faces_of(const Tetrahedron& t) {
     return {{{t[1], t[2], t[3]}, {t[0], t[3], t[2]}, {t[0], t[1], t[3]}, {t[0], t[2], t[1]}}};
 }
 
-/// The mesh's boundary as a surface of its own, patches included.
+/// The mesh's boundary as a separate surface, patches included.
 [[nodiscard]] Surface boundary_surface(const VolumeMesh& mesh);
 
 /// Sum of the signed volumes of all tetrahedra [mm^3].

@@ -13,7 +13,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Of the brush's radius: how far a dab of strength 1 lifts its middle.
+/// By the brush's radius: how far a dab of strength 1 lifts its middle.
 constexpr double kInflation = 0.1;
 
 /// cos 60 degrees: how far the normal of a place may have turned.
@@ -105,7 +105,7 @@ SurfacePoint BrushStroke::resolve(const Anchor& anchor) const {
             distance < best.distance || (distance == best.distance && t < best.triangle);
         if (distance <= anchor.radius && nearer) best = {point, t, distance};
     };
-    // Nothing has gone farther than farthest_ from where the tree knows it.
+    // No vertex has moved farther than farthest_ from where the tree holds it.
     if (const auto near = places_->closest_point(anchor.point, anchor.radius + farthest_))
         try_triangle(near->triangle);
     const double reach = std::min(best.distance, anchor.radius) + farthest_;
@@ -113,7 +113,8 @@ SurfacePoint BrushStroke::resolve(const Anchor& anchor) const {
     if (best.distance <= anchor.radius) return best;
     std::ostringstream text;
     text << "no surface within " << anchor.radius << " mm of " << place_text(anchor.point)
-         << " that faces the dab's normal to 60 degrees: the surface there has changed; brush anew";
+         << " whose normal is within 60 degrees of the dab's: the surface there has changed; brush "
+            "again";
     throw AlgorithmFailure(text.str());
 }
 

@@ -12,7 +12,7 @@
 
 namespace vesselbench {
 
-/// A place that outlives changes of the surface before it: it is no vertex, but a point with the
+/// A place that survives changes of the surface before it: not a vertex, but a point with the
 /// surface's outward normal and the vessel's radius there.
 struct Anchor {
     Vec3 point = Vec3::Zero();    ///< [mm]
@@ -20,61 +20,61 @@ struct Anchor {
     double radius = 1.0;          ///< local radius of the vessel [mm], > 0
 };
 
-/// The anchor of the surface's place nearest to a point: the outward normal there, and half of the
-/// way through the vessel as local radius.
+/// The anchor of the surface point nearest to a given point: the outward normal there, and half the
+/// distance across the vessel as local radius.
 /// \param places of the same surface
-/// \param otherwise local radius [mm] where that way leads into the open
+/// \param otherwise local radius [mm] if nothing lies across
 /// \throw InvalidInput if the point is not finite
 /// \throw AlgorithmFailure if the triangle there has no area
 [[nodiscard]] Anchor nearest_anchor(const Surface& surface, const SurfaceDistance& places,
                                     const Vec3& point, double otherwise);
 
 enum class BrushKind : std::uint8_t {
-    Smooth,   ///< Laplace passes: a vertex goes strength * falloff of the way to its ring's mean
+    Smooth,   ///< Laplace passes: a vertex moves strength * falloff of the way to its one-ring mean
     Inflate,  ///< along the vertex normals by strength * falloff * 0.1 radius; negative deflates
-    Weight,   ///< adds strength * falloff to a vertex attribute in [0, 1]; negative takes away
+    Weight,   ///< adds strength * falloff to a vertex attribute in [0, 1]; negative subtracts
 };
 
-/// One touch of a brush.
+/// One dab of a brush.
 struct Dab {
     Anchor anchor;
     double radius = 1.0;    ///< reach along the surface [mm], > 0
     double strength = 0.5;  ///< [-1, 1], [0, 1] for smoothing [-]
-    /// Part of the radius, from the edge inward, over which the brush fades [-], 0 ... 1: as
-    /// (1 - s^2)^2 with s from 0 to 1 across it. 1 fades from the middle on, 0 has a sharp edge.
+    /// Fraction of the radius, from the edge inward, over which the brush fades [-], 0 ... 1: as (1
+    /// - s^2)^2 with s from 0 to 1 across it. 1 fades from the centre, 0 has a sharp edge.
     double falloff = 1.0;
 };
 
-/// Share of its strength that a dab has at a distance along the surface [mm].
+/// Fraction of its strength that a dab has at a distance along the surface [mm].
 [[nodiscard]] double falloff_share(const Dab& dab, double distance);
 
 struct BrushSettings {
     BrushKind kind = BrushKind::Smooth;
-    int passes = 4;                            ///< Laplace passes a dab, 1 ... 100
-    std::string attribute = "painted_weight";  ///< that BrushKind::Weight paints; made when absent
+    int passes = 4;                            ///< Laplace passes per dab, 1 ... 100
+    std::string attribute = "painted_weight";  ///< painted by BrushKind::Weight; created if absent
 };
 
-/// A brush stroke, dab by dab. Its result depends on the dabs only, not on when each came in, so
-/// that a stroke on the screen and its replay have the same bits.
-/// The brush reaches along the surface, never through to another vessel. Vertices of patches other
-/// than the wall (so the caps with their rims) and of open boundaries are painted, but not moved.
+/// A brush stroke, dab by dab. Its result depends only on the dabs, not on how they are batched, so
+/// a stroke on the screen and its replay have the same bits. The brush reaches along the surface,
+/// never through to another vessel. Vertices of patches other than the wall (that is, caps with
+/// their rims) and of open boundaries are painted, but not moved.
 class BrushStroke {
 public:
-    /// \param places of the surface's start, when they are known already; made if null
+    /// \param places of the initial surface, if known already; built if null
     /// \throw InvalidInput if the surface is empty or a position is not finite, or the settings are
-    ///        out of their ranges
+    /// out of their ranges
     BrushStroke(Surface surface, BrushSettings settings,
                 std::shared_ptr<const SurfaceDistance> places = nullptr);
 
-    /// Touches the surface, as the dabs before left it, at the nearest place within one local
-    /// radius of the anchor whose normal is within 60 degrees of the anchor's.
+    /// Applies a dab to the surface as the dabs before left it, at the nearest place within one
+    /// local radius of the anchor whose normal is within 60 degrees of the anchor's.
     /// \return vertices that the dab changed, ascending
     /// \throw InvalidInput if the dab is out of its ranges
     /// \throw AlgorithmFailure if there is no such place; the stroke stays as it was
     std::vector<VertexId> add(const Dab& dab);
 
-    /// Ends the stroke: where it made the wall pass through itself or another one, it is taken
-    /// back.
+    /// Ends the stroke: it is reverted where it made the wall pass through itself or another
+    /// one.
     TakenBack keep_walls_apart(const Progress& progress = {});
 
     /// The surface with all dabs so far.
@@ -94,14 +94,14 @@ private:
 
     Surface start_;
     BrushSettings settings_;
-    std::shared_ptr<const SurfaceDistance> places_;  ///< of the start
+    std::shared_ptr<const SurfaceDistance> places_;  ///< of the initial surface
     GeodesicNeighbourhood neighbourhood_;
     std::vector<std::uint8_t> fixed_;  ///< #V
     Positions now_;                    ///< [mm], #V
     std::vector<double> weights_;      ///< #V for BrushKind::Weight, else empty
     double farthest_ = 0.0;            ///< largest displacement since the start [mm]
-    std::vector<Touched> touched_;     ///< by the dab in work, ascending
-    Positions moved_;                  ///< where they go, in their order
+    std::vector<Touched> touched_;     ///< by the current dab, ascending
+    Positions moved_;                  ///< where they move, in their order
 };
 
 }  // namespace vesselbench

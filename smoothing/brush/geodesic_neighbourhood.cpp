@@ -13,21 +13,21 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A vertex is visited again only where its distance shrinks by this share: rounding alone must not
+/// A vertex is visited again only if its distance shrinks by this fraction: rounding alone must not
 /// send the search in circles.
 constexpr double kWorthwhile = 1e-9;
 
-/// How far beyond the radius the search goes at most, by the radius, where edges are long.
+/// How far beyond the radius the search goes at most, in radii, where edges are long.
 constexpr double kMargin = 0.5;
 
-/// An edge j-k, and how far the place is from its ends.
+/// An edge j-k, and the distances of the place from its ends.
 struct Edge {
     double to_j, to_k;  ///< distances of the place [mm]
     double length;      ///< of the edge [mm]
 };
 
 /// Distance of corner i of a triangle, through its edge j-k: the place lies in the triangle's
-/// plane, beyond that edge; infinite where the straight way does not cross the edge.
+/// plane, beyond that edge; infinite if the straight path does not cross the edge.
 double unfolded_distance(const Edge& edge, double ij, double ik) {
     const double e = edge.length;
     const auto along = [&](double from_j, double from_k) {
@@ -52,11 +52,11 @@ GeodesicNeighbourhood::GeodesicNeighbourhood(const Topology& topology)
     : topology_(topology),
       distance_(topology.vertex_count(), 0.0),
       stamp_(topology.vertex_count(), 0) {
-    (void)topology.triangles_at();  // made here, lest the first search waits for it
+    (void)topology.triangles_at();  // built here, so that the first search does not wait for it
 }
 
 void GeodesicNeighbourhood::begin() {
-    if (++now_ == 0) {  // the counter went round
+    if (++now_ == 0) {  // the counter wrapped around
         std::fill(stamp_.begin(), stamp_.end(), 0U);
         now_ = 1;
     }
@@ -113,7 +113,7 @@ std::span<const GeodesicNeighbour> GeodesicNeighbourhood::within(const Positions
     begin();
     for (const VertexId v : topology_.triangles()[triangle])
         lower(v, (positions[v] - point).norm());
-    // A way to a vertex within the radius may pass beside a corner that lies beyond it.
+    // A path to a vertex within the radius may pass a corner that lies beyond it.
     while (!heap_.empty() &&
            heap_.front().distance <= radius + std::min(longest_, kMargin * radius)) {
         const Waiting nearest = heap_.front();

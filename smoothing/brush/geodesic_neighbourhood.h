@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-/// A vertex near a place, and how far the way to it is along the surface.
+/// A vertex near a place, and its distance along the surface.
 struct GeodesicNeighbour {
     VertexId vertex = 0;
     double distance = 0.0;  ///< along the surface [mm]
@@ -18,24 +18,24 @@ struct GeodesicNeighbour {
 };
 
 /// Finds the vertices around a place of a surface by their distance along the surface, so that a
-/// vessel that passes close by is far away. Made once for a topology and asked often: a search
-/// costs as much as the vertices it meets, whatever the size of the surface. Not for two threads at
-/// once.
+/// vessel passing close by is far away. Built once for a topology and queried often: the cost of a
+/// query depends on the vertices it visits, not on the size of the surface. Not thread-safe.
 /// Distances spread triangle by triangle from the two nearer corners, which are unfolded into the
-/// plane with the place as virtual source: on a plane right to 1e-5, obtuse triangles included.
+/// plane with the place as virtual source: accurate to 1e-5 on a plane, obtuse triangles included.
 /// Source: Melvaer, Reimers, "Geodesic polar coordinates on polygonal meshes", Computer Graphics
-/// Forum 31(8), 2012; the update of Reimers, "Topics in mesh based modelling", 2004.
+/// Forum 31(8), 2012; the update of Reimers, "Topics in mesh based modelling", 2004. Forum 31(8),
+/// 2012; the update of Reimers, "Topics in mesh based modelling", 2004.
 class GeodesicNeighbourhood {
 public:
     /// Keeps a reference to the topology.
     explicit GeodesicNeighbourhood(const Topology& topology);
 
-    /// The vertices at most `radius` [mm] away from `point` on `triangle`, ascending; none where
-    /// the triangles are larger than that. Valid until the next call. Parts with positions that are
-    /// not finite are left out.
+    /// The vertices at most `radius` [mm] away from `point` on `triangle`, ascending; none if the
+    /// triangles are larger than that. Valid until the next call. Parts with positions that are not
+    /// finite are ignored.
     /// \param positions [mm], #V
     /// \throw InvalidInput if the triangle does not exist, the positions are not #V long, the point
-    ///        is not finite, or the radius is not positive and finite
+    /// is not finite, or the radius is not positive and finite
     std::span<const GeodesicNeighbour> within(const Positions& positions, TriangleId triangle,
                                               const Vec3& point, double radius);
 
@@ -57,7 +57,7 @@ private:
 
     const Topology& topology_;
     std::vector<double> distance_;      ///< #V, valid where stamp_ is now_
-    std::vector<std::uint32_t> stamp_;  ///< #V, number of the search that met the vertex
+    std::vector<std::uint32_t> stamp_;  ///< #V, number of the last search that visited the vertex
     std::uint32_t now_ = 0;
     double longest_ = 0.0;  ///< edge met so far [mm]
     std::vector<Waiting> heap_;

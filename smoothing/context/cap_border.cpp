@@ -8,9 +8,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kInPlane = 1e-3;   // of the edge: neither up nor down
-constexpr double kSteep = 1.0;      // drop by run: 45 degrees
-constexpr int kSomeRings = 3;       // a voxel's step is one ring long, and no cap's edge
+constexpr double kInPlane = 1e-3;   // relative to the edge: neither up nor down
+constexpr double kSteep = 1.0;      // drop over run: 45 degrees
+constexpr int kSomeRings = 3;       // a voxel's step is one ring long; it is no cap's edge
 constexpr double kRimWidth = 2.0;   // in inner radii: 50 Laplace iterations round a rim that far
 constexpr double kNearlyAll = 0.9;  // of the border vertices
 constexpr double kElongation =
@@ -37,7 +37,7 @@ bool CapBorder::touches(const Area& area, VertexId v) const {
                        [&](TriangleId t) { return area.numbers[t] == area.number; });
 }
 
-/// Sign of the largest distance along the normal to the neighbours outside of the area.
+/// Sign of the largest distance along the normal to the neighbours outside the area.
 int CapBorder::side_beyond(const Area& area, VertexId v) const {
     double farthest = 0.0, reach = 0.0;
     for (const VertexId u : surface_.topology->rings().row(v)) {
@@ -68,7 +68,7 @@ int CapBorder::common_side(Area& area, std::span<const TriangleId> triangles) {
     return common;
 }
 
-/// Length of the longest of the shortest ways, counted in edges, from the area to its border [mm].
+/// Largest edge-path distance from a vertex of the area to its border [mm].
 double CapBorder::inner_radius(const Area& area) {
     std::vector<VertexId> front = area.border;
     for (const VertexId v : front) depth_[v] = 1e-300;  // seen

@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// Tells caps from other flat areas by what the surface does beyond their border. One object looks
-/// at one area after the other and keeps its arrays.
+/// Distinguishes caps from other flat areas by the surface beyond their border. One object checks
+/// one area after the other and keeps its arrays.
 class CapBorder {
 public:
     explicit CapBorder(const Surface& surface)
@@ -18,7 +18,7 @@ public:
           depth_(surface.vertex_count(), 0.0),
           seen_(surface.vertex_count(), 0) {}
 
-    /// Thesis Algorithm 1 and the conditions that find_caps() states.
+    /// Thesis Algorithm 1, and the conditions stated at find_caps().
     /// \param area triangles, all of which have the number `areas[area.front()]`
     /// \param normal unit mean normal of the area
     [[nodiscard]] bool encloses_cap(const AreaNumbers& areas, std::span<const TriangleId> area,
@@ -29,7 +29,7 @@ private:
         const AreaNumbers& numbers;
         std::uint32_t number;
         Vec3 normal;
-        std::vector<VertexId> border;  ///< vertices of the area that the surface goes on from
+        std::vector<VertexId> border;  ///< vertices of the area with surface beyond
     };
 
     [[nodiscard]] bool touches(const Area& area, VertexId v) const;
@@ -41,7 +41,7 @@ private:
 
     const Surface& surface_;
     std::vector<double> depth_;        ///< #V, all 0 between two areas
-    std::vector<std::uint32_t> seen_;  ///< #V: the area that has looked at the vertex last
+    std::vector<std::uint32_t> seen_;  ///< #V: the last area that visited the vertex
 };
 
 }  // namespace vesselbench

@@ -14,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-/// An edge between the cap and what is not, or a boundary edge of the cap.
+/// An edge between the cap and the rest of the surface, or a boundary edge of the cap.
 using RimEdge = std::array<VertexId, 2>;
 
 std::vector<RimEdge> rim_edges(const Surface& surface, const Cap& cap) {
@@ -41,7 +41,7 @@ Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return a + t * along;
 }
 
-/// The nearest place on some edges.
+/// The nearest point on some edges.
 class NearestEdge {
 public:
     NearestEdge(const Positions& points, const std::vector<RimEdge>& edges)
@@ -72,7 +72,7 @@ private:
     BoxTree tree_;
 };
 
-/// Mean direction, by edge lengths, in which the triangles beyond the rim arrive at it.
+/// Mean direction, weighted by edge length, in which the triangles beyond the rim arrive at it.
 Vec3 wall_direction(const Surface& surface, const Cap& cap, const std::vector<RimEdge>& rim) {
     const Positions& x = surface.points();
     Vec3 sum = Vec3::Zero();
@@ -95,8 +95,8 @@ Vec3 wall_direction(const Surface& surface, const Cap& cap, const std::vector<Ri
     return sum;
 }
 
-/// The way a dome rises: `up` is the cap's unit normal to the side on which the wall ends, `lean`
-/// in its plane.
+/// How a dome rises: `up` is the cap's unit normal towards the side on which the wall ends, `lean`
+/// lies in its plane.
 struct Rise {
     Vec3 up, lean;
 };
@@ -113,7 +113,7 @@ Rise rise_of(const Surface& surface, const Cap& cap, const std::vector<RimEdge>&
 
 void round_cap(const Surface& surface, const Cap& cap, double height, Positions& rounded) {
     const std::vector<RimEdge> rim = rim_edges(surface, cap);
-    if (rim.empty()) return;  // a closed flat thing has no inside to dome
+    if (rim.empty()) return;  // a closed flat shape has no inside to dome
     const NearestEdge nearest(surface.points(), rim);
     std::vector<VertexId> inner;
     std::set_difference(cap.vertices.begin(), cap.vertices.end(), cap.rim.begin(), cap.rim.end(),

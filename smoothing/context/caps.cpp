@@ -53,7 +53,7 @@ std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
     return found;
 }
 
-/// The flat areas that are caps by what is around them.
+/// The flat areas whose surroundings make them caps.
 std::vector<Cap> flat_caps(const Surface& surface, const AreaNormals& faces,
                            const CompressedRows& parts, const CapParameters& parameters) {
     auto [numbers, areas] = find_flat_areas(surface, faces, parts, parameters);

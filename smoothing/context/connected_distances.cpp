@@ -22,8 +22,8 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr VertexId kNone = std::numeric_limits<VertexId>::max();
 
-/// True if walking from v along the edge that leads nearest to the source arrives there. All of
-/// such a walk is nearer to the source than v; false proves nothing.
+/// True if a walk from v along the edge that leads closest to the source arrives there. Every
+/// vertex of such a walk is closer to the source than v; false proves nothing.
 bool walk_arrives(const DistanceSearch& search, VertexId v, VertexId source) {
     double here = search.squared_distance(v, source);
     while (v != source) {
@@ -42,7 +42,7 @@ bool walk_arrives(const DistanceSearch& search, VertexId v, VertexId source) {
 }
 
 /// The nearest of the sources that reach a neighbour of v. They reach v, too, if they are within
-/// reach. Looks at sources and at the vertices from `first` to v - 1.
+/// reach. Considers sources and the vertices from `first` to v - 1.
 PointTree::Found handed_on(const DistanceSearch& search, VertexId v, VertexId first,
                            double just_beyond) {
     PointTree::Found best{kNone, just_beyond};
@@ -59,9 +59,9 @@ PointTree::Found handed_on(const DistanceSearch& search, VertexId v, VertexId fi
     return best;
 }
 
-/// Gives every vertex the nearest of all sources, where a neighbour or a walk proves that it
+/// Assigns to every vertex the nearest of all sources if a neighbour or a walk proves that it
 /// reaches.
-/// \return vertices with a source within reach, for whose nearest one there is no such proof
+/// \return vertices with a source within reach whose nearest one lacks such a proof
 template <class Places>
 std::vector<VertexId> find_nearest(DistanceSearch& search, const Places& places) {
     const std::size_t count = search.x.size();
@@ -89,8 +89,8 @@ std::vector<VertexId> find_nearest(DistanceSearch& search, const Places& places)
     return result;
 }
 
-/// Hands sources on to open vertices from their neighbours: what reaches a neighbour reaches them,
-/// if it is within its reach. An upper bound of their distance.
+/// Passes sources on to open vertices from their neighbours: a source that reaches a neighbour
+/// reaches them too, if it is within its reach. An upper bound of their distance.
 void hand_on(DistanceSearch& search, const std::vector<VertexId>& open) {
     std::vector<std::uint8_t> is_open(search.x.size(), 0);
     for (const VertexId v : open) is_open[v] = 1;
@@ -117,7 +117,7 @@ void hand_on(DistanceSearch& search, const std::vector<VertexId>& open) {
     }
 }
 
-/// Connected parts of the surface, each with the box around it.
+/// Connected parts of the surface, each with its bounding box.
 struct Parts {
     std::vector<std::uint32_t> part;  ///< #V
     std::vector<BoxTree::Box> boxes;
@@ -142,7 +142,7 @@ struct Parts {
         }
     }
 
-    /// True if the whole part of the source is certainly within reach of it.
+    /// True if the whole part of the source is certainly within its reach.
     [[nodiscard]] bool within_reach(const DistanceSearch& search, VertexId source) const {
         const BoxTree::Box& box = boxes[part[source]];
         const Vec3& p = search.x[source];
@@ -151,7 +151,7 @@ struct Parts {
     }
 };
 
-/// Sources nearer to an open vertex than what it has got. The first of them that surely reaches it
+/// Sources closer to an open vertex than its current one. The first of them that surely reaches it
 /// gives its distance; those before that one are doubts.
 template <class Places>
 void collect_doubts(DistanceSearch& search, const Places& places, const Parts& parts, VertexId v,
@@ -194,7 +194,7 @@ std::vector<Doubt> all_doubts(DistanceSearch& search, const Places& places,
     return doubts;
 }
 
-/// \param places the sources, to be found by place
+/// \param places the sources, as a spatial search structure
 template <class Places>
 void find_distances(DistanceSearch& search, const Places& places) {
     const std::vector<VertexId> open = find_nearest(search, places);
@@ -203,7 +203,7 @@ void find_distances(DistanceSearch& search, const Places& places) {
     settle_doubts(search, all_doubts(search, places, open));
 }
 
-/// Where a search begins: the sources know themselves.
+/// Initial state: each source is its own nearest.
 DistanceSearch begun_search(const Topology& topology, const Positions& positions,
                             const std::vector<VertexId>& sources, double reach) {
     const std::size_t count = positions.size();
@@ -222,7 +222,7 @@ DistanceSearch begun_search(const Topology& topology, const Positions& positions
     return search;
 }
 
-/// Calls find(places) with the sources, to be found by place.
+/// Calls find(places) with a spatial search structure of the sources.
 template <class Find>
 void with_places(const DistanceSearch& search, const Find& find) {
     const PointGrid grid(search.x, search.sources);

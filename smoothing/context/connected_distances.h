@@ -10,26 +10,26 @@
 namespace vesselbench {
 
 /// Distance of every vertex to the nearest source [mm] that can be reached along edges whose
-/// vertices all lie within `reach` [mm] of that source; infinite if there is none. Exact, the same
-/// bits on any number of threads.
-/// Nearly every vertex is settled by the source nearest to it in space and a straight walk there,
-/// n log n in all. What that leaves open, at sheets that come within the reach of each other, is
-/// searched from each source in doubt: up to sources in doubt times vertices within the reach.
-/// \param sources ascending, at finite positions; vertices at positions that are not finite have
-///        no distance
+/// vertices all lie within `reach` [mm] of that source; infinite if there is none. Exact,
+/// bit-identical for any number of threads. Nearly every vertex is settled by the source nearest to
+/// it in space and a straight walk to it, n log n in all. The vertices left open, at sheets within
+/// the reach of each other, are settled by a search from each source in doubt: up to sources in
+/// doubt times vertices within the reach.
+/// \param sources ascending, at finite positions; vertices at positions that are not finite have no
+/// distance
 [[nodiscard]] std::vector<double> connected_distances(const Topology& topology,
                                                       const Positions& positions,
                                                       const std::vector<VertexId>& sources,
                                                       double reach);
 
-/// A vertex that has sources within reach, the nearest of which may not reach it.
+/// A vertex with sources within reach, the nearest of which may not reach it.
 struct OpenVertex {
     VertexId vertex = 0;
-    /// The nearest source that is known to reach it; the largest number: none.
+    /// The nearest source known to reach it; the largest number: none.
     VertexId known = std::numeric_limits<VertexId>::max();
 };
 
-/// The same for the few vertices that a search elsewhere left open, in their order.
+/// The same for a few vertices that a search elsewhere left open, in their order.
 [[nodiscard]] std::vector<double> open_distances(const Topology& topology,
                                                  const Positions& positions,
                                                  const std::vector<VertexId>& sources, double reach,

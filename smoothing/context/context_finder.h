@@ -12,25 +12,25 @@
 
 namespace vesselbench {
 
-/// Staircase weights and what they come from.
+/// Staircase weights and their origin.
 struct StaircaseContext {
     std::vector<double> weights;  ///< in [0, 1], #V
-    std::size_t vertices = 0;     ///< that are a staircase's, caps left out
+    std::size_t vertices = 0;     ///< staircase vertices, caps excluded
 };
 
-/// Weights of distances to neighbours and what they come from.
+/// Weights of distances to neighbours and their origin.
 struct NeighbourContext {
     std::vector<double> weights;     ///< in [0, 1], #V
     double least = 0.0, most = 0.0;  ///< distances [mm]
 };
 
-/// Finds the context of one surface (thesis 5.2, 5.3): the door through which operations use the
-/// CPU, or another device. For one thread.
+/// Finds the context of one surface (thesis 5.2, 5.3): the interface through which operations use
+/// the CPU or another device. Not thread-safe.
 class ContextFinder {
 public:
     virtual ~ContextFinder() = default;
 
-    /// The surface's caps as find_caps finds them; found once.
+    /// The surface's caps, as find_caps finds them; computed once.
     [[nodiscard]] const std::vector<Cap>& caps() {
         if (!caps_) caps_ = search_caps();
         return *caps_;
@@ -50,7 +50,7 @@ private:
     std::optional<std::vector<Cap>> caps_;
 };
 
-/// The finder of smoothing/. The same bits on any number of threads.
+/// The finder of smoothing/. Bit-identical for any number of threads.
 [[nodiscard]] std::unique_ptr<ContextFinder> make_cpu_finder(Surface surface);
 
 }  // namespace vesselbench

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Vertices that a flood has met, without clearing them between floods.
+/// Vertices visited by a flood, without clearing between floods.
 struct FloodMarks {
     std::vector<std::uint32_t> met;  ///< #V: number of the last flood
     std::uint32_t flood = 0;
@@ -26,7 +26,7 @@ void lower(double& value, double to) {
 }
 
 /// The definition itself: spreads from the source within its reach, until the last vertex in doubt
-/// about it is met.
+/// about it is visited.
 void flood(DistanceSearch& search, std::span<const Doubt> doubts, FloodMarks& marks) {
     if (marks.met.empty()) marks.met.assign(search.x.size(), 0);
     const std::uint32_t met = marks.flood + 2, wanted = met - 1;

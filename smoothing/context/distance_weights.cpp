@@ -12,10 +12,11 @@ namespace vesselbench {
 
 void require_neighbours(std::span<const Surface> neighbours) {
     if (neighbours.empty())
-        throw InvalidInput("distance awareness needs a neighbour: there is none");
+        throw InvalidInput("distance awareness needs a neighbour, but there is none");
     for (const Surface& neighbour : neighbours)
         if (neighbour.empty())
-            throw InvalidInput("distance awareness needs neighbours with triangles: one has none");
+            throw InvalidInput(
+                "distance awareness needs neighbours with triangles, but one has none");
 }
 
 bool is_closed(const Surface& neighbour) {
@@ -25,7 +26,7 @@ bool is_closed(const Surface& neighbour) {
 
 void require_distance_parameters(const DistanceParameters& parameters) {
     if (!(parameters.margin >= 0.0) || !std::isfinite(parameters.margin))
-        throw InvalidInput("margin must be 0 mm or more");
+        throw InvalidInput("margin must be at least 0 mm");
     require_positive("omega", parameters.omega);
 }
 
@@ -60,7 +61,7 @@ std::vector<double> distance_weights(std::span<const double> distances,
     const double omega = parameters.omega;
     for (std::size_t v = 0; v < weights.size(); ++v) {
         const double beyond = std::max(0.0, distances[v] - from);
-        // Eq. 5.2 divided by e^(omega max(D)), so that nothing overflows.
+        // Eq. 5.2 divided by e^(omega max(D)), to avoid overflow.
         weights[v] = parameters.scaling == DistanceScaling::Exponential
                          ? std::exp(omega * (beyond - range)) * -std::expm1(-omega * beyond) /
                                -std::expm1(-omega * range)

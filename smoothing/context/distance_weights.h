@@ -21,15 +21,15 @@ struct DistanceParameters {
     double omega = 0.06;  ///< [1/mm], > 0
 };
 
-/// Distance of every position to the nearest of several neighbours [mm]: true distances from point
+/// Distance of every position to the nearest of several neighbours [mm]: exact distances from point
 /// to triangle; 0 inside a closed neighbour.
 /// \throw InvalidInput if there is no neighbour, or one without triangles
 [[nodiscard]] std::vector<double> neighbour_distances(const Positions& positions,
                                                       std::span<const Surface> neighbours);
 
-/// Smoothing weights in [0, 1] that keep what is near a neighbour: 0 at the smallest distance or
-/// within the margin, 1 at the largest. All 0 where no distance differs, or none exceeds the
-/// margin.
+/// Smoothing weights in [0, 1] that preserve the surface near a neighbour: 0 at the smallest
+/// distance or within the margin, 1 at the largest. All 0 if all distances are equal, or none
+/// exceeds the margin.
 /// Source: thesis 5.2, Eq. 5.2 with d in mm.
 /// \throw InvalidInput if a parameter is out of range or a distance is negative or not finite
 [[nodiscard]] std::vector<double> distance_weights(std::span<const double> distances,
@@ -38,7 +38,7 @@ struct DistanceParameters {
 /// \throw InvalidInput if there is no neighbour, or one without triangles
 void require_neighbours(std::span<const Surface> neighbours);
 
-/// True if no edge has exactly one triangle: a neighbour then has an inside.
+/// True if no edge has exactly one triangle, so that a neighbour has an inside.
 [[nodiscard]] bool is_closed(const Surface& neighbour);
 
 /// \throw InvalidInput if a parameter is out of range

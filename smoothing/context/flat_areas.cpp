@@ -15,13 +15,14 @@ namespace vesselbench {
 namespace {
 
 constexpr std::uint32_t kNotSearched = 0xFFFFFFFF;  // number of the triangles of other patches
-constexpr double kLargestSpread = 15.0;             // of the face normals around a cap's own [deg]
+constexpr double kLargestSpread =
+    15.0;  // of the face normals around the mean normal of a cap [deg]
 
 double cosine(double degrees) {
     return std::cos(degrees * std::numbers::pi / 180.0);
 }
 
-/// Vertices none of whose triangles turns away from their normal.
+/// Vertices none of whose triangles deviates from their normal.
 struct FlatVertices {
     std::vector<std::uint8_t> flat;  ///< #V
     std::vector<Vec3> normals;       ///< #V unit, at flat vertices
@@ -46,7 +47,8 @@ FlatVertices find_flat_vertices(const CompressedRows& rows, const AreaNormals& f
     return found;
 }
 
-/// Connected flat vertices, by their first one. They are flat no longer: once looked at is enough.
+/// Connected flat vertices, listed by their first one. Their flags are cleared, so each is visited
+/// once.
 CompressedRows connected_parts(const CompressedRows& rings, std::vector<std::uint8_t>& flat) {
     CompressedRows parts{{0}, {}};
     auto& queue = parts.values;
@@ -66,17 +68,17 @@ CompressedRows connected_parts(const CompressedRows& rings, std::vector<std::uin
     return parts;
 }
 
-/// What the growth of areas is made from; nothing of it changes on the way.
+/// The input for growing areas; constant meanwhile.
 struct Ground {
     const Surface& surface;
     const CompressedRows& rows;
     const AreaNormals& faces;
     std::size_t smallest;
     double flat_cosine, spread_cosine;
-    std::vector<std::uint32_t> part_of;  ///< #V: number of the plane part, from 1; 0: none
+    std::vector<std::uint32_t> part_of;  ///< #V: number of the planar part, from 1; 0: none
 };
 
-/// Grows the areas of plane parts, none of which takes a triangle that has a number.
+/// Grows the areas of planar parts; no area takes a triangle that already has a number.
 class Growth {
 public:
     Growth(const Ground& ground, AreaNumbers& numbers) : ground_(ground), numbers_(numbers) {}
@@ -124,7 +126,7 @@ private:
     }
 
     /// Adds the triangles around the area that differ slightly from it (those at a flat vertex do)
-    /// and not much from the whole, and so on from each of them up to an edge of the surface.
+    /// and not much from the whole, then continues from each of them up to an edge of the surface.
     void grow() {
         const auto& faces = ground_.faces;
         const Vec3 normal = mean_normal(faces, area_);
@@ -151,9 +153,9 @@ private:
     std::vector<TriangleId> area_, around_;
 };
 
-/// Flags the vertices of those parts that are plane and large enough. What lies outside the plane
-/// of most of a part is left out, and all of it if most of it does: a flat part may go on around a
-/// smoothed rim, but a gentle bend has no plane.
+/// Flags the vertices of the parts that are planar and large enough. Vertices outside the plane of
+/// most of a part are dropped, and the whole part if they are the majority: a flat part may
+/// continue around a smoothed rim, but a gentle bend has no plane.
 std::vector<std::uint8_t> in_planes(const CompressedRows& parts, const std::vector<Vec3>& normals,
                                     std::size_t smallest) {
     std::vector<std::uint8_t> in_plane(normals.size(), 0);
@@ -165,7 +167,7 @@ std::vector<std::uint8_t> in_planes(const CompressedRows& parts, const std::vect
         const auto outside = [&](VertexId v) { return normals[v].dot(normal) < spread_cosine(); };
         const auto inside =
             part.size() - static_cast<std::size_t>(std::ranges::count_if(part, outside));
-        // a plane net of n vertices has fewer than 2 n triangles
+        // a planar net of n vertices has fewer than 2 n triangles
         if (2 * inside < part.size() || 2 * part.size() < smallest) return;
         for (const VertexId v : part) in_plane[v] = outside(v) ? 0 : 1;
     });
@@ -254,7 +256,7 @@ FlatAreas find_flat_areas(const Surface& surface, const AreaNormals& faces,
         if (kind != PatchKind::Wall) found.numbers[t] = kNotSearched;
     });
     // Areas are made one after the other, none from a triangle that another has taken. Nearly all
-    // take the same ones as if they were alone, which is found at the same time for all of them.
+    // take the same ones as if they were alone, which is computed for all of them in parallel.
     auto areas = lone_areas(ground, parts, found.numbers);
     Growth growth(ground, found.numbers);
     for (std::size_t i = 0; i < areas.size(); ++i) {

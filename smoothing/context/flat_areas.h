@@ -11,9 +11,9 @@ namespace vesselbench {
 
 /// Normal of a triangle.
 struct FaceNormal {
-    Vec3 weighted = Vec3::Zero();  ///< as long as twice the area [mm^2]
+    Vec3 weighted = Vec3::Zero();  ///< its length is twice the area [mm^2]
 
-    /// Of it; 0: degenerate. Worked out again where it is needed, which memory notices less.
+    /// Unit normal; 0: degenerate. Recomputed on demand, which costs less memory bandwidth.
     [[nodiscard]] double length() const { return weighted.norm(); }
 };
 
@@ -21,8 +21,8 @@ struct FaceNormal {
 class AreaNormals {
 public:
     enum class When {
-        Ahead,  ///< all are worked out now
-        Asked   ///< each when it is asked for: where few are
+        Ahead,  ///< all are computed now
+        Asked   ///< each is computed when requested: if few are
     };
 
     AreaNormals(const Surface& surface, When when);
@@ -38,16 +38,16 @@ private:
     std::vector<FaceNormal> known_;
 };
 
-/// Unit mean of the normals of some triangles, by area.
+/// Unit mean of the normals of some triangles, weighted by area.
 [[nodiscard]] Vec3 mean_normal(const AreaNormals& faces, std::span<const TriangleId> triangles);
 
-/// Connected flat vertices (all of whose triangles lie along the vertex' normal) that have a plane
-/// and may be enough for a cap; what lies outside of a part's plane is left out. A row a part, in
+/// Connected flat vertices (whose triangles all lie along the vertex's normal) that have a plane
+/// and may be enough for a cap; vertices outside a part's plane are dropped. One row per part, in
 /// the order of the parts' first vertices.
 [[nodiscard]] CompressedRows plane_parts(const Surface& surface, const AreaNormals& faces,
                                          const CapParameters& parameters);
 
-/// cos of the largest spread of the face normals around a cap's own.
+/// cos of the largest spread of the face normals around a cap's mean normal.
 [[nodiscard]] double spread_cosine();
 
 /// Per triangle the number of the flat area it belongs to; 0: none.
@@ -59,8 +59,8 @@ struct FlatAreas {
     std::vector<std::vector<TriangleId>> areas;  ///< in the order of their first vertices
 };
 
-/// Finds the plane flat areas among the triangles of the wall, each grown from a plane part up to
-/// the edges around it; no triangle is in two. The same on any number of threads.
+/// Finds the planar flat areas among the triangles of the wall, each grown from a planar part up to
+/// the edges around it; no triangle is in two. The same for any number of threads.
 [[nodiscard]] FlatAreas find_flat_areas(const Surface& surface, const AreaNormals& faces,
                                         const CompressedRows& parts,
                                         const CapParameters& parameters);

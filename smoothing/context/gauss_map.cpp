@@ -14,7 +14,7 @@ namespace vesselbench {
 namespace {
 
 constexpr double kBinsPerRadius = 3.0;
-constexpr double kMostBins = 1024.0;  // along a side of the cube: 0.09 degrees
+constexpr double kMostBins = 1024.0;  // per side of the cube: 0.09 degrees
 
 int largest_component(const Vec3& axis) {
     int largest = 0;
@@ -53,7 +53,8 @@ void GaussMap::fill_bins(std::span<const Vec3> normals) {
     for_each_vertex(normals.size(), [&](std::size_t i) { bin[i] = bin_of(normals[i], bins); });
     constexpr auto kNone = static_cast<std::uint32_t>(-1);
     std::vector<std::uint32_t> occupied(static_cast<std::size_t>(3 * bins * bins), kNone);
-    for (std::size_t i = 0; i < normals.size(); ++i) {  // in order: the same sums on any threads
+    for (std::size_t i = 0; i < normals.size();
+         ++i) {  // in order: the same sums for any number of threads
         std::uint32_t& at = occupied[bin[i]];
         if (at == kNone) {
             at = static_cast<std::uint32_t>(count_.size());

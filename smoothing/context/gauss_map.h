@@ -8,8 +8,8 @@
 
 namespace vesselbench {
 
-/// Unit face normals as axes (n and -n are one) on a half sphere, gathered in bins whose width is a
-/// third of the radius within which they are counted: linear in the number of normals.
+/// Unit face normals as axes (n and -n are one) on a hemisphere, collected in bins a third as wide
+/// as the counting radius: linear in the number of normals.
 class GaussMap {
 public:
     /// \param normals unit vectors, the sign does not matter
@@ -64,7 +64,7 @@ private:
     std::vector<std::uint32_t> count_;  ///< of the occupied bins
     std::vector<Vec3> direction_;       ///< of the occupied bins
     std::vector<std::uint32_t> cell_start_;
-    std::vector<Entry> entry_;  ///< every bin twice, with either sign, by cell
+    std::vector<Entry> entry_;  ///< every bin twice, once per sign, by cell
 };
 
 /// The same axis with its largest component positive; of equal ones the first.

@@ -15,16 +15,18 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kFineRadius = 0.02;      // of the density that shows sharp peaks [-]
-constexpr std::size_t kPeaks = 32;        // a mask's surface has 13 normals, and some rare ones
-constexpr double kApart = 2.5;            // of two peaks [deg]; voxels 1:12 have some 5 apart
-constexpr double kPeakWidth = 1.0;        // [deg]
-constexpr double kRingFrom = 2.0;         // [deg]
-constexpr double kRingTo = 6.0;           // [deg]
-constexpr double kMedianWidth = 2.0;      // of the normals that the median is taken of [deg]
-constexpr double kRightAngle = 1.0;       // by which two lattice axes may miss 90 degrees [deg]
-constexpr double kFitsLattice = 2.0;      // of a face's normal from one of the lattice's [deg]
-constexpr double kShareOnLattice = 0.95;  // of the faces, at least; masks' surfaces have 0.99
+constexpr double kFineRadius = 0.02;  // of the density that reveals sharp peaks [-]
+constexpr std::size_t kPeaks = 32;    // a mask's surface has 13 normals, and some rare ones
+constexpr double kApart = 2.5;        // of two peaks [deg]; 1:12 voxels have some 5 apart
+constexpr double kPeakWidth = 1.0;    // [deg]
+constexpr double kRingFrom = 2.0;     // [deg]
+constexpr double kRingTo = 6.0;       // [deg]
+constexpr double kMedianWidth = 2.0;  // of the normals entering the median [deg]
+constexpr double kRightAngle =
+    1.0;  // deviation allowed between two lattice axes and 90 degrees [deg]
+constexpr double kFitsLattice =
+    2.0;  // deviation of a face's normal from one of the lattice's [deg]
+constexpr double kShareOnLattice = 0.95;  // of the faces, at least; surfaces of masks have 0.99
 constexpr double kFewestFlatFaces = 8.0;  // along each lattice axis
 constexpr double kShareOblique = 0.01;  // of the faces, oblique to the long edge; prisms have none
 
@@ -36,11 +38,11 @@ double cosine(double degrees) {
     return std::cos(radians(degrees));
 }
 
-/// Geometric median on the sphere by Weiszfeld's iteration; it stays on a plateau's own direction
-/// where a mean would be drawn to the side with more of the surface around it.
+/// Geometric median on the sphere by Weiszfeld's iteration; it stays on a plateau's own direction,
+/// where a mean would be drawn to the side with more surface around it.
 Vec3 median_axis(const std::vector<Vec3>& near, Vec3 axis) {
     constexpr int kIterations = 40;
-    constexpr double kSmallest = 1e-6;  // [rad]; nearer normals weigh the same
+    constexpr double kSmallest = 1e-6;  // [rad]; closer normals get equal weights
     const double limit = 2.0 * std::sin(0.5 * radians(kMedianWidth));
     for (int i = 0; i < kIterations; ++i) {
         Vec3 sum = Vec3::Zero();
@@ -81,12 +83,12 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Directions of a mask's faces [mm^-1 in relation]: sums of the axes over the edges, each taken
-/// plus, minus or not at all.
+/// Directions of a mask's faces [mm^-1, relative]: sums of the axes over the edges, each added,
+/// subtracted or omitted.
 std::vector<Vec3> lattice_normals(const std::array<Vec3, 3>& axes, const Vec3& edges) {
     std::vector<Vec3> normals;
     const auto sign = [](int digits) { return static_cast<double>(digits % 3 - 1); };
-    for (int code = 14; code < 27; ++code) {  // one of each pair of opposite ones
+    for (int code = 14; code < 27; ++code) {  // one of each pair of opposites
         const Vec3 n = sign(code / 9) / edges[0] * axes[0] + sign(code / 3) / edges[1] * axes[1] +
                        sign(code) / edges[2] * axes[2];
         normals.push_back(n.normalized());
@@ -103,10 +105,10 @@ double share_along(const FaceNormals& faces, const std::vector<Vec3>& directions
     return static_cast<double>(fitting) / static_cast<double>(faces.normals.size());
 }
 
-/// Nothing where no face is oblique to the long edge, as on prisms with few sides.
+/// Empty if no face is oblique to the long edge, as on prisms with few sides.
 std::optional<VoxelLattice> lattice_of(const FaceNormals& faces,
                                        const std::array<const NormalPeak*, 3>& peaks) {
-    // Flat faces have half the product of the other two edges: edges go as 1 / area.
+    // Flat faces have half the product of the other two edges: an edge is proportional to 1 / area.
     const std::array<Vec3, 3> axes = {peaks[0]->axis, peaks[1]->axis, peaks[2]->axis};
     const Vec3 edges(1.0 / peaks[0]->area, 1.0 / peaks[1]->area, 1.0 / peaks[2]->area);
     std::array<int, 3> order = {0, 1, 2};
@@ -115,7 +117,8 @@ std::optional<VoxelLattice> lattice_of(const FaceNormals& faces,
     const std::vector<Vec3> normals = lattice_normals(axes, edges);
     std::vector<Vec3> oblique;
     for (const Vec3& n : normals) {
-        const double along = std::abs(n.dot(long_axis));  // 0.71 at most, but for the axis itself
+        const double along =
+            std::abs(n.dot(long_axis));  // at most 0.71, except for the axis itself
         if (along > std::sin(radians(kRightAngle)) && along < 0.9) oblique.push_back(n);
     }
     if (share_along(faces, oblique, 0.5 * kFitsLattice) < kShareOblique) return {};
@@ -141,8 +144,8 @@ NormalPeak peak_near(const FaceNormals& faces, const Vec3& start) {
         if (dot < cosine(kRingFrom) && dot >= cosine(kRingTo)) ring += 1.0;
     }
     peak.faces = static_cast<double>(areas.size());
-    // A tube's normals lie on a circle: as many as the angle is wide. On other shapes they are
-    // fewer.
+    // A tube's normals lie on a circle: their number is proportional to the angle. Other shapes
+    // have fewer.
     peak.excess = std::max(0.0, peak.faces - ring * kPeakWidth / (kRingTo - kRingFrom));
     peak.area = median(std::move(areas));
     peak.axis = folded_axis(peak.axis);

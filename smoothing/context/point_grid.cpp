@@ -9,8 +9,8 @@ namespace {
 constexpr double kMostCells = 1024.0;  // along an axis
 constexpr double kCrowd = 32.0;        // points in the cell of the average point
 
-/// Points lie on a surface, so that n cells in space leave n^(1/3) points in each that has any:
-/// more cells keep these few, and cost memory.
+/// Points lie on a surface, so n cells in space leave n^(1/3) points per occupied cell: more cells
+/// keep these few, and cost memory.
 double cells_for(std::size_t points) {
     const auto count = static_cast<double>(points);
     return count * std::clamp(std::sqrt(count) / 100.0, 1.0, 8.0) + 64.0;

@@ -25,12 +25,12 @@ struct CellLayout {
     }
 };
 
-/// Cells for some points of a surface in a box of this size [mm], so that a cell holds few of them.
-/// \return none if the box is too large for numbers
+/// Cells for some points of a surface in a box of this size [mm], with few points per cell.
+/// \return none if the box is too large for cell numbers
 [[nodiscard]] std::optional<CellLayout> cell_layout(const Vec3& extent, std::size_t points);
 
-/// Some vertices of a surface in equal cells, to be found by place as in a PointTree: several times
-/// faster, unless most of them crowd in few cells. Where two lie equally near, either is found.
+/// Some vertices of a surface in equal cells, searched like a PointTree: several times faster,
+/// unless most vertices crowd in few cells. If two are equally near, either is found.
 class PointGrid {
 public:
     using Found = PointTree::Found;
@@ -38,11 +38,11 @@ public:
     /// \param chosen at finite positions
     PointGrid(const Positions& positions, std::span<const VertexId> chosen);
 
-    /// True if there are so many vertices in a cell that a PointTree should be used; a grid that
-    /// is must not be searched.
+    /// True if cells are so crowded that a PointTree should be used; a crowded grid must not be
+    /// searched.
     [[nodiscard]] bool crowded() const { return crowded_; }
 
-    /// The vertex nearest to p, if it is nearer than what is known already; else that.
+    /// The vertex nearest to p if it is closer than the known one; else the known one.
     [[nodiscard]] Found nearest(const Vec3& p, Found known) const {
         visit_rows(p, known.squared, [&](std::uint32_t i) {
             const double d = (p - points_[i]).squaredNorm();
@@ -51,7 +51,7 @@ public:
         return known;
     }
 
-    /// Calls visit(Found) for every vertex nearer to p than the square root of `squared`.
+    /// Calls visit(Found) for every vertex closer to p than the square root of `squared`.
     template <class Visit>
     void visit_nearer(const Vec3& p, double squared, const Visit& visit) const {
         visit_rows(p, squared, [&](std::uint32_t i) {
@@ -61,12 +61,12 @@ public:
     }
 
 private:
-    /// Along one axis, in cells.
+    /// The cells within the distance along one axis.
     struct Span {
-        double at;        ///< of the point looked from
+        double at;        ///< coordinate of the query point
         int first, last;  ///< cells within the distance
 
-        /// From the point to the cell, for certain not too large.
+        /// Lower bound of the distance from the point to the cell.
         [[nodiscard]] double gap(int cell) const {
             const double apart = std::max(cell - at, at - (cell + 1));
             return std::max(0.0, apart - 1e-9 * (1.0 + std::abs(at)));  // rounding
@@ -84,8 +84,8 @@ private:
                 cell((p[axis] + distance - origin_[axis]) * cells_.per_length, axis)};
     }
 
-    /// Calls visit(place) at least for all that are nearer to p than the square root of `squared`,
-    /// which visit() may make smaller.
+    /// Calls visit(place) at least for all vertices closer to p than the square root of `squared`,
+    /// which visit() may reduce.
     template <class Visit>
     void visit_rows(const Vec3& p, const double& squared, const Visit& visit) const {
         const double distance = std::sqrt(squared) * (1.0 + 1e-9);  // rounding

@@ -11,7 +11,7 @@
 
 namespace vesselbench {
 
-/// Some vertices of a surface, to be found by place. Where two lie equally near, either is found.
+/// Some vertices of a surface in a spatial tree. If two are equally near, either is found.
 class PointTree {
 public:
     struct Found {
@@ -22,10 +22,10 @@ public:
     /// \param chosen vertices at finite positions, at least one
     PointTree(const Positions& positions, std::span<const VertexId> chosen);
 
-    /// The vertex nearest to p, if it is nearer than the square root of known.squared; else known.
+    /// The vertex nearest to p if it is closer than the square root of known.squared; else known.
     [[nodiscard]] Found nearest(const Vec3& p, Found known) const;
 
-    /// Calls visit(Found) for every vertex nearer to p than the square root of `squared`.
+    /// Calls visit(Found) for every vertex closer to p than the square root of `squared`.
     template <class Visit>
     void visit_nearer(const Vec3& p, double squared, const Visit& visit) const {
         tree_.traverse_places(

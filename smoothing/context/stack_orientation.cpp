@@ -13,13 +13,13 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kCertain = 2.0 / 3.0;      // confidence from which on the axis is certain
-constexpr double kFewestFaces = 20.0;       // that make a peak certain
-constexpr double kSmallestShare = 0.003;    // of all faces, likewise
-constexpr double kOtherPeak = 0.9945;       // cosine of 6 degrees: nearer ones are of the same peak
-constexpr double kLongestSecondEdge = 0.8;  // in relation to the longest, of voxels with an axis
+constexpr double kCertain = 2.0 / 3.0;    // confidence above which the axis is certain
+constexpr double kFewestFaces = 20.0;     // for a peak to be certain
+constexpr double kSmallestShare = 0.003;  // of all faces, likewise
+constexpr double kOtherPeak = 0.9945;  // cosine of 6 degrees: closer ones belong to the same peak
+constexpr double kLongestSecondEdge = 0.8;  // relative to the longest, of voxels with an axis
 
-/// \param counts 0 where a face is to be left out; empty: all count
+/// \param counts 0 where a face is ignored; empty: all count
 FaceNormals face_normals(const Topology& topology, const Positions& positions,
                          const std::vector<std::uint8_t>& counts) {
     const auto triangles = topology.triangles();
@@ -53,7 +53,7 @@ std::vector<Vec3> cluster_centres(const FaceNormals& faces, double radius) {
         sum += static_cast<double>(map.count(b)) * static_cast<double>(density[b]);
     const double highest = static_cast<double>(*std::max_element(density.begin(), density.end()));
     const double threshold = 0.5 * (sum / static_cast<double>(faces.normals.size()) + highest);
-    std::vector<float> side(map.size(), 0.0F);  // in relation to the cluster's first bin; 0: none
+    std::vector<float> side(map.size(), 0.0F);  // relative to the cluster's first bin; 0: none
     std::vector<Vec3> centres;
     for (std::size_t first = 0; first < map.size(); ++first) {
         if (side[first] != 0.0F || static_cast<double>(density[first]) < threshold) continue;
@@ -69,14 +69,14 @@ std::vector<Vec3> cluster_centres(const FaceNormals& faces, double radius) {
                 members.push_back(other);
             });
         }
-        // A belt around the sphere has no centre; its first bin stands for it.
+        // A belt around the sphere has no centre; its first bin represents it.
         const bool belt = centre.norm() < 1e-6 * static_cast<double>(faces.normals.size());
         centres.push_back(belt ? map.direction(first) : Vec3(centre.normalized()));
     }
     return centres;
 }
 
-/// The thesis' own choice: the cluster with the most flat faces around its centre.
+/// The thesis's choice: the cluster with the most flat faces around its centre.
 Vec3 flattest_cluster(const FaceNormals& faces, const StackOrientationParameters& parameters) {
     Vec3 best = Vec3::UnitZ();
     double most = -1.0;
@@ -89,8 +89,8 @@ Vec3 flattest_cluster(const FaceNormals& faces, const StackOrientationParameters
     return best;
 }
 
-/// How far a peak stands out: in number and share of its faces, and from the next one.
-/// 2/3 where it has just enough faces, or three times as many as the next.
+/// How distinct a peak is: in number and share of its faces, and relative to the next one. 2/3 if
+/// it has just enough faces, or three times as many as the next.
 double peak_confidence(const std::vector<NormalPeak>& peaks, std::size_t faces) {
     const double excess = peaks.front().excess;
     if (!(excess > 0.0)) return 0.0;
@@ -102,7 +102,7 @@ double peak_confidence(const std::vector<NormalPeak>& peaks, std::size_t faces) 
     return std::min(excess / (excess + 0.5 * enough), 1.0 - next / excess);
 }
 
-/// 2/3 where the longest voxel edge is just enough longer than the next.
+/// 2/3 if the longest voxel edge is just enough longer than the next.
 double lattice_confidence(const VoxelLattice& lattice) {
     return std::clamp(kCertain * (1.0 - lattice.second_edge) / (1.0 - kLongestSecondEdge), 0.0,
                       lattice.share);

@@ -31,7 +31,7 @@ std::vector<double> staircase_distances(const Topology& topology, const Position
                                         const StaircaseParameters& parameters) {
     const std::size_t count = topology.vertex_count();
     if (positions.size() != count || change.size() != count)
-        throw InvalidInput("positions and orientation changes must be as many as the " +
+        throw InvalidInput("positions and orientation changes must match the " +
                            std::to_string(count) + " vertices");
     require_staircase_parameters(count, parameters);
     std::vector<VertexId> staircases;

@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// Orientation of every face in relation to the image stack [-]: 0 where the face's normal is
-/// parallel to the stack axis, 1 where it is orthogonal; 0 for degenerate faces. #T
+/// Orientation of every face relative to the image stack [-]: 0 if the face's normal is parallel to
+/// the stack axis, 1 if it is orthogonal; 0 for degenerate faces. #T
 /// Source: thesis Eq. 5.3.
 /// \param stack_axis any length but 0
 /// \throw InvalidInput if the axis has no direction
@@ -16,9 +16,9 @@ namespace vesselbench {
                                                     const Positions& positions,
                                                     const Vec3& stack_axis);
 
-/// Orientation change theta' of every vertex [-]: the largest less the smallest orientation of the
-/// faces around it, in [0, 1]; 0 in flat areas, 1 at perfect staircase edges. Degenerate faces do
-/// not count. #V
+/// Orientation change theta' of every vertex [-]: the largest minus the smallest orientation of the
+/// faces around it, in [0, 1]; 0 in flat areas, 1 at perfect staircase edges. Degenerate faces are
+/// ignored. #V
 /// Source: thesis Eq. 5.4.
 /// \throw InvalidInput if the axis has no direction
 [[nodiscard]] std::vector<double> orientation_change(const Topology& topology,

@@ -32,7 +32,7 @@ double default_feature_curvature(const Topology& topology, const Positions& posi
     for (const Triangle& t : topology.triangles())
         for (int k = 0; k < 3; ++k) sum += (positions[t[k]] - positions[t[(k + 1) % 3]]).norm();
     const double mean = sum / (3.0 * static_cast<double>(topology.triangle_count()));
-    return mean > 0.0 ? 0.5 / mean : 1.0;  // without an edge there is nothing to decide
+    return mean > 0.0 ? 0.5 / mean : 1.0;  // any value will do without an edge
 }
 
 Positions anisotropic(const Topology& topology, const Positions& positions,

@@ -18,7 +18,7 @@ double clamped_cotangent(double dot, double doubled_area) {
     return dot > 0.0 ? kLargestCotangent : 0.0;
 }
 
-/// What one triangle adds to the operators at its corner v.
+/// Contribution of one triangle to the operators at its corner v.
 struct CornerShare {
     Vec3 flow = Vec3::Zero();  ///< cot (v - u) over both other corners
     Vec3 normal = Vec3::Zero();

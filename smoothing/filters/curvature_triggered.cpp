@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kNever = std::numeric_limits<int>::max();
 
-/// The iteration from which each vertex may move: 0 where the curvature asks for it, one more with
-/// every ring of vertices that move.
+/// The iteration from which each vertex may move: 0 where the curvature exceeds the threshold, one
+/// more for each further ring around moving vertices.
 std::vector<int> first_iterations(const Topology& topology, const CompressedRows& neighbours,
                                   const Positions& positions, const VertexMover& mover,
                                   double trigger) {

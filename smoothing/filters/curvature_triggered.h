@@ -12,19 +12,19 @@ namespace vesselbench {
 /// Parameters of curvature-triggered smoothing.
 struct CurvatureTriggeredParameters {
     double lambda = 0.5;  ///< step [-], 0 <= lambda <= 1
-    /// Absolute mean curvature from which a vertex may move at once [1/mm], > 0; default: half of
-    /// the feature curvature of anisotropic smoothing, as an edge bends in one direction only.
+    /// Absolute mean curvature above which a vertex moves at once [1/mm], > 0; default: half the
+    /// feature curvature of anisotropic smoothing, because an edge bends in one direction only.
     std::optional<double> trigger_curvature = {};
 };
 
-/// The default of CurvatureTriggeredParameters::trigger_curvature [1/mm].
+/// Default of CurvatureTriggeredParameters::trigger_curvature [1/mm].
 [[nodiscard]] double default_trigger_curvature(const Topology& topology,
                                                const Positions& positions);
 
 /// Laplace that starts at sharp places: at first only vertices whose absolute mean curvature
-/// exceeds the threshold may move; with every iteration those join in one of whose neighbours has
-/// moved. So staircases are smoothed at their edges first and their surroundings little by little.
-/// The same bits on any number of threads.
+/// exceeds the threshold may move; in every iteration the neighbours of moved vertices join in.
+/// Staircases are thus smoothed at their edges first, then gradually around them. Bit-identical for
+/// any number of threads.
 /// Source: thesis 6.3.6 (its threshold is called lambda there).
 /// \return moved positions [mm], #V x 3, in the order of `positions`
 /// \throw InvalidInput if a parameter is out of its range, or the settings do not fit the topology

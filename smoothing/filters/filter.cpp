@@ -4,7 +4,7 @@ namespace vesselbench {
 
 namespace {
 
-/// The functions of the filters under one name.
+/// The filters' functions under one name.
 struct Run {
     const Topology& topology;
     const Positions& positions;

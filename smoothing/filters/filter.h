@@ -16,7 +16,7 @@ using FilterParameters =
     std::variant<LaplaceParameters, LaplaceHcParameters, TaubinParameters,
                  MeanCurvatureFlowParameters, AnisotropicParameters, CurvatureTriggeredParameters>;
 
-/// Runs the filter whose parameters these are.
+/// Runs the filter that these parameters belong to.
 /// \return moved positions [mm], #V x 3, in the order of `positions`
 /// \throw InvalidInput as the filter
 [[nodiscard]] Positions apply_filter(const Topology& topology, const Positions& positions,

@@ -12,7 +12,7 @@ namespace {
 
 using Steps = std::vector<LinearStep>;
 
-/// What an iteration does, of a linear filter; else nothing.
+/// The steps of one iteration of a linear filter; empty for other filters.
 struct StepsOf {
     Steps operator()(const LaplaceParameters& p) const { return linear_steps(p); }
 
@@ -53,7 +53,7 @@ std::shared_ptr<const FilterRun::Ground> FilterRun::prepare(FilterGround ground)
 }
 
 struct FilterRun::Linear {
-    FilterSettings settings;  ///< before the run, which refers to them
+    FilterSettings settings;  ///< of the time before the run, which refers to them
     LinearRun run;
 
     Linear(const Ground& ground, const Steps& steps, const FilterSettings& all)

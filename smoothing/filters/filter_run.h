@@ -11,7 +11,7 @@
 
 namespace vesselbench {
 
-/// What runs of filters on one surface have in common; made once, shared by all of them.
+/// What all runs of filters on one surface share; made once.
 struct FilterGround {
     std::shared_ptr<const Topology> topology;
     std::shared_ptr<const Positions> start;  ///< [mm], #V
@@ -21,9 +21,9 @@ struct FilterGround {
     int rings = 1;
 };
 
-/// A filter that can be stopped after any iteration, looked at, and gone on with: after n
-/// iterations, in whatever portions, it has the positions that apply_filter gives for n, bit for
-/// bit. A copy goes on by itself from where the run is.
+/// A filter run that can be stopped after any iteration, inspected and continued: after n
+/// iterations, in any portions, it has the positions that apply_filter gives for n, bit for bit. A
+/// copy continues independently from the same state.
 class FilterRun {
 public:
     class Ground;  ///< a FilterGround and the neighbour arrays of the linear filters
@@ -39,7 +39,7 @@ public:
     FilterRun& operator=(const FilterRun&) = delete;
     ~FilterRun();
 
-    /// \throw Cancelled; the run is of no use then
+    /// \throw Cancelled; the run must not be used afterwards
     void advance(int iterations, const Progress& progress = {});
 
     [[nodiscard]] int iterations() const { return iterations_; }
@@ -47,8 +47,8 @@ public:
     /// Writes the positions [mm], #V.
     void write_positions(Positions& positions) const;
 
-    /// The positions by place, four numbers each, until the run goes on. The vertex at every place
-    /// is order_of its ground. Vertices that stay may have -0 for 0 here.
+    /// The positions by place, four numbers each, valid until the run continues. order_of its
+    /// ground gives the vertex at every place. Fixed vertices may have -0 for 0 here.
     [[nodiscard]] std::span<const PackRow> packs();
 
     [[nodiscard]] static const FilterGround& ground_of(const Ground& ground);

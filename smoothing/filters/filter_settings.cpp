@@ -32,7 +32,8 @@ void require_fitting(const Topology& topology, const Positions& positions,
     if (settings.constraint) require_valid(*settings.constraint);
     if (!settings.earlier) return;
     if (settings.earlier->start == nullptr || settings.earlier->iterations < 0)
-        throw InvalidInput("an earlier run has start positions and did 0 or more iterations");
+        throw InvalidInput(
+            "an earlier run needs start positions and an iteration count of 0 or more");
     require_length("start positions", settings.earlier->start->size(), count);
 }
 

@@ -12,9 +12,9 @@ struct LaplaceParameters {
     double lambda = 0.5;  ///< step [-], 0 <= lambda <= 1
 };
 
-/// Moves every vertex towards the mean of its neighbours: smooth, but the surface shrinks.
-/// Uniform umbrella operator (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite.
-/// The same bits on any number of threads.
+/// Moves every vertex towards the mean of its neighbours: smooth, but the surface shrinks. Uniform
+/// umbrella operator (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite.
+/// Bit-identical for any number of threads.
 /// Source: thesis Eq. 3.1; weights as in Eq. 5.1.
 /// \return moved positions [mm], #V x 3, in the order of `positions`
 /// \throw InvalidInput if a parameter is out of its range, or the settings do not fit the topology

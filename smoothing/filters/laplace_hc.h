@@ -7,21 +7,21 @@
 
 namespace vesselbench {
 
-/// Parameters of the Laplace+HC filter. Tables and Chapter 6 of the thesis call alpha and beta
+/// Parameters of the Laplace+HC filter. The thesis's tables and Chapter 6 call alpha and beta
 /// "lambda" and "mu".
 struct LaplaceHcParameters {
     double lambda = 0.5;  ///< Laplacian step [-], 0 <= lambda <= 1 (Eq. 3.3)
-    double alpha = 0.0;   ///< 1: pull to the original position, 0: to the last [-]
-    double beta = 0.5;    ///< own share of the back-correction [-], in [0, 1]
+    double alpha = 0.0;   ///< 1: pull to the original position, 0: to the previous one [-]
+    double beta = 0.5;    ///< weight of the vertex's own back-correction [-], in [0, 1]
 };
 
-/// Laplacian smoothing whose every step is pushed back towards the surface before it ("humphrey's
-/// classes"): little shrinkage, but large staircases stay.
-/// Uniform umbrella operator (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite.
-/// The same bits on any number of threads.
+/// Laplacian smoothing in which every step is pushed back towards the surface before it
+/// ("humphrey's classes"): little shrinkage, but large staircases remain. Uniform umbrella operator
+/// (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite. Bit-identical for any
+/// number of threads.
 /// Source: Vollmer, Mencl, Mueller, "Improved Laplacian smoothing of noisy surface meshes",
-/// Eurographics 1999; thesis Eqs. 3.3-3.6.
-/// Weights act on an iteration's displacement after the back-correction (Eq. 5.1).
+/// Eurographics 1999; thesis Eqs. 3.3-3.6. Weights act on an iteration's displacement after the
+/// back-correction (Eq. 5.1).
 /// \return moved positions [mm], #V x 3, in the order of `positions`
 /// \throw InvalidInput if a parameter is out of its range, or the settings do not fit the topology
 [[nodiscard]] Positions laplace_hc(const Topology& topology, const Positions& positions,
@@ -29,8 +29,8 @@ struct LaplaceHcParameters {
                                    const FilterSettings& settings = {},
                                    const Progress& progress = {});
 
-/// True where the filter enlarges some frequency instead of damping it: (1 - beta) lambda k^2 > 2
-/// for some k in [0, 2] (with alpha = 0 the transfer function is 1 - (1 - beta) lambda k^2).
+/// True if the filter amplifies some frequency instead of damping it: (1 - beta) lambda k^2 > 2 for
+/// some k in [0, 2] (with alpha = 0 the transfer function is 1 - (1 - beta) lambda k^2).
 [[nodiscard]] bool amplifies(const LaplaceHcParameters& parameters);
 
 }  // namespace vesselbench

@@ -67,7 +67,7 @@ std::size_t LinearRun::bytes_at_place() const {
            (weights_.size() > 0 ? sizeof(double) : 0) + (free_.size() > 0 ? sizeof(double) : 0);
 }
 
-/// Fills the block's part of the arrays.
+/// Fills the arrays for the block.
 void LinearRun::bring_in(std::size_t block) const {
     Pack* packs = packs_of(values_[0]);
     const Positions& starts = start_of(positions_, settings_);
@@ -95,12 +95,12 @@ void LinearRun::take_step(std::size_t number, std::size_t block) const {
                         end_of(block));
 }
 
-/// Takes the block's positions after so many steps.
+/// Reads the block's positions after the given number of steps.
 void LinearRun::bring_out(std::size_t number, std::size_t block, Positions& moved) const {
     const Pack* last = packs_of(values_[number % 2]);
     for (std::size_t place = block * NeighbourBlocks::kBlock; place < end_of(block); ++place) {
         const std::size_t v = blocks_->vertex_at(place);
-        // What stays, stays bit for bit: a sum with 0 turns -0 into 0.
+        // Fixed vertices keep their bits: adding 0 would turn -0 into 0.
         const bool stays = weights_.size() > 0 && weights_[place] == 0.0;
         moved[v] = stays ? positions_[v] : Vec3(last[place][0], last[place][1], last[place][2]);
     }
@@ -109,8 +109,8 @@ void LinearRun::bring_out(std::size_t number, std::size_t block, Positions& move
 void LinearRun::advance(int iterations, const Progress& progress, Positions* moved) {
     const std::size_t before = in_ ? 0 : 1;
     const std::size_t more = steps_.size() * static_cast<std::size_t>(iterations);
-    // What comes before the first step and after the last one belongs to the sweep, too: so it
-    // passes through the memory no extra time.
+    // The sweep includes filling before the first step and reading after the last one, which saves
+    // extra passes through the memory.
     sweep_blocks(
         *blocks_, before + more, bytes_at_place(),
         [&](std::size_t number, std::size_t block) {

@@ -14,21 +14,21 @@
 
 namespace vesselbench {
 
-/// A filter on its way whose iterations are one or two linear steps. The first step of an iteration
-/// reads positions and writes them, or what the second needs; the second one's target are the
-/// positions before the first. The last step's share is the weights, whose vertices the constraint
-/// keeps in their cells; an earlier step's is 0 at fixed vertices, else 1.
+/// A running filter whose iterations consist of one or two linear steps. The first step of an
+/// iteration reads positions and writes positions, or the input of the second one, whose target
+/// holds the positions before the first. The share of the last step is the weights, and the
+/// constraint applies to its vertices; the share of an earlier step is 0 at fixed vertices, else 1.
 class LinearRun {
 public:
     /// Keeps references to the positions and to the settings and their spans.
-    /// \param blocks of the neighbours that the settings ask for; shared by runs on one topology
+    /// \param blocks of the neighbours that the settings require; shared by runs on one topology
     /// \throw InvalidInput if the settings do not fit the topology
     LinearRun(const Topology& topology, const Positions& positions,
               std::span<const LinearStep> steps, const FilterSettings& settings,
               std::shared_ptr<const NeighbourBlocks> blocks);
 
-    /// \param moved null, or #V long: gets the positions reached (with 1 iteration or more)
-    /// \throw Cancelled; the run is of no use then
+    /// \param moved null, or #V long: receives the positions reached (with 1 iteration or more)
+    /// \throw Cancelled; the run must not be used afterwards
     void advance(int iterations, const Progress& progress, Positions* moved = nullptr);
 
     /// Writes the positions reached [mm], in the order of the vertices.
@@ -37,7 +37,7 @@ public:
     /// The positions by place, until the next step.
     [[nodiscard]] std::span<const PackRow> packs();
 
-    /// Goes on from where another run of the same filter on the same surface is.
+    /// Continues from the state of another run of the same filter on the same surface.
     void continue_from(const LinearRun& other);
 
 private:
@@ -55,12 +55,12 @@ private:
     bool in_ = false;       ///< the arrays are filled
     std::size_t done_ = 0;  ///< steps
     LargeArray<PackRow> values_[2], start_;
-    /// Per-vertex factors, 0 at fixed vertices: of the last step of an iteration, and of those
-    /// before it. Empty where all are 1.
+    /// Per-vertex factors, 0 at fixed vertices: for the last step of an iteration, and for the
+    /// steps before it. Empty if all are 1.
     LargeArray<double> weights_, free_;
 };
 
-/// The blocks that a linear filter with these settings works on.
+/// The blocks for a linear filter with these settings.
 [[nodiscard]] std::shared_ptr<const NeighbourBlocks> blocks_for(const Topology& topology,
                                                                 const FilterSettings& settings);
 

@@ -10,8 +10,8 @@ namespace {
 
 using StepBlock = void(const LinearStep&, const StepArrays&, const NeighbourBlocks&, std::size_t);
 
-/// The step with its terms sorted by what they are multiplied with: target = the sum over the
-/// mean of the neighbours, s, t and o of (share * by_share + always).
+/// The step with its terms sorted by their factors: target = the sum over the mean of the
+/// neighbours, s, t and o of (share * by_share + always).
 struct Combination {
     double by_share[4], always[4];
 
@@ -21,11 +21,11 @@ struct Combination {
           always{0.0, step.onto == LinearStep::Onto::Source ? 1.0 : 0.0,
                  step.onto == LinearStep::Onto::Target ? 1.0 : 0.0, 0.0} {}
 
-    /// Coefficient where the share is 1.
+    /// Coefficient at share 1.
     [[nodiscard]] double constant(int term) const { return by_share[term] + always[term]; }
 };
 
-/// Where a pass over a block's groups stands.
+/// Position of a pass within a block's groups.
 struct GroupCursor {
     std::size_t first;    ///< place of the block
     std::uint32_t count;  ///< members of the group
@@ -35,7 +35,7 @@ struct GroupCursor {
 
 constexpr unsigned kShareTerm = 1, kTargetTerm = 2, kStartTerm = 4;
 
-/// A term without a coefficient is left out: what it would read need not be a number yet.
+/// Terms without a coefficient are skipped: their input may not be a number yet.
 unsigned terms_of(const LinearStep& step, const StepArrays& arrays) {
     const bool share = arrays.share != nullptr, onto_target = step.onto == LinearStep::Onto::Target;
     const double target = step.target + (onto_target ? 1.0 : 0.0);

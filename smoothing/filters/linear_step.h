@@ -14,13 +14,13 @@ struct alignas(sizeof(Pack)) PackRow {
     double values[4];
 };
 
-/// What one step of a filter does, as a linear combination at every vertex:
+/// One step of a filter as a linear combination at every vertex:
 ///
 ///     target = onto + share * (umbrella * U + source * s + target * t + start * o)
 ///
-/// with U the mean of the neighbours' source values less the own one, s and t the own values in
-/// source and target before the step, o the position before the first iteration. U is 0 at a
-/// vertex without neighbours.
+/// with U the mean of the neighbours' source values minus the own one, s and t the own values in
+/// source and target before the step, o the position before the first iteration. U is 0 at a vertex
+/// without neighbours.
 struct LinearStep {
     enum class Onto { Zero, Source, Target };
 
@@ -28,7 +28,7 @@ struct LinearStep {
     double umbrella = 0.0, source = 0.0, target = 0.0, start = 0.0;
 };
 
-/// Where a step reads and writes; one element a place.
+/// Input and output arrays of a step; one element per place.
 struct StepArrays {
     const Pack* source = nullptr;
     Pack* target = nullptr;
@@ -36,8 +36,8 @@ struct StepArrays {
     const double* share = nullptr;  ///< null: 1 everywhere
 };
 
-/// Takes the step at all vertices of a block. Neighbours are added in a fixed order, with the
-/// widest registers of the CPU it runs on; the bits do not depend on their width, nor on whether a
+/// Takes the step at all vertices of a block. Neighbours are summed in a fixed order, with the
+/// widest registers of the CPU at hand; the bits depend neither on that width nor on whether a
 /// share of 1 is given or left out.
 void take_linear_step(const LinearStep& step, const StepArrays& arrays,
                       const NeighbourBlocks& blocks, std::size_t block);

@@ -48,7 +48,7 @@ std::vector<LinearStep> linear_steps(const LaplaceHcParameters& parameters) {
 std::vector<LinearStep> linear_steps(const TaubinParameters& parameters) {
     require_parameters(parameters);
     const LinearStep shrink{.umbrella = parameters.lambda};  // (3.7)
-    // (3.8): s + mu U, which the weights bring in relation to the position before, t (5.1)
+    // (3.8): s + mu U; the weights scale it relative to t, the position before the pair (5.1)
     const LinearStep inflate{.onto = LinearStep::Onto::Target,
                              .umbrella = parameters.used_mu(),
                              .source = 1.0,

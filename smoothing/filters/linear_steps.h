@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-/// One iteration of a filter as linear steps, for any device.
+/// One iteration of a filter as linear steps, independent of the device.
 /// \throw InvalidInput if a parameter is out of its range
 [[nodiscard]] std::vector<LinearStep> linear_steps(const LaplaceParameters& parameters);
 [[nodiscard]] std::vector<LinearStep> linear_steps(const LaplaceHcParameters& parameters);

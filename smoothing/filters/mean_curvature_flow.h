@@ -12,9 +12,9 @@ struct MeanCurvatureFlowParameters {
     double lambda = 0.5;  ///< step [-], 0 <= lambda <= 1
 };
 
-/// Laplace with cotangent weights: vertices move along the curvature normal, hardly along the
-/// surface, however irregular the triangles are. Shrinks. The weights follow the moving surface.
-/// Cotangents are clamped to [0, 20]. The same bits on any number of threads.
+/// Laplace with cotangent weights: vertices move along the curvature normal, with little tangential
+/// motion however irregular the triangles are. Shrinks. The weights follow the moving surface.
+/// Cotangents are clamped to [0, 20]. Bit-identical for any number of threads.
 /// Source: thesis Eq. 3.2 (with u_j - v_i); Desbrun et al., "Implicit fairing of irregular meshes
 /// using diffusion and curvature flow", SIGGRAPH 1999.
 /// \return moved positions [mm], #V x 3, in the order of `positions`

@@ -11,13 +11,13 @@ namespace vesselbench {
 
 namespace {
 
-/// A band this wide comes with any sensible numbering of a surface's vertices by slices or fronts.
+/// Any sensible vertex numbering by slices or fronts has a band at most this wide.
 std::size_t usual_bandwidth(std::size_t count) {
     return 4 * NeighbourBlocks::kBlock +
            8 * static_cast<std::size_t>(std::sqrt(static_cast<double>(count)));
 }
 
-/// Breadth-first order; appends the component of `start` to `order`.
+/// Breadth-first search; appends the component of `start` to `order`.
 void append_component(const CompressedRows& rows, VertexId start, std::vector<std::uint8_t>& seen,
                       std::vector<VertexId>& order) {
     std::size_t next = order.size();
@@ -31,7 +31,7 @@ void append_component(const CompressedRows& rows, VertexId start, std::vector<st
             }
 }
 
-/// Every component from an end of it: the vertex that a first search reaches last.
+/// Starts every component at one of its ends: the vertex that a first search reaches last.
 std::vector<VertexId> order_along_mesh(const CompressedRows& rows, std::size_t count) {
     std::vector<VertexId> order, trial;
     order.reserve(count);
@@ -45,9 +45,10 @@ std::vector<VertexId> order_along_mesh(const CompressedRows& rows, std::size_t c
     return order;
 }
 
-constexpr std::uint32_t kMany = 31;  // neighbours: as many or more are sorted at the end
+constexpr std::uint32_t kMany = 31;  // neighbours: rows with as many or more are sorted at the end
 
-/// Fills `members` with 0 ... count - 1 by valence; a counting sort, as most valences are small.
+/// Fills `members` with 0 ... count - 1 by valence; a counting sort, because most valences are
+/// small.
 template <class Valence>
 std::vector<BlockGroup> sort_by_valence(std::uint16_t* members, std::size_t count,
                                         const Valence& valence) {
@@ -70,9 +71,9 @@ std::vector<BlockGroup> sort_by_valence(std::uint16_t* members, std::size_t coun
     return groups;
 }
 
-/// Writes a row's neighbours by four times their number. Rows of up to eight are written as eight,
-/// without a branch for their size, where both arrays have the room.
-/// \param room behind `out`, which rows that come later overwrite
+/// Writes a row's neighbours, each as four times its number. Rows of up to eight are written as
+/// eight, without a branch on their size, if both arrays have the room.
+/// \param room behind `out`, overwritten by later rows
 void copy_row(std::span<const VertexId> row, const VertexId* rows_end, std::uint32_t* out,
               std::ptrdiff_t room) {
     constexpr std::ptrdiff_t kUsual = 8;
@@ -103,7 +104,7 @@ NeighbourBlocks::NeighbourBlocks(const CompressedRows& rows)
     reach_ = (band + kBlock - 1) / kBlock;
 }
 
-/// Fills everything for the order that there is.
+/// Fills everything for the current order.
 /// \param places of all vertices; empty: their numbers
 /// \return largest distance of the places of two neighbours
 std::size_t NeighbourBlocks::fill(const CompressedRows& rows,
@@ -148,7 +149,7 @@ std::vector<BlockGroup> NeighbourBlocks::fill_groups(const CompressedRows& rows,
                            });
 }
 
-/// Where places are vertices. \return largest distance of two neighbours
+/// The same if places are vertices. \return largest distance of two neighbours
 std::size_t NeighbourBlocks::fill_neighbours(const CompressedRows& rows, std::size_t block) {
     const std::size_t first = block * kBlock, count = std::min(vertex_count_ - first, kBlock);
     std::uint32_t* out = neighbours_.data() + neighbour_offsets_[block];
@@ -157,7 +158,7 @@ std::size_t NeighbourBlocks::fill_neighbours(const CompressedRows& rows, std::si
     std::size_t band = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t v = first + members_[first + i];
-        const auto row = rows.row(v);  // ascending: its ends are the farthest
+        const auto row = rows.row(v);  // ascending: the ends are farthest
         if (row.empty()) continue;
         band = std::max({band, v - std::min<std::size_t>(v, row.front()),
                          std::max<std::size_t>(v, row.back()) - v});

@@ -17,11 +17,11 @@ struct BlockGroup {
     std::uint32_t count = 0;
 };
 
-/// The neighbours of every vertex, laid out for filters that sum them up again and again: blocks of
-/// consecutive places; in a block the vertices are grouped by valence, so that the inner loop has a
-/// fixed length and no branch to mispredict. A place is a vertex' rank in an order that follows the
-/// mesh, so that neighbours are near each other in memory: the surface's own order where it does
-/// that already (iso-surfaces do), else breadth-first.
+/// The neighbours of every vertex, laid out for filters that sum them repeatedly: blocks of
+/// consecutive places; within a block the vertices are grouped by valence, so that the inner loop
+/// has a fixed length and no branch to mispredict. A place is a vertex's rank in an order that
+/// follows the mesh, so that neighbours are close to each other in memory: the surface's own order
+/// if it already does that (iso-surfaces do), else breadth-first.
 /// Source of the order: Cuthill, McKee, "Reducing the bandwidth of sparse symmetric matrices",
 /// 1969.
 class NeighbourBlocks {
@@ -34,7 +34,7 @@ public:
 
     [[nodiscard]] std::size_t block_count() const { return group_offsets_.size() - 1; }
 
-    /// How many blocks a neighbour is away at most.
+    /// Largest distance of a neighbour, in blocks.
     [[nodiscard]] std::size_t reach() const { return reach_; }
 
     /// Vertex at every place; empty where places are vertices.
@@ -48,13 +48,13 @@ public:
         return {groups_.data() + group_offsets_[block], groups_.data() + group_offsets_[block + 1]};
     }
 
-    /// Members of the block's groups, one group after the other: places, counted in the block.
+    /// Members of the block's groups, one group after the other: places, relative to the block.
     [[nodiscard]] const std::uint16_t* members(std::size_t block) const {
         return members_.data() + block * kBlock;
     }
 
     /// Neighbours of the members, one member after the other, in the ascending order of the
-    /// vertices: each by four times its place, which is where its four doubles begin.
+    /// vertices: each as four times its place, which is where its four doubles begin.
     [[nodiscard]] const std::uint32_t* neighbours(std::size_t block) const {
         return neighbours_.data() + neighbour_offsets_[block];
     }

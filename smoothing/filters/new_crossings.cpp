@@ -11,9 +11,9 @@ namespace vesselbench {
 namespace {
 
 constexpr int kAttempts = 8;
-constexpr int kFade = 3;  // rings from no displacement to all of it
+constexpr int kFade = 3;  // rings from no displacement to the full one
 
-/// Rings around the triangles of the pairs: 0 their corners; `most` + 1 further away.
+/// Rings around the triangles of the pairs: 0 at their corners; `most` + 1 farther away.
 std::vector<int> rings_around(const Surface& surface, const std::vector<TrianglePair>& pairs,
                               int most) {
     std::vector<int> ring(surface.vertex_count(), most + 1);
@@ -34,7 +34,7 @@ std::vector<int> rings_around(const Surface& surface, const std::vector<Triangle
     return ring;
 }
 
-/// 1 at the triangles with a vertex that has moved.
+/// 1 at triangles with a moved vertex.
 std::vector<std::uint8_t> moved_triangles(const Surface& surface, const Positions& moved) {
     std::vector<std::uint8_t> flags(surface.triangle_count(), 0);
     for (TriangleId t = 0; t < flags.size(); ++t)
@@ -47,7 +47,7 @@ std::vector<std::uint8_t> moved_triangles(const Surface& surface, const Position
 
 TakenBack take_back_crossings(const Surface& surface, Positions& moved, const Progress& progress) {
     TakenBack taken;
-    // Triangles that both stayed cannot cross anew.
+    // Two triangles that stayed cannot have started to cross.
     const std::vector<std::uint8_t> suspects = moved_triangles(surface, moved);
     const auto crossings = [&] {
         return self_intersections_with(moved, surface.triangles(), suspects, progress);

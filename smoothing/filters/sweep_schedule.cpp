@@ -11,17 +11,17 @@ namespace {
 
 using Run = std::function<void(std::size_t, std::size_t)>;
 
-constexpr std::size_t kCacheBytes = std::size_t{1} << 20;  // a usual second-level cache
-constexpr std::size_t kPartsOfThread = 2;  // more: fewer steps at once; fewer: threads wait
+constexpr std::size_t kCacheBytes = std::size_t{1} << 20;  // a typical second-level cache
+constexpr std::size_t kPartsOfThread = 2;  // more: fewer steps per part; fewer: threads wait
 
 /// Blocks [first, last) of the surface.
 struct Part {
     std::size_t first = 0, last = 0;
-    bool at_start = false, at_end = false;  ///< of the surface: nothing beyond to wait for
+    bool at_start = false, at_end = false;  ///< of the surface: no neighbour to wait for
 };
 
-/// All that can be done of a part without its neighbours: with every step the part loses `reach`
-/// blocks at each side.
+/// All the work on a part that does not need its neighbours: with every step the part shrinks by
+/// `reach` blocks on each side.
 void run_inner(const Part& part, std::size_t first_step, std::size_t steps, std::size_t reach,
                const Run& run) {
     for (std::size_t front = part.first; front < part.last + (steps - 1) * reach; ++front)
@@ -33,7 +33,7 @@ void run_inner(const Part& part, std::size_t first_step, std::size_t steps, std:
         }
 }
 
-/// What the two parts at a seam left out.
+/// The work that the two parts at a seam left out.
 void run_seam(std::size_t seam, std::size_t first_step, std::size_t steps, std::size_t reach,
               const Run& run) {
     for (std::size_t k = 1; k < steps; ++k)

@@ -8,11 +8,11 @@
 
 namespace vesselbench {
 
-/// Runs `steps` steps over all blocks, where a step of a block needs the step before of all blocks
-/// within the reach. Several steps go over the same part of the surface while it is in the cache,
-/// each behind the one before (time skewing); the parts run in parallel. Two buffers that take
-/// turns suffice: when a block is written, nobody needs its value of two steps before any more.
-/// Every block's step sees exactly the values of the step before, whatever the order.
+/// Runs `steps` steps over all blocks, where a step of a block needs the previous step of all
+/// blocks within the reach. Several steps process the same part of the surface while it is in the
+/// cache, each behind the previous one (time skewing); the parts run in parallel. Two alternating
+/// buffers suffice: when a block is written, its value of two steps ago is no longer needed. Every
+/// block's step sees exactly the values of the previous step, whatever the order.
 /// Source: Wolf, "More iteration space tiling", 1989; Wonnacott, "Achieving scalable locality with
 /// time skewing", 2002.
 /// \param bytes_at_place that a step reads and writes

@@ -4,7 +4,7 @@
 
 namespace vesselbench {
 
-/// Neighbours of every vertex within two rings, without itself, each row ascending.
+/// Neighbours of every vertex within two rings, itself excluded, each row ascending.
 [[nodiscard]] CompressedRows two_rings(const Topology& topology);
 
 }  // namespace vesselbench

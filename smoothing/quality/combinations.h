@@ -5,7 +5,7 @@
 
 namespace vesselbench {
 
-/// All ways to take one element of each row; the last row changes first.
+/// All combinations with one element of each row; the last row varies fastest.
 template <class Element>
 [[nodiscard]] std::vector<std::vector<Element>> combinations(
     const std::vector<std::vector<Element>>& rows) {

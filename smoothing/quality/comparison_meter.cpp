@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Everything but the distance.
+/// All measures except the distance.
 QualityMeasures shape_of(const Surface& surface) {
     if (surface.empty() || !(area(surface) > 0.0))
         throw InvalidInput("a surface without an area cannot be measured");

@@ -7,9 +7,9 @@
 
 namespace vesselbench {
 
-/// Measures surfaces of any triangles against one original (thesis 7.2: the local error needs the
-/// same triangles). The error is the area-weighted mean of the distances both ways, from samples no
-/// wider apart than the original's mean edge; curvature and volume are those of
+/// Measures surfaces with arbitrary triangles against one original (thesis 7.2: the local error
+/// needs the same triangles). The error is the area-weighted mean of the distances both ways, from
+/// samples no farther apart than the original's mean edge; curvature and volume are those of
 /// geometry/measure.h.
 class ComparisonMeter {
 public:

@@ -7,7 +7,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kEnoughToEstimate = 20000;  // vertices: their sample errs by about 3 per cent
+constexpr std::size_t kEnoughToEstimate =
+    20000;  // vertices: a sample of these errs by about 3 per cent
 
 enum class Sample { All, Some };
 
@@ -25,7 +26,8 @@ public:
     [[nodiscard]] QualityMeasures measure() override {
         if (sample_ == Sample::Some) {
             if (at_stop()) return meter_.follow_and_estimate(run_.packs(), references_);
-            std::vector<VertexId> references = references_;  // the run's own wait for the stop
+            std::vector<VertexId> references =
+                references_;  // those of the run itself change only at the stop
             return meter_.follow_and_estimate(run_.packs(), references);
         }
         if (!due()) return meter_.measure(run_.packs(), references_);

@@ -41,7 +41,7 @@ void LiveAnalysis::work(const std::stop_token& end) {
         lock.unlock();
         try {
             answer(request);
-        } catch (const Cancelled&) {  // a newer request waits, or the end
+        } catch (const Cancelled&) {  // a newer request is waiting, or the end
         } catch (const std::exception& error) {
             send(request, {.request = request.number, .complete = true, .error = error.what()});
         }

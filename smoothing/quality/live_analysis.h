@@ -13,31 +13,31 @@
 
 namespace vesselbench {
 
-/// What is known so far about a request.
+/// The current answer to a request.
 struct LiveAnswer {
     std::uint64_t request = 0;
     SensitivityAnalysis analysis;    ///< with a suggestion for each parameter
     std::optional<Suggestion> best;  ///< of all parameters together; none in the first answers
     bool complete = false;           ///< no finer answer follows
-    std::string error;               ///< why there is none; else empty
+    std::string error;               ///< why there is no answer; else empty
 };
 
-/// Sensitivity analysis and suggestions behind a user who changes parameters: a new value stops
-/// what is under way at once, and is answered coarsely first, then finer. What was measured for
-/// earlier values serves again; the complete answer does not depend on them.
+/// Sensitivity analysis and suggestions in the background while a user changes parameters: a new
+/// value stops the analysis in progress at once, and is answered coarsely first, then more finely.
+/// Measurements made for earlier values are reused; the complete answer does not depend on them.
 class LiveAnalysis {
 public:
-    /// Called on the analysis' own thread, answer after answer; must not call back.
+    /// Called on the analysis thread, answer after answer; must not call back.
     using Receiver = std::function<void(const LiveAnswer&)>;
 
     LiveAnalysis(ParameterSearch search, Receiver receiver);
 
-    /// Stops what is under way.
+    /// Stops the analysis in progress.
     ~LiveAnalysis();
     LiveAnalysis(const LiveAnalysis&) = delete;
     LiveAnalysis& operator=(const LiveAnalysis&) = delete;
 
-    /// Asks for the analysis around a set. \return the number that its answers bear
+    /// Requests the analysis around a set. \return the number its answers carry
     std::uint64_t ask(ParameterSet current, ScoreSettings settings);
 
     /// Blocks until the last request is answered completely.
@@ -63,7 +63,7 @@ private:
     bool busy_ = false;
     std::stop_source current_;
     std::uint64_t asked_ = 0;
-    std::jthread worker_;  ///< last: ends before what it works on goes
+    std::jthread worker_;  ///< last: ends before the members it uses are destroyed
 };
 
 }  // namespace vesselbench

@@ -14,18 +14,18 @@ namespace vesselbench {
 /// Values of all parameters of a search.
 using ParameterSet = std::vector<double>;
 
-/// What knows, or finds, the measures of what parameter sets make of one surface: the door through
-/// which searches and sensitivity analysis use smoothing, and any other operation. For one thread
-/// at a time.
+/// Provides the measures of the surfaces that parameter sets produce from one original: the
+/// interface through which searches and sensitivity analysis use smoothing or any other operation.
+/// Not thread-safe.
 class MeasureSource {
 public:
     virtual ~MeasureSource() = default;
 
-    /// Finds what is not known yet. If it is interrupted, what was found by then stays known.
+    /// Finds the measures not known yet. If interrupted, those found so far are kept.
     /// \throw Cancelled
     virtual void find(std::span<const ParameterSet> sets, const Progress& progress = {}) = 0;
 
-    /// None where the set is left out. \throw as find
+    /// None if the set is left out. \throw as find
     [[nodiscard]] virtual std::optional<QualityMeasures> at(const ParameterSet& set,
                                                             const Progress& progress = {}) = 0;
 
@@ -33,13 +33,13 @@ public:
 
     [[nodiscard]] virtual double mean_edge() const = 0;  ///< of the original [mm]
 
-    /// What graphs measure by: the result of a very strong change. \throw as find
+    /// The scale of graphs: the result of a very strong change. \throw as find
     [[nodiscard]] virtual const QualityMeasures& strong(const Progress& progress = {}) = 0;
 
-    /// How that change is made: "50 iterations of laplace with lambda 1".
+    /// The recipe of that change: "50 iterations of laplace with lambda 1".
     [[nodiscard]] virtual std::string strong_name() const = 0;
 
-    /// What was done so far.
+    /// The work done so far.
     struct Work {
         std::size_t evaluations = 0;  ///< measurements of changed surfaces
         std::size_t runs = 0;         ///< changes started from the original surface

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kSearching = "searching";
 
-/// Scores that are this close are equal: rounding must not decide.
+/// Scores this close are equal: rounding must not decide.
 constexpr double kEqualScores = 1e-12;
 
 bool better(const Suggestion& a, const Suggestion& b) {
@@ -39,7 +39,7 @@ Suggestion best_of(MeasureSource& table, const std::vector<ParameterSet>& sets,
         one.score = score(one.terms, settings.tau);
         if (!best || better(one, *best)) best = std::move(one);
     }
-    if (!best) throw InvalidInput("no parameter set of the search is of use on this surface");
+    if (!best) throw InvalidInput("no parameter set of the search is usable on this surface");
     return *best;
 }
 
@@ -106,7 +106,7 @@ Suggestion PatternSearch::along_valley(Suggestion best, const Progress& progress
     const std::size_t count = best.values.size();
     // Many parameters have many neighbours, and many ways out of a valley.
     const std::vector<int> widths = count <= 3 ? std::vector{8, 5, 3, 2} : std::vector{3};
-    double left = 1.0;  // nobody knows how many rounds there are
+    double left = 1.0;  // the number of rounds is unknown
     for (Suggestion before; before.values != best.values; left *= 0.5) {
         before = best;
         progress.report(1.0 - left, kSearching);

@@ -10,8 +10,8 @@ namespace vesselbench {
 [[nodiscard]] Suggestion best_of(MeasureSource& table, const std::vector<ParameterSet>& sets,
                                  const ScoreSettings& settings, const Progress& progress);
 
-/// The pattern search (thesis 6.5.5): to the best set of the (3^n - 1)-neighbourhood until none is
-/// better.
+/// The pattern search (thesis 6.5.5): moves to the best set of the (3^n - 1)-neighbourhood until
+/// none is better.
 class PatternSearch {
 public:
     PatternSearch(MeasureSource& table, const SearchSpace& space, const ScoreSettings& settings)

@@ -10,20 +10,20 @@
 
 namespace vesselbench {
 
-/// What an operation makes of the original with a set; none: a set to leave out. \throw Cancelled
+/// The operation's result for the original and a set; none: a set to leave out. \throw Cancelled
 using Processing = std::function<std::optional<Surface>(const ParameterSet&, const Progress&)>;
 
-/// A change that graphs measure by.
+/// The change that scales graphs.
 struct StrongChange {
     ParameterSet set;
     std::string name;  ///< "share=0.05"
 };
 
-/// The measures of what an operation makes of one surface, whatever happens to its triangles
-/// (thesis 7.2), each found once, one after the other.
+/// The measures of an operation's results on one surface, with any change of its triangles (thesis
+/// 7.2), each found once, sequentially.
 class ProcessingTable final : public MeasureSource {
 public:
-    /// \param idle true of sets that leave the surface as it is
+    /// \param idle true for sets that leave the surface as it is
     /// \throw InvalidInput if the original has no area
     ProcessingTable(const Surface& original, Processing processing,
                     std::function<bool(const ParameterSet&)> idle, StrongChange strong);
@@ -37,7 +37,7 @@ public:
 
     [[nodiscard]] double mean_edge() const override { return meter_.mean_edge(); }
 
-    /// The original's where the strong change is of no use.
+    /// The original's if the strong change is not usable.
     [[nodiscard]] const QualityMeasures& strong(const Progress& progress = {}) override;
 
     [[nodiscard]] std::string strong_name() const override { return strong_.name; }

@@ -16,7 +16,7 @@ int iterations_of(const ParameterSet& set) {
     return static_cast<int>(std::lround(set.back()));
 }
 
-/// True where the filter leaves the surface as it is.
+/// True if the filter leaves the surface as it is.
 bool moves_nothing(const FilterParameters& filter) {
     return std::visit([](const auto& p) { return p.lambda == 0.0; }, filter) &&
            !std::holds_alternative<LaplaceHcParameters>(filter);

@@ -20,16 +20,16 @@ enum class Fidelity {
     Estimate  ///< as SmoothingEngine::start_estimate
 };
 
-/// Makes the filter of a parameter set, whose iterations do not count; none: a set to leave out, as
+/// Makes the filter of a parameter set, ignoring its iterations; none: a set to leave out, because
 /// the filter would roughen the surface. Called by one thread at a time.
 using Chooser = std::function<std::optional<SmoothingChoice>(std::span<const double> values)>;
 
-/// The measures of smoothing, each found once; the last parameter is the number of iterations.
-/// Sets that differ in iterations only share a run, which goes through all of them; where it goes
-/// on later from is kept as far as memory allows. Different runs go on at the same time.
+/// The measures of smoothing, each found once; the last parameter is the number of iterations. Sets
+/// that differ only in iterations share a run through all of them; runs that may be continued later
+/// are kept as far as memory allows. Different runs proceed in parallel.
 class QualityTable final : public MeasureSource {
 public:
-    /// \param kept_bytes of runs to go on from [bytes]
+    /// \param kept_bytes of runs to be continued [bytes]
     QualityTable(std::shared_ptr<const SmoothingEngine> engine, Chooser chooser,
                  std::size_t kept_bytes = std::size_t{256} << 20,
                  Fidelity fidelity = Fidelity::Full);
@@ -51,11 +51,11 @@ public:
     [[nodiscard]] const Work& work() const override { return work_; }
 
 private:
-    /// All sets that differ in iterations only.
+    /// All sets that differ only in iterations.
     struct Column {
         std::optional<SmoothingChoice> choice;
         std::map<int, QualityMeasures> known;                  ///< by iterations
-        std::map<int, std::unique_ptr<MeasuredRun>> standing;  ///< runs to go on from
+        std::map<int, std::unique_ptr<MeasuredRun>> standing;  ///< runs to be continued
     };
 
     struct Task {

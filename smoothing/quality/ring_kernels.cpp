@@ -7,7 +7,7 @@
 
 #include "geometry/kernel/edges.h"
 
-// Functions that return wide vectors are inlined everywhere: how they would be called is no matter.
+// Functions that return wide vectors are always inlined, so their calling convention is irrelevant.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #define ALWAYS_INLINED __attribute__((always_inline))
@@ -22,8 +22,8 @@ using Mask = long long __attribute__((vector_size(32)));
 /// A neighbour and the next one around a vertex.
 using Side = std::pair<VertexId, VertexId>;
 
-/// Appends the neighbours around a vertex in order. \return false, and appends nothing, unless its
-/// triangles are one fan
+/// Appends the neighbours around a vertex in order. \return false, appending nothing, unless its
+/// triangles form a single fan
 bool append_fan(const Topology& topology, VertexId v, std::vector<Side>& sides,
                 std::vector<std::uint32_t>& members) {
     sides.clear();
@@ -35,7 +35,7 @@ bool append_fan(const Topology& topology, VertexId v, std::vector<Side>& sides,
         sides.emplace_back(from, to);
     }
     if (sides.empty()) return false;
-    auto side = std::ranges::find_if(sides, [&](const Side& s) {  // that no other one leads to
+    auto side = std::ranges::find_if(sides, [&](const Side& s) {  // the one no other leads to
         return std::ranges::find(sides, s.first, &Side::second) == sides.end();
     });
     if (side == sides.end()) side = sides.begin();
@@ -51,7 +51,7 @@ bool append_fan(const Topology& topology, VertexId v, std::vector<Side>& sides,
     return sides.empty();
 }
 
-/// The fans of some vertices in a row.
+/// The fans of some vertices, one after the other.
 struct FanPart {
     std::vector<std::uint32_t> sizes, members;
     std::vector<VertexId> irregular;

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 namespace {
 
-/// value / base; where the original has nothing to compare with, nothing changes.
+/// value / base; no change if the original's value is 0.
 double ratio(double value, double base, double otherwise) {
     return base != 0.0 ? value / base : otherwise;
 }
@@ -20,7 +20,7 @@ ScoreForm score_form_from(const std::string& name) {
     if (name == "default") return ScoreForm::Default;
     if (name == "thesis") return ScoreForm::Thesis;
     if (name == "compact") return ScoreForm::Compact;
-    throw UsageError("score '" + name + "' is none of default, thesis, compact");
+    throw UsageError("score '" + name + "' is unknown: use default, thesis or compact");
 }
 
 std::string to_string(ScoreForm form) {

@@ -11,26 +11,26 @@ namespace vesselbench {
 
 /// A parameter that a search may change.
 struct SearchParameter {
-    std::string name;            ///< as the operation calls it
-    std::string unit;            ///< "-", "mm"; empty: a number of things
+    std::string name;            ///< the operation's name for it
+    std::string unit;            ///< "-", "mm"; empty: a count
     std::vector<double> values;  ///< ascending
-    int coarse = 1;              ///< the first look takes every so many-th value, and the last
-    std::optional<double> idle = std::nullopt;  ///< with which nothing changes, whatever the others
+    int coarse = 1;              ///< the first pass uses every n-th value, and the last
+    std::optional<double> idle = std::nullopt;  ///< value without any effect
 };
 
 /// All values, or the coarse ones.
 [[nodiscard]] std::vector<double> chosen_values(const SearchParameter& parameter, bool coarse);
 
-/// What a search goes through: the grid of all values. Smoothing has the iterations last.
+/// The space of a search: the grid of all values. In smoothing the iterations are last.
 struct SearchSpace {
     std::vector<SearchParameter> parameters;
-    Chooser chooser;  ///< of smoothing only
+    Chooser chooser;  ///< for smoothing only
 };
 
 /// True if a set leaves the surface as it is.
 [[nodiscard]] bool does_nothing(const SearchSpace& space, const ParameterSet& set);
 
-/// A parameter set and how good it is.
+/// A parameter set and its score.
 struct Suggestion {
     ParameterSet values;
     QualityMeasures measures;
@@ -38,17 +38,17 @@ struct Suggestion {
     double score = 0.0;
 };
 
-/// Searches one surface's parameter sets for the lowest score (thesis 6.5.5). Everything found is
-/// kept for the next search; sets that are left out count as infinitely bad. Of equal scores the
-/// smallest value of the last parameter wins (of smoothing, the fewest iterations), then the
+/// Searches one surface's parameter sets for the lowest score (thesis 6.5.5). All results are kept
+/// for the next search; sets that are left out count as infinitely bad. Of equal scores the
+/// smallest value of the last parameter wins (in smoothing, the fewest iterations), then the
 /// smallest of the others, so that "do not smooth" is 0, 0.
 class ParameterSearch {
 public:
-    /// Of smoothing.
+    /// For smoothing.
     ParameterSearch(const std::shared_ptr<const SmoothingEngine>& engine, const SearchSpace& space,
                     ScoreSettings settings);
 
-    /// Of any operation.
+    /// For any operation.
     ParameterSearch(std::shared_ptr<MeasureSource> table, SearchSpace space,
                     ScoreSettings settings);
 
@@ -58,23 +58,23 @@ public:
     /// The best of them. \throw Cancelled
     [[nodiscard]] Suggestion exhaustive(bool coarse, const Progress& progress = {});
 
-    /// What to suggest, at first: the best coarse set; of four parameters or more, whose coarse
-    /// grid takes too long, what a pattern search finds. Where the surface has enough vertices for
-    /// that (20,000), both look at estimates from a sample of them, and measure what they find in
-    /// full. \param last of a search of many parameters with another score: where this one begins
+    /// The first suggestion: the best coarse set; with four parameters or more, whose coarse grid
+    /// takes too long, the result of a pattern search. On surfaces with enough vertices (20,000),
+    /// both use estimates from a sample of them, and measure their result in full.
+    /// \param last result of a search with many parameters and another score: the start of this one
     /// \throw Cancelled
     [[nodiscard]] Suggestion first_look(const std::optional<Suggestion>& last = {},
                                         const Progress& progress = {});
 
-    /// What to suggest in the end: that, with the grid's single steps. \throw Cancelled
+    /// The final suggestion: the first one, refined by single steps of the grid. \throw Cancelled
     [[nodiscard]] Suggestion settled(const Suggestion& first, const Progress& progress = {});
 
-    /// From n starts, each near the largest value of one of the n parameters and near the smallest
-    /// of the others, to the best set of the (3^n - 1)-neighbourhood until none is better. At first
-    /// the neighbourhood reaches `reach` twentieths of the parameters' ranges; at each minimum it
-    /// is halved, down to single steps of the grid. From the best of these minima on it is
-    /// stretched along one parameter at a time: strong and few iterations give about the same as
-    /// weak and many, so that good sets lie along a valley, which single steps do not follow.
+    /// Starts n times, each near the largest value of one of the n parameters and near the smallest
+    /// of the others, and moves to the best set of the (3^n - 1)-neighbourhood until none is
+    /// better. Initially the neighbourhood extends over `reach` twentieths of the parameters'
+    /// ranges; at each minimum it is halved, down to single steps of the grid. From the best of
+    /// these minima it is stretched along one parameter at a time: few strong iterations equal many
+    /// weak ones, so good sets lie along a valley that single steps miss.
     /// \throw Cancelled
     [[nodiscard]] Suggestion pattern(int reach = 8, const Progress& progress = {});
 
@@ -82,8 +82,8 @@ public:
     [[nodiscard]] Suggestion refined(const Suggestion& from, int reach,
                                      const Progress& progress = {});
 
-    /// The best value of one parameter while the others stay (6.5.5): the suggestion while it is
-    /// dragged. \throw Cancelled
+    /// The best value of one parameter while the others are fixed (6.5.5): the suggestion during
+    /// dragging. \throw Cancelled
     [[nodiscard]] Suggestion along(std::size_t parameter, const ParameterSet& current,
                                    const Progress& progress = {});
 
@@ -91,12 +91,12 @@ public:
 
     [[nodiscard]] MeasureSource& table() { return *table_; }
 
-    /// What was done so far, estimates included.
+    /// The work done so far, estimates included.
     [[nodiscard]] MeasureSource::Work work() const;
 
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 
-    /// Another target smoothness or score; what is known of the surface stays known.
+    /// Another target smoothness or score; all measurements of the surface are kept.
     void set_score(ScoreSettings settings) { settings_ = settings; }
 
     /// The best of some sets. \throw InvalidInput if all of them are left out; Cancelled

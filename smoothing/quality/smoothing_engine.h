@@ -14,20 +14,20 @@ namespace vesselbench {
 /// Weights of a run, #V, as in FilterSettings; null: all 1.
 using SharedWeights = std::shared_ptr<const std::vector<double>>;
 
-/// Parameters of staircase awareness that a search changes (thesis 5.3.3, 7.2).
+/// Parameters of staircase awareness covered by a search (thesis 5.3.3, 7.2).
 struct StaircaseValues {
     double tau_theta = 0.7, tau_max = 3.0, beta_min = 0.0;
     bool operator==(const StaircaseValues&) const = default;
 };
 
-/// Makes weights of staircase awareness for other values of its parameters, times all weights that
-/// stay. Called from any thread.
+/// Makes staircase weights for other values of their parameters, times all fixed weights. Called
+/// from any thread.
 using StaircaseWeights =
     std::function<SharedWeights(double tau_theta, double tau_max, double beta_min)>;
 
-/// A filter with all its parameters but the number of iterations.
+/// A filter with all its parameters except the number of iterations.
 struct SmoothingChoice {
-    /// Staircase weights that an engine makes itself, and what makes them if it cannot.
+    /// Staircase weights that an engine makes itself, and a function that makes them if it cannot.
     struct Staircase {
         StaircaseValues values;
         StaircaseWeights on_cpu;
@@ -41,28 +41,28 @@ struct SmoothingChoice {
 /// The weights of a choice on the CPU.
 [[nodiscard]] SharedWeights weights_of(const SmoothingChoice& choice);
 
-/// A filter on its way over the engine's surface, which can be measured after any iteration. The
-/// references of the local error are followed at every 5th iteration, whatever is measured: so a
-/// measure depends on the choice and the iterations only.
+/// A running filter on the engine's surface that can be measured after any iteration. The
+/// references of the local error are updated at every 5th iteration, whatever is measured, so a
+/// measure depends only on the choice and the iterations.
 class MeasuredRun {
 public:
     static constexpr int kFollowEvery = 5;
 
     virtual ~MeasuredRun() = default;
 
-    /// Goes on until so many iterations are done; not back.
-    /// \throw Cancelled; the run is of no use then
+    /// Continues until the given number of iterations is done; never backwards.
+    /// \throw Cancelled; the run must not be used afterwards
     virtual void advance_to(int iterations, const Progress& progress) = 0;
 
     [[nodiscard]] virtual int iterations() const = 0;
 
     [[nodiscard]] virtual QualityMeasures measure() = 0;
 
-    /// Another run that stands where this one does.
+    /// Another run in the same state.
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> copy() const = 0;
 };
 
-/// A run that follows its references as every MeasuredRun does, whatever they are kept in.
+/// A run that updates its references as every MeasuredRun does, wherever they are stored.
 class FollowingRun : public MeasuredRun {
 public:
     void advance_to(int iterations, const Progress& progress) final {
@@ -78,10 +78,10 @@ public:
 protected:
     [[nodiscard]] bool at_stop() const { return iterations() % kFollowEvery == 0; }
 
-    /// True if the references have not passed the stop that the run stands at.
+    /// True if the references have not yet passed the stop the run is at.
     [[nodiscard]] bool due() const { return !followed_ && at_stop(); }
 
-    /// They have, by a measure.
+    /// Marks them as passed, by a measurement.
     void set_followed() { followed_ = true; }
 
 private:
@@ -91,8 +91,8 @@ private:
     bool followed_ = true;
 };
 
-/// What smooths one surface and measures the results: the door through which searches and
-/// sensitivity analysis use the CPU, or another device.
+/// Smooths one surface and measures the results: the interface through which searches and
+/// sensitivity analysis use the CPU or another device.
 class SmoothingEngine {
 public:
     virtual ~SmoothingEngine() = default;
@@ -104,10 +104,10 @@ public:
     /// True if it makes staircase weights itself, faster than SmoothingChoice::Staircase::on_cpu.
     [[nodiscard]] virtual bool weighs_staircases() const { return false; }
 
-    /// True if start_estimate is worth it here.
+    /// True if start_estimate pays off here.
     [[nodiscard]] virtual bool estimates() const { return false; }
 
-    /// A run that is measured quickly, by a sample, to tell sets apart.
+    /// A run that is measured quickly, by a sample, to compare sets.
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> start_estimate(
         const SmoothingChoice& choice) const {
         return start(choice);
@@ -117,10 +117,10 @@ public:
 
     [[nodiscard]] virtual double mean_edge() const = 0;  ///< of the original [mm]
 
-    /// True if runs may go on at the same time on several threads.
+    /// True if runs may proceed in parallel on several threads.
     [[nodiscard]] virtual bool concurrent() const = 0;
 
-    /// Memory that a run takes [bytes].
+    /// Memory of a run [bytes].
     [[nodiscard]] virtual std::size_t run_bytes() const = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kIterations = "iterations";
 
-/// Both ends and whole steps between; rounded, so that equal values are the same bits.
+/// Both ends and whole steps between; rounded, so that equal values have equal bits.
 std::vector<double> steps(double from, double to, double step) {
     std::vector<double> values;
     const auto count = static_cast<int>(std::lround((to - from) / step));
@@ -84,7 +84,7 @@ bool has(const std::vector<SearchParameter>& parameters, const std::string& name
 }
 
 /// The filter with the values of a set; a Taubin filter's mu follows lambda, unless it is a
-/// parameter or stays.
+/// parameter or fixed.
 FilterParameters with_values(const std::vector<SearchParameter>& parameters,
                              std::span<const double> values, FilterParameters filter,
                              bool mu_stays) {

@@ -6,29 +6,29 @@
 
 namespace vesselbench {
 
-/// What a search of smoothing parameters is to go through.
+/// The space of a search for smoothing parameters.
 struct SmoothingSpaceOptions {
-    FilterParameters filter;  ///< values of the parameters that stay
-    std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< that stay; null: all 1
-    StaircaseWeights staircase = nullptr;  ///< searches tau_theta, tau_max, beta_min too (7.2)
+    FilterParameters filter;  ///< with the values of the fixed parameters
+    std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< fixed; null: all 1
+    StaircaseWeights staircase = nullptr;  ///< set: search tau_theta, tau_max, beta_min too (7.2)
     bool engine_weighs = false;            ///< SmoothingEngine::weighs_staircases
-    double slice = 1.0;                    ///< distance of the image's slices, scales tau_max [mm]
+    double slice = 1.0;                    ///< distance of the image's slices; scales tau_max [mm]
     int most_iterations = 50;
-    bool all_parameters = false;  ///< also those that the search leaves alone: for graphs
-    bool mu_stays = false;        ///< of Taubin: mu does not follow lambda
+    bool all_parameters = false;  ///< also those that the search does not vary: for graphs
+    bool mu_stays = false;        ///< Taubin: mu does not follow lambda
 };
 
-/// The grid of a filter's parameters: weights in steps of 0.05, iterations in steps of 1, at first
-/// 0.1 (0.2 where there are more than two parameters) and 5. Laplace+HC searches alpha and beta,
-/// Taubin lambda with mu = -1.02 lambda (mu by itself in graphs), the others lambda. Sets with
-/// which the filter would enlarge some bumps are left out.
+/// The grid of a filter's parameters: weights in steps of 0.05, iterations in steps of 1, coarsely
+/// 0.1 (0.2 with more than two parameters) and 5. Laplace+HC searches alpha and beta, Taubin lambda
+/// with mu = -1.02 lambda (mu separately in graphs), the others lambda. Sets with which the filter
+/// would amplify some bumps are left out.
 [[nodiscard]] SearchSpace smoothing_space(const SmoothingSpaceOptions& options);
 
-/// The values of a filter as a set of that space; staircases take the given values.
+/// The values of a filter as a set of that space; staircases use the given values.
 [[nodiscard]] ParameterSet current_set(const SearchSpace& space, const FilterParameters& filter,
                                        int iterations, const StaircaseValues& staircase = {});
 
-/// A set's value of a parameter; none if the space has no such parameter.
+/// A set's value of a parameter; none if the space lacks it.
 [[nodiscard]] std::optional<double> value_of(const SearchSpace& space, const ParameterSet& set,
                                              const std::string& name);
 

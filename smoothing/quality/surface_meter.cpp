@@ -18,8 +18,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kChunk =
-    512;  // places that are summed by themselves: small, but not too many
+constexpr std::size_t kChunk = 512;  // places per partial sum: small, but not too many
 
 constexpr std::size_t kSampleStep = 32;
 
@@ -27,7 +26,7 @@ Vec3 point_of(const PackRow& row) {
     return {row.values[0], row.values[1], row.values[2]};
 }
 
-/// The surface renumbered, so that its vertices stand in the order of the states' places.
+/// The surface renumbered, so that its vertices are in the order of the states' places.
 Surface in_order(std::shared_ptr<const Topology> topology,
                  std::shared_ptr<const Positions> original, std::span<const VertexId> order) {
     const std::size_t count = topology->vertex_count();
@@ -58,7 +57,7 @@ struct SurfaceMeter::Data {
     std::vector<PackRow> original;
     Fans fans;
     bool planes = false;
-    std::vector<std::uint32_t> lanes;   ///< all places; those of a chunk by the size of their fans
+    std::vector<std::uint32_t> lanes;   ///< all places; within a chunk sorted by fan size
     std::vector<std::uint32_t> sample;  ///< every kSampleStep-th of them
     std::vector<double> interior;       ///< 1 where curvature counts
     std::vector<std::vector<VertexId>> loops;
@@ -68,7 +67,7 @@ struct SurfaceMeter::Data {
 
     [[nodiscard]] std::size_t chunks() const { return (original.size() + kChunk - 1) / kChunk; }
 
-    /// Some places' part of the errors' sums.
+    /// Contribution of some places to the sums of the errors.
     void add_errors(Packs moved, std::span<const std::uint32_t> places, const VertexId* references,
                     VertexId* followed, QualityMeasures& sums) const;
     void add_curvatures(Packs moved, std::span<const std::uint32_t> places,
@@ -108,7 +107,7 @@ SurfaceMeter::Data::Data(Surface s, bool with_planes)
     loops = surface.topology->boundary_loops();
 }
 
-/// The area around all vertices by that around the sample, boundaries left out as in curvatures.
+/// The area around all vertices over that around the sample, boundaries excluded as in curvatures.
 double SurfaceMeter::Data::area_scale() const {
     std::vector<double> around(original.size(), 0.0);
     for (const Triangle& t : surface.triangles())
@@ -121,7 +120,7 @@ double SurfaceMeter::Data::area_scale() const {
 
 namespace {
 
-/// Places of one chunk, their references and what they found.
+/// The places of one chunk, their references and results.
 struct ChunkErrors {
     std::array<VertexId, kChunk> references;
     std::array<double, kChunk> distances, planes;
@@ -143,7 +142,8 @@ void SurfaceMeter::Data::add_errors(Packs moved, std::span<const std::uint32_t> 
                              errors.states.data()});
     };
     search(found, places.data(), count);
-    // What drifts to another reference is searched again, four at once, in a queue of its own.
+    // Vertices that drift to another reference are searched again, four at a time, in their own
+    // queue.
     ChunkErrors again;
     std::array<std::uint32_t, kChunk> again_places, again_index;
     std::size_t drifting = 0;

@@ -12,11 +12,11 @@
 
 namespace vesselbench {
 
-/// Measures states of one surface against their original, again and again: all measures in two
-/// passes over the vertices, on all threads, about the time of 20 sweeps of a filter. The same
-/// bits on any number of threads. Numbers are those of geometry/kernel/local_error.h and
-/// geometry/kernel/measure.h, but for the signed curvature: here H is the curvature normal's
-/// component along the vertex normal (weighted by area), there all of its length with that
+/// Measures states of one surface against their original, repeatedly: all measures in two passes
+/// over the vertices, on all threads, about the time of 20 sweeps of a filter. Bit-identical for
+/// any number of threads. The numbers are those of geometry/kernel/local_error.h and
+/// geometry/kernel/measure.h, except for the signed curvature: here H is the component of the
+/// curvature normal along the vertex normal (weighted by area), there its full length with that
 /// component's sign, which differs where slivers fold.
 class SurfaceMeter {
 public:
@@ -24,8 +24,8 @@ public:
     using Packs = std::span<const PackRow>;
 
     /// \param planes measures error_thesis too
-    /// \param order the vertex at every place, where states are not in the order of the vertices;
-    ///        empty: they are
+    /// \param order the vertex at every place, if states are not in the order of the vertices;
+    /// empty: they are
     /// \throw InvalidInput if a length does not fit, or a position is not finite
     SurfaceMeter(std::shared_ptr<const Topology> topology,
                  std::shared_ptr<const Positions> original, bool planes = false,
@@ -37,20 +37,20 @@ public:
     /// Every place as its own reference.
     [[nodiscard]] std::vector<VertexId> own_references() const;
 
-    /// Moves the reference neighbourhoods on with a state's vertices (6.4.1).
+    /// Moves the reference neighbourhoods along with a state's vertices (6.4.1).
     void follow(Packs moved, std::vector<VertexId>& references) const;
 
-    /// Follows the references to this state, and measures it.
+    /// Updates the references to this state, and measures it.
     [[nodiscard]] QualityMeasures follow_and_measure(Packs moved,
                                                      std::vector<VertexId>& references) const;
 
-    /// The same, for states between those that the references are to pass.
+    /// The same, for states between those at which the references are updated.
     [[nodiscard]] QualityMeasures measure(Packs moved,
                                           const std::vector<VertexId>& references) const;
 
-    /// The same from every 32nd place, followed alone; the volume is exact. Curvature is scaled by
-    /// the area that the sample stands for. All states err the same way, by a few per cent at some
-    /// thousand vertices: this serves to tell sets apart before the best ones are measured.
+    /// The same from every 32nd place, tracked alone; the volume is exact. Curvature is scaled by
+    /// the area that the sample represents. All states err in the same way, by a few per cent with
+    /// some thousand vertices: enough to compare sets before the best ones are measured.
     [[nodiscard]] QualityMeasures follow_and_estimate(Packs moved,
                                                       std::vector<VertexId>& references) const;
 
@@ -65,7 +65,7 @@ private:
 
     std::unique_ptr<const Data> data_;
     QualityMeasures original_;
-    double sample_scale_ = 1.0;  ///< the original's area by that around the sample
+    double sample_scale_ = 1.0;  ///< the original's area relative to that around the sample
     double mean_edge_ = 0.0;
 };
 

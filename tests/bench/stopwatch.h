@@ -4,7 +4,7 @@
 
 namespace vesselbench::bench {
 
-/// Seconds since it was made.
+/// Seconds since construction.
 class Stopwatch {
 public:
     [[nodiscard]] double seconds() const {

@@ -49,7 +49,7 @@ SCENARIO("VMTK's centerlines are read", "[geometry][centerlines]") {
     CHECK(lines.branches[0].radii[50] > 3.0);
 }
 
-SCENARIO("What is no centerline file is refused", "[geometry][centerlines]") {
+SCENARIO("A file that is not a centerline file is rejected", "[geometry][centerlines]") {
     const std::string folder = temporary_folder();
     CHECK_THROWS_AS(read_centerlines(folder + "/absent.vtp"), IoError);
     std::ofstream(folder + "/bad.vtp") << "<VTKFile type=\"PolyData\"><PolyData>";

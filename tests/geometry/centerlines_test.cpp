@@ -299,7 +299,7 @@ SCENARIO("Simple points of thinning", "[geometry][centerlines]") {
     CHECK_FALSE(is_simple((std::uint32_t{1} << 27) - 1));  // inside
 }
 
-SCENARIO("What has no centerline is refused with a reason", "[geometry][centerlines]") {
+SCENARIO("A surface without a centerline is rejected with a reason", "[geometry][centerlines]") {
     CHECK_THROWS_AS(compute_centerlines(Surface{}), InvalidInput);
     Surface broken = open_tube(2.0, 20.0, 16, 16);
     Positions points = broken.points();

@@ -49,7 +49,7 @@ SCENARIO("A surface is cut open at a box", "[crop]") {
     }
 }
 
-SCENARIO("A surface is cut open at a ball, attributes and all", "[crop]") {
+SCENARIO("A surface is cut open at a ball, with its attributes", "[crop]") {
     Surface plane_ball = icosphere(10.0, 4);
     std::vector<double> heights;
     for (const Vec3& p : plane_ball.points()) heights.push_back(p.z());

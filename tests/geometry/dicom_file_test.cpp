@@ -144,7 +144,7 @@ SCENARIO("A DICOM series gives its true geometry", "[images][dicom]") {
 
 SCENARIO("A DICOM folder that is no volume is refused", "[images][dicom][bad-input]") {
     auto slices = oblique_series();
-    WHEN("a slice is missing") {
+    WHEN("is a slice missing") {
         slices.erase(slices.begin() + 3);
         THEN("the gap is named") {
             CHECK_THAT(message_of(write_series(slices)), Contains("2.5 mm"));

@@ -113,7 +113,7 @@ SCENARIO("A body in a corner of the image is closed on three sides", "[images][e
     CHECK(volume(part) == Approx(ball_volume(8.3) / 8.0).epsilon(0.01));
 }
 
-SCENARIO("A touch of the border is no vessel's end", "[images][extraction]") {
+SCENARIO("A touch of the border is not a vessel's end", "[images][extraction]") {
     const Image mask = image_of({9, 9, 9}, Eigen::Matrix4d::Identity(), [](const Vec3& p) {
         const bool body = p.x() > 1 && p.x() < 7 && p.y() > 1 && p.y() < 7 && p.z() > 0;
         const bool hair = p.x() == 4 && p.y() == 4;

@@ -96,7 +96,7 @@ SCENARIO("An image keeps its place, direction and values through every written f
     }
 }
 
-SCENARIO("Whole numbers are stored in the smallest type that holds them", "[images][io]") {
+SCENARIO("Integers are stored in the smallest type that holds them", "[images][io]") {
     const float value = GENERATE(255.0f, -3.0f, 40000.0f);
     Image image = numbered(Eigen::Matrix4d::Identity());
     image.voxels = std::make_shared<const std::vector<float>>(120, value);
@@ -105,7 +105,7 @@ SCENARIO("Whole numbers are stored in the smallest type that holds them", "[imag
     CHECK(*read_image(path).voxels == *image.voxels);
 }
 
-SCENARIO("A NIfTI file's sform, qform, byte order, units and scaling count", "[images][io]") {
+SCENARIO("A NIfTI file's sform, qform, byte order, units and scaling are applied", "[images][io]") {
     const Image image = numbered(Eigen::Matrix4d::Identity());
     GIVEN("a qform that mirrors the slices, in metres, with slope and intercept") {
         std::string bytes = nifti_bytes(image);
@@ -201,7 +201,7 @@ SCENARIO("NRRD headers of all kinds are understood", "[images][io]") {
             CHECK((image.spacing() - Vec3(1, 2, 3)).norm() == 0.0);
         }
     }
-    GIVEN("several values a voxel") {
+    GIVEN("several values per voxel") {
         THEN("it is refused with the remedy") {
             CHECK_THAT(
                 message_of(write_text("rgb.nrrd",
@@ -209,7 +209,7 @@ SCENARIO("NRRD headers of all kinds are understood", "[images][io]") {
                                       "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
                                       "encoding: raw\n\n" +
                                           voxels)),
-                Contains("rgb.nrrd") && Contains("values a voxel"));
+                Contains("rgb.nrrd") && Contains("values per voxel"));
         }
     }
 }

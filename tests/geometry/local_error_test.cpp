@@ -148,7 +148,7 @@ SCENARIO("The local error is the distance from the original where little moved",
     }
 }
 
-SCENARIO("A branch that only comes near is not what a vertex is compared with",
+SCENARIO("A vertex is not compared with a branch that only passes nearby",
          "[geometry][local_error]") {
     const Surface two = sheets(9, {0.0, 2.0});
     Positions moved = two.points();
@@ -158,7 +158,7 @@ SCENARIO("A branch that only comes near is not what a vertex is compared with",
     CHECK(error_of(two, moved).values[middle] == Approx(1.9));
 }
 
-SCENARIO("The printed form takes the farthest plane around an edge", "[geometry][local_error]") {
+SCENARIO("The printed form uses the farthest plane around an edge", "[geometry][local_error]") {
     const Surface box = cube(2.0);
     const auto corner = static_cast<std::size_t>(
         std::find(box.points().begin(), box.points().end(), Vec3(2.0, 2.0, 2.0)) -

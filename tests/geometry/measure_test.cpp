@@ -74,7 +74,7 @@ SCENARIO("A sphere has mean curvature 1/r and integral 4 pi r", "[geometry][meas
     }
 }
 
-SCENARIO("An open tube is measured as if its ends were closed", "[geometry][measure]") {
+SCENARIO("An open tube is measured with virtually closed ends", "[geometry][measure]") {
     const SurfaceMeasures m = measure(open_tube(2.0, 10.0, 64, 20));
     CHECK(m.volume == Approx(kPi * 4.0 * 10.0).epsilon(0.005));
     CHECK(m.connectivity.boundary_loops == 2);
@@ -121,14 +121,15 @@ SCENARIO("Places that are no manifold are counted", "[geometry][measure]") {
     }
 }
 
-SCENARIO("Two spheres that pass through each other are found to", "[geometry][measure]") {
+SCENARIO("Two spheres that pass through each other are detected", "[geometry][measure]") {
     CHECK(measure(joined(icosphere(1.0, 2), icosphere(1.0, 2, Vec3(1.5, 0.1, 0.2))))
               .self_intersections > 0);
     CHECK(measure(joined(icosphere(1.0, 2), icosphere(1.0, 2, Vec3(2.5, 0.1, 0.2))))
               .self_intersections == 0);
 }
 
-SCENARIO("Crossings with chosen triangles are those of all that have one", "[geometry][measure]") {
+SCENARIO("Crossings of chosen triangles are those of all crossings that contain one",
+         "[geometry][measure]") {
     const Surface two = joined(icosphere(1.0, 3), icosphere(1.0, 3, Vec3(1.5, 0.1, 0.2)));
     const auto all = self_intersections(two);
     REQUIRE(all.size() > 20);

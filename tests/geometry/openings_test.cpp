@@ -241,7 +241,7 @@ SCENARIO("Openings in a bend are perpendicular and named", "[geometry][openings]
     }
 }
 
-SCENARIO("Attributes and patches go along when a branch is cut", "[geometry][openings]") {
+SCENARIO("Attributes and patches are carried over when a branch is cut", "[geometry][openings]") {
     Surface tube = open_tube(2.0, 30.0, 40, 90);
     std::vector<double> height;
     for (const Vec3& p : tube.points()) height.push_back(p.z());
@@ -258,7 +258,7 @@ SCENARIO("Attributes and patches go along when a branch is cut", "[geometry][ope
     CHECK(clipped.patches[1] == Patch{"outlet_1", PatchKind::Outlet});
 }
 
-SCENARIO("A cut that would take another vessel's end with it is left out", "[geometry][openings]") {
+SCENARIO("A cut that would remove another vessel's end is left out", "[geometry][openings]") {
     const double length = 30.0;
     const Surface tube = open_tube(2.0, length, 40, 90);
     const auto graph = line_graph(straight_line(), length, 2.0);

@@ -46,7 +46,7 @@ void check_clean(const Surface& surface) {
 
 }  // namespace
 
-SCENARIO("A clean surface comes back as it is", "[geometry][repair]") {
+SCENARIO("A clean surface is returned unchanged", "[geometry][repair]") {
     for (const Surface& surface :
          {icosphere(3.0, 3), open_tube(2.0, 20.0, 24, 30), closed_tube(2.0, 20.0, 24, 30)}) {
         const Repaired repaired = repair(surface);
@@ -90,7 +90,7 @@ SCENARIO("Loose, doubled and turned triangles are put together", "[geometry][rep
     }
 }
 
-SCENARIO("Stray holes are closed, vessel ends stay", "[geometry][repair]") {
+SCENARIO("Stray holes are closed, vessel ends stay open", "[geometry][repair]") {
     const Surface tube = open_tube(2.0, 24.0, 32, 60);
     const Surface holed = punched(punched(tube, Vec3(2, 0, 12), 0.6), Vec3(0, -2, 5), 0.5);
     REQUIRE(holed.topology->boundary_loops().size() == 4);
@@ -114,7 +114,7 @@ SCENARIO("Stray holes are closed, vessel ends stay", "[geometry][repair]") {
     }
 }
 
-SCENARIO("Bodies that touch in a vertex or an edge are parted", "[geometry][repair]") {
+SCENARIO("Bodies that touch at a vertex or an edge are separated", "[geometry][repair]") {
     const Surface pair =
         merged(cube(1.0), mapped(cube(1.0), [](const Vec3& p) { return Vec3(p + Vec3(1, 1, 0)); }));
     const Repaired repaired = repair(pair);
@@ -140,7 +140,7 @@ SCENARIO("A fold is smoothed away", "[geometry][repair]") {
     CHECK(compare_with_reference(repaired.surface, sphere).hausdorff < 0.3);
 }
 
-SCENARIO("Slivers go, and nothing else moves", "[geometry][repair]") {
+SCENARIO("Slivers are removed, and nothing else moves", "[geometry][repair]") {
     const Surface tube = closed_tube(2.0, 20.0, 24, 30);
     // Every tenth triangle of the wall is divided at a point almost on one of its sides.
     Positions points = tube.points();
@@ -181,7 +181,7 @@ SCENARIO("Patches and attributes survive a repair", "[geometry][repair]") {
         CHECK(std::abs(carried[v] - repaired.surface.points()[v].z()) < 1.0);
 }
 
-SCENARIO("What is no body is refused", "[geometry][repair]") {
+SCENARIO("A surface that is not a body is rejected", "[geometry][repair]") {
     CHECK_THROWS_AS(repair(Surface{}), InvalidInput);
     Positions points = icosphere(1.0, 1).points();
     points[3].x() = std::nan("");

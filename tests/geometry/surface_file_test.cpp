@@ -72,7 +72,7 @@ SCENARIO("Legacy VTK files are read, text and binary, old and new", "[geometry][
                       Catch::Contains("POLYDATA"));
 }
 
-SCENARIO("A full disk is told, and nothing is left", "[geometry][io]") {
+SCENARIO("A full disk is reported, and nothing is left", "[geometry][io]") {
     const std::string folder = temporary_folder();
     const std::string path = folder + "/a.stl";
     write_surface(cube(1.0), path);
@@ -89,7 +89,7 @@ SCENARIO("A full disk is told, and nothing is left", "[geometry][io]") {
     CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
 }
 
-SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry][io]") {
+SCENARIO("Every format keeps the shape, and all data it can store", "[geometry][io]") {
     const Surface tube = patient_tube();
     const std::string folder = temporary_folder();
     for (const std::string& suffix : written_suffixes(surface_formats())) {
@@ -114,7 +114,7 @@ SCENARIO("Every format keeps the shape, and what it has a place for", "[geometry
     }
 }
 
-SCENARIO("A file that was cut off is refused at any length", "[geometry][io]") {
+SCENARIO("A file truncated at any length is rejected", "[geometry][io]") {
     const Surface tube = closed_tube(2.0, 20.0, 12, 4);
     const std::string folder = temporary_folder();
     std::vector<std::string> files = {written("t.vtk", legacy_vtk())};
@@ -135,7 +135,7 @@ SCENARIO("A file that was cut off is refused at any length", "[geometry][io]") {
     }
 }
 
-SCENARIO("A text STL that was cut off is refused at any length", "[geometry][io]") {
+SCENARIO("A text STL truncated at any length is rejected", "[geometry][io]") {
     std::string text = "solid a\n";
     for (int i = 0; i < 3; ++i)
         text += "facet normal 0 0 1\n outer loop\n  vertex 0 0 " + std::to_string(i) +
@@ -273,7 +273,7 @@ SCENARIO("A VTP file that announces huge arrays is refused at once", "[geometry]
     }
 }
 
-SCENARIO("What cannot be written leaves no file behind", "[geometry][io]") {
+SCENARIO("A failed write leaves no file behind", "[geometry][io]") {
     const std::string folder = temporary_folder();
     CHECK_THROWS_AS(write_surface(cube(1.0), folder + "/missing/a.stl"), IoError);
     CHECK_THROWS_AS(write_surface(cube(1.0), folder + "/a.docx"), UsageError);

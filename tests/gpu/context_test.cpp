@@ -12,7 +12,7 @@
 using namespace vesselbench;
 using namespace vesselbench::test;
 
-SCENARIO("A context that goes leaves the one before it current", "[gpu][context]") {
+SCENARIO("Destroying a context makes the previous one current", "[gpu][context]") {
     const auto test = test_device();
     if (!test) return;
     const std::vector<float> values = {1.0F, 2.0F};
@@ -50,6 +50,6 @@ SCENARIO("Another thread smooths what the first one sees", "[gpu][context]") {
     CHECK(relative_distances(sphere.points(), smoother.positions()).back() > 1e-3);
 }
 
-SCENARIO("Without a context there is none to share with", "[gpu][context]") {
+SCENARIO("Without a context there is nothing to share with", "[gpu][context]") {
     CHECK_THROWS_AS(OffscreenContext(Sharing::WithCurrent), GpuUnavailable);
 }

@@ -48,7 +48,7 @@ std::vector<NamedSurface> surfaces_with_ends() {
 
 }  // namespace
 
-SCENARIO("The device finds the caps that the CPU finds", "[gpu][caps]") {
+SCENARIO("The device finds the same caps as the CPU", "[gpu][caps]") {
     const auto test = test_device();
     if (!test) return;
     std::size_t found_at_all = 0;
@@ -88,7 +88,7 @@ SCENARIO("Patches are caps on the device, too", "[gpu][caps]") {
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i].triangles == wanted[i].triangles);
 }
 
-SCENARIO("A search for caps that cannot be done says so", "[gpu][caps]") {
+SCENARIO("A failing search for caps reports it", "[gpu][caps]") {
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);

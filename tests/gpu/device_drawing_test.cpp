@@ -32,7 +32,7 @@ double difference(const Picture& a, const Picture& b) {
 
 }  // namespace
 
-SCENARIO("A smoothed surface is drawn from where it was smoothed", "[gpu][drawing]") {
+SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing]") {
     const auto test = test_device();
     if (!test) return;
     const Surface rough = varied_surfaces().front().surface;

@@ -91,7 +91,7 @@ SCENARIO("Weights from distances that never left the device are the CPU's", "[gp
     }
 }
 
-SCENARIO("A search for neighbours that cannot be done says so", "[gpu][neighbours]") {
+SCENARIO("A failing search for neighbours reports it", "[gpu][neighbours]") {
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);

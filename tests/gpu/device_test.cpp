@@ -17,7 +17,7 @@ using Texts = std::map<std::string, std::string>;
 
 }  // namespace
 
-SCENARIO("A driver that offers too little is told by what is missing", "[gpu][device]") {
+SCENARIO("An insufficient driver is reported with what is missing", "[gpu][device]") {
     DeviceLimits limits{.major = 4,
                         .minor = 3,
                         .renderer = "some device",
@@ -34,7 +34,7 @@ SCENARIO("A driver that offers too little is told by what is missing", "[gpu][de
     CHECK_THROWS_WITH(require_compute(limits), Contains("4 storage buffers"));
 }
 
-SCENARIO("Included texts stand in a shader once, and messages name their lines", "[gpu][device]") {
+SCENARIO("Included texts appear in a shader once, and messages name their lines", "[gpu][device]") {
     const Texts texts = {
         {"a.comp", "#version 430 core\n#include \"b.glsl\"\n#include \"b.glsl\"\nlast\n"},
         {"b.glsl", "one\ntwo\n"}};
@@ -49,7 +49,7 @@ SCENARIO("Included texts stand in a shader once, and messages name their lines",
     CHECK_THROWS_AS(assemble_shader(texts, "c.comp"), GpuUnavailable);
 }
 
-SCENARIO("A shader that does not compile is told by file and line", "[gpu][device]") {
+SCENARIO("A shader that does not compile is reported by file and line", "[gpu][device]") {
     auto test = test_device();
     if (!test) return;
     const Texts texts = {{"wrong.comp",
@@ -62,7 +62,7 @@ SCENARIO("A shader that does not compile is told by file and line", "[gpu][devic
                           Contains("return no_such_thing"));
 }
 
-SCENARIO("What does not fit the device is told by its size", "[gpu][device]") {
+SCENARIO("Data that does not fit the device is reported with its size", "[gpu][device]") {
     auto test = test_device();
     if (!test) return;
     test->device.limits.largest_storage_block = 1000;

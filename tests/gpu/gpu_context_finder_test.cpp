@@ -47,7 +47,7 @@ void compare(ContextFinder& device, ContextFinder& cpu, const Surface& surface) 
 
 }  // namespace
 
-SCENARIO("The device finds the context that the CPU finds", "[gpu][context-finder]") {
+SCENARIO("The device finds the same context as the CPU", "[gpu][context-finder]") {
     const auto test = test_device();
     if (!test) return;
     for (const auto& [name, surface] : varied_surfaces()) {

@@ -57,7 +57,7 @@ void compare_runs(const SmoothingEngine& device, const SmoothingEngine& cpu,
 
 }  // namespace
 
-SCENARIO("A search on the device sees what it sees on the CPU", "[gpu][engine]") {
+SCENARIO("A search on the device finds what it finds on the CPU", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;
     for (const auto& [name, surface] : varied_surfaces()) {
@@ -77,7 +77,7 @@ SCENARIO("A search on the device sees what it sees on the CPU", "[gpu][engine]")
     }
 }
 
-SCENARIO("Weights that were uploaded before serve again", "[gpu][engine]") {
+SCENARIO("Uploaded weights are reused", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
@@ -160,7 +160,7 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
                  diagonal);
 }
 
-SCENARIO("A copied run of the device goes on as the run itself", "[gpu][engine]") {
+SCENARIO("A copied run on the device continues like the original", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
@@ -178,7 +178,7 @@ SCENARIO("A copied run of the device goes on as the run itself", "[gpu][engine]"
     CHECK_THROWS_AS(engine->start({LaplaceParameters{}, short_weights}), InvalidInput);
 }
 
-SCENARIO("Where the device fails in a search, the CPU takes over", "[gpu][engine]") {
+SCENARIO("If the device fails in a search, the CPU takes over", "[gpu][engine]") {
     const Surface sphere = icosphere(5.0, 4);
     const auto cpu = make_cpu_engine(ground_of(sphere));
     const SmoothingChoice choice{LaplaceParameters{}, nullptr};

@@ -103,7 +103,7 @@ SCENARIO("Curvature filters on the device agree with the CPU", "[gpu][smoother]"
     }
 }
 
-SCENARIO("What is not to move stays bit for bit on the device", "[gpu][smoother]") {
+SCENARIO("Fixed vertices stay bit for bit on the device", "[gpu][smoother]") {
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
@@ -131,7 +131,7 @@ SCENARIO("What is not to move stays bit for bit on the device", "[gpu][smoother]
     }
 }
 
-SCENARIO("A run goes on where it stopped, and starts anew when asked", "[gpu][smoother]") {
+SCENARIO("A run continues where it stopped, and restarts on request", "[gpu][smoother]") {
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);
@@ -149,7 +149,7 @@ SCENARIO("A run goes on where it stopped, and starts anew when asked", "[gpu][sm
     }
 }
 
-SCENARIO("The device refuses what the CPU refuses", "[gpu][smoother]") {
+SCENARIO("The device rejects what the CPU rejects", "[gpu][smoother]") {
     const auto test = test_device();
     if (!test) return;
     const auto surface = uploaded(*test, icosphere(5.0, 2));
@@ -164,7 +164,7 @@ SCENARIO("The device refuses what the CPU refuses", "[gpu][smoother]") {
     CHECK_THROWS_AS(DeviceSurface(test->device, Surface{}), InvalidInput);
 }
 
-SCENARIO("A copy of a run goes on by itself", "[gpu][smoother]") {
+SCENARIO("A copy of a run continues independently", "[gpu][smoother]") {
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);

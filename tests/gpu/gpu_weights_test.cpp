@@ -35,7 +35,7 @@ std::vector<double> distances_to_plane(const Surface& surface) {
 
 }  // namespace
 
-SCENARIO("The device detects the staircases that the CPU detects", "[gpu][weights]") {
+SCENARIO("The device detects the same staircases as the CPU", "[gpu][weights]") {
     const auto test = test_device();
     if (!test) return;
     for (const auto& [name, surface] : varied_surfaces()) {
@@ -85,7 +85,7 @@ SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][
             }
 }
 
-SCENARIO("A search that failed changes no weights of the one before", "[gpu][weights]") {
+SCENARIO("A failed search leaves the previous weights unchanged", "[gpu][weights]") {
     auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 30.0, 40, 60);

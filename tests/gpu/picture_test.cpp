@@ -53,7 +53,7 @@ SCENARIO("The same surface gives the same picture, another side another one", "[
     CHECK(coverage(draw(tube, from_above)) > 3.0 * coverage(side));
 }
 
-SCENARIO("What cannot be drawn is refused", "[gpu][picture]") {
+SCENARIO("Undrawable input is rejected", "[gpu][picture]") {
     CHECK_THROWS_AS(draw(Surface{}, small()), InvalidInput);
     PictureOptions options = small();
     options.width = 0;

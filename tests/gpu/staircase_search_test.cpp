@@ -94,7 +94,7 @@ SCENARIO("Numbers are added up on the device", "[gpu][scan]") {
     }
 }
 
-SCENARIO("The device finds the distances along a surface that the CPU finds",
+SCENARIO("The device finds the same distances along a surface as the CPU",
          "[gpu][staircase-search]") {
     const auto test = test_device();
     if (!test) return;
@@ -119,7 +119,7 @@ SCENARIO("The device finds the distances along a surface that the CPU finds",
             }
 }
 
-SCENARIO("Vertices that a search left open get the distances of one that leaves none",
+SCENARIO("Vertices left open by a search get the distances of a complete one",
          "[gpu][staircase-search]") {
     const Surface surface = spiky_shells();
     const Topology& topology = *surface.topology;
@@ -140,7 +140,7 @@ SCENARIO("Vertices that a search left open get the distances of one that leaves 
           std::vector<double>(open.size(), std::numeric_limits<double>::infinity()));
 }
 
-SCENARIO("Staircases of image stacks and raw surfaces reach as far on the device",
+SCENARIO("Staircases of image stacks and raw surfaces have the same reach on the device",
          "[gpu][staircase-search]") {
     const auto test = test_device();
     if (!test) return;
@@ -164,8 +164,7 @@ SCENARIO("Staircases of image stacks and raw surfaces reach as far on the device
     }
 }
 
-SCENARIO("A search for staircases whose context is lost ends in a message",
-         "[gpu][staircase-search]") {
+SCENARIO("A search for staircases reports a lost context", "[gpu][staircase-search]") {
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);

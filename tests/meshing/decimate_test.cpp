@@ -121,7 +121,7 @@ SCENARIO("Open boundaries keep some of their vertices as they are", "[meshing][d
     }
 }
 
-SCENARIO("Plane parts collapse to almost nothing, at no distance", "[meshing][decimate]") {
+SCENARIO("Planar parts collapse to almost nothing, at no distance", "[meshing][decimate]") {
     const Surface box =
         iso_surface([](const Vec3& p) { return (p.cwiseAbs() - Vec3(5, 5, 5)).maxCoeff(); },
                     {Vec3(-6, -6, -6), Vec3(6, 6, 6)}, 1.0);
@@ -132,7 +132,7 @@ SCENARIO("Plane parts collapse to almost nothing, at no distance", "[meshing][de
     CHECK(is_closed_manifold(coarse.surface));
 }
 
-SCENARIO("A largest error is kept both ways", "[meshing][decimate]") {
+SCENARIO("A largest error holds in both directions", "[meshing][decimate]") {
     const Surface surface = GENERATE_COPY(branching(), torus(), open_tube(3.0, 20.0, 60, 80));
     std::size_t last = surface.triangle_count();
     for (const double error : {0.02, 0.1, 0.3}) {
@@ -147,7 +147,7 @@ SCENARIO("A largest error is kept both ways", "[meshing][decimate]") {
     CHECK(both.surface.triangle_count() + 2 > last * 2);
 }
 
-SCENARIO("Weights say where triangles go", "[meshing][decimate]") {
+SCENARIO("Weights control where triangles are removed", "[meshing][decimate]") {
     const Surface sphere = icosphere(10.0, 4);
     const auto above = [](const Vec3& p) { return p.z() > 0.5; };
     const auto below = [](const Vec3& p) { return p.z() < -0.5; };
@@ -219,14 +219,14 @@ SCENARIO("The same input gives the same bits; turned and scaled the same shape",
           Approx(distance).epsilon(0.05));
 }
 
-SCENARIO("Walls that all but touch do not cross when decimated", "[meshing][decimate]") {
+SCENARIO("Walls that almost touch do not cross when decimated", "[meshing][decimate]") {
     const Surface shell = sphere_shell(10.0, 0.1, 5);
     const Decimated coarse = decimate(shell, {.triangles = shell.triangle_count() / 10});
     CHECK(coarse.report.crossings_left == 0);
     CHECK(self_intersections(coarse.surface).empty());
 }
 
-SCENARIO("Where walls would cross, vertices are kept in further attempts", "[meshing][decimate]") {
+SCENARIO("If walls would cross, vertices are kept in further attempts", "[meshing][decimate]") {
     const Surface shell = sphere_shell(10.0, 0.03, 4);
     const DecimateParameters target{.triangles = shell.triangle_count() / 20};
     std::vector<double> fractions;

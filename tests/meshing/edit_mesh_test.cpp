@@ -29,7 +29,7 @@ Surface surface_of(const EditMesh& mesh, const Surface& source) {
 
 }  // namespace
 
-SCENARIO("A mesh that is not edited gives the surface back", "[meshing][edit-mesh]") {
+SCENARIO("A mesh without edits gives the same surface", "[meshing][edit-mesh]") {
     for (const Surface& source : {closed_tube(2.0, 5.0, 12, 6), open_tube(2.0, 5.0, 12, 6)}) {
         const EditMesh mesh(source);
         check_consistent(mesh);
@@ -79,7 +79,8 @@ SCENARIO("Edges between patches are features and do not flip", "[meshing][edit-m
     CHECK(features == 2 * 2 * 12);
 }
 
-SCENARIO("What is no oriented manifold is refused with its place", "[meshing][edit-mesh]") {
+SCENARIO("A surface that is not an oriented manifold is rejected with its place",
+         "[meshing][edit-mesh]") {
     const Positions points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0),
                               Vec3(0, 0, 1)};
     CHECK_THROWS_WITH(EditMesh(make_surface(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}})),

@@ -192,7 +192,7 @@ SCENARIO("volume files carry regions and patch names", "[meshing][products]") {
     }
 }
 
-SCENARIO("ZIP archives hold what was put in", "[meshing][products]") {
+SCENARIO("ZIP archives contain what was added", "[meshing][products]") {
     const std::string text(5000, 'x');
     const std::string archive = zip_archive({{"a.txt", text}, {"b/c.txt", "y"}});
     CHECK(archive.size() < 1000);

@@ -149,7 +149,7 @@ SCENARIO("Slivers and long fans do no harm", "[meshing][remesh]") {
     check_quality(report);
 }
 
-SCENARIO("A coarse source is not cut into slivers of slivers", "[meshing][remesh]") {
+SCENARIO("A coarse source is not split into slivers of slivers", "[meshing][remesh]") {
     const Surface bar = mapped(icosphere(1.0, 0), [](const Vec3& p) {
         return Vec3(300.0 * p.x(), 10.0 * p.y(), 6.0 * p.z());
     });
@@ -172,7 +172,7 @@ SCENARIO("Attributes are interpolated", "[meshing][remesh]") {
               Approx(remeshed.points()[v].z()).margin(1e-9));
 }
 
-SCENARIO("Remeshing is deterministic and knows no unit and no direction", "[meshing][remesh]") {
+SCENARIO("Remeshing is deterministic and independent of unit and direction", "[meshing][remesh]") {
     const Surface tube = narrowed_tube();
     const Remeshed first = remesh(tube, {.edge = 0.8});
     THEN("one thread gives the same bits") {
@@ -192,7 +192,8 @@ SCENARIO("Remeshing is deterministic and knows no unit and no direction", "[mesh
     }
 }
 
-SCENARIO("Walls that all but touch are parted where no edge is short enough", "[meshing][remesh]") {
+SCENARIO("Walls that almost touch are separated where no edge is short enough",
+         "[meshing][remesh]") {
     GIVEN("a dent that rests on the wall, 0.0002 mm off it, with edges of 0.8 mm") {
         const Surface body = dented(0.0002);
         REQUIRE(self_intersections(body).empty());

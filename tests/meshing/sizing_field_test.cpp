@@ -36,7 +36,7 @@ SCENARIO("Rays across the lumen measure a tube's and a sphere's radius", "[meshi
     CHECK(usual_radius(sphere, local_radii(sphere, nullptr)) == Approx(5.0).epsilon(0.15));
 }
 
-SCENARIO("A sac does not become coarser than the vessel that it sits on", "[meshing][sizing]") {
+SCENARIO("A sac is not meshed coarser than its parent vessel", "[meshing][sizing]") {
     const Surface vessel = tube_with_sac();
     GIVEN("rays") {
         for (const double radius : local_radii(vessel, nullptr)) CHECK(radius < 2.1);

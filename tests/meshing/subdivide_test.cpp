@@ -9,7 +9,8 @@
 using namespace vesselbench;
 using namespace vesselbench::test;
 
-SCENARIO("Subdivision makes four triangles of one and a smoother surface", "[meshing][subdivide]") {
+SCENARIO("Subdivision splits each triangle into four and smooths the surface",
+         "[meshing][subdivide]") {
     const Surface coarse = icosphere(10.0, 1);
     const Surface fine = subdivide(coarse, 2);
     CHECK(fine.triangle_count() == 16 * coarse.triangle_count());

@@ -102,7 +102,7 @@ SCENARIO("closed surfaces are filled with well-shaped cells", "[meshing][tetrahe
     }
 }
 
-SCENARIO("the number of cells follows the wish", "[meshing][tetrahedralize]") {
+SCENARIO("the number of cells follows the request", "[meshing][tetrahedralize]") {
     const Surface tube = test::fine_tube(2.0, 10.0, 24);
     for (const double cells : {5000.0, 12000.0, 40000.0}) {
         const auto result = tetrahedralized(tube, {.cells = cells});
@@ -149,7 +149,7 @@ SCENARIO("surfaces that cannot be filled are refused with cause and place",
         std::vector<Triangle> triangles(sphere.triangles().begin(), sphere.triangles().end());
         triangles.push_back(triangles[5]);
         THEN("the text says so") {
-            CHECK(failure_of(make_surface(sphere.points(), triangles)).find("there twice") !=
+            CHECK(failure_of(make_surface(sphere.points(), triangles)).find("occurs twice") !=
                   std::string::npos);
         }
     }

@@ -45,7 +45,7 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
-SCENARIO("Edits stand by step, then by time", "[session][history]") {
+SCENARIO("Edits are ordered by step, then by time", "[session][history]") {
     History history;
     done(history, kSource);
     done(history, kSmoothing);
@@ -121,7 +121,7 @@ SCENARIO("A changed edit keeps its id and its place", "[session][history]") {
     }
 }
 
-SCENARIO("A removed edit makes those behind it pending", "[session][history]") {
+SCENARIO("Removing an edit makes the later ones pending", "[session][history]") {
     History history;
     done(history, kSource);
     done(history, kRepair);
@@ -136,7 +136,7 @@ SCENARIO("A removed edit makes those behind it pending", "[session][history]") {
     }
 }
 
-SCENARIO("A stale edit lets its input through", "[session][history]") {
+SCENARIO("A stale edit passes its input through", "[session][history]") {
     History history;
     done(history, kSource);
     const EditRef broken = history.apply(kRepair);

@@ -131,7 +131,7 @@ private:
 
 }  // namespace
 
-SCENARIO("A project outlives SIGKILL at any moment", "[session][project]") {
+SCENARIO("A project survives SIGKILL at any moment", "[session][project]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     (void)Session::create(file, options());
     std::mt19937 random(20240517);
@@ -163,7 +163,7 @@ SCENARIO("A project outlives SIGKILL at any moment", "[session][project]") {
     for (const auto& entry : session.replay()) REQUIRE(entry.differences.empty());
 }
 
-SCENARIO("Two processes on one project: the second only reads", "[session][project]") {
+SCENARIO("Two processes on one project: the second is read-only", "[session][project]") {
     const std::string file = new_project();
     {
         Helper writer("hold", file);
@@ -190,7 +190,7 @@ SCENARIO("Two processes on one project: the second only reads", "[session][proje
     }
 }
 
-SCENARIO("A reader sees pending edits run, for itself only", "[session][project]") {
+SCENARIO("A read-only session runs pending edits for itself only", "[session][project]") {
     const std::string file = new_project();
     Session writer = Session::open(file, options());
     writer.apply("bump", small_bump());
@@ -225,7 +225,7 @@ SCENARIO("A project of a newer version is refused", "[session][project]") {
     CHECK(text.find("version 1") != std::string::npos);
 }
 
-SCENARIO("What is no project is refused", "[session][project]") {
+SCENARIO("A file that is not a project is rejected", "[session][project]") {
     const std::string folder = test::temporary_folder();
     CHECK_THROWS_AS(Session::open(folder + "/none.vbench", options()), IoError);
     CHECK_THROWS_AS(Session::open(folder, options()), InvalidInput);
@@ -298,7 +298,7 @@ SCENARIO("A full disk leaves the project as it was", "[session][project]") {
     }
 }
 
-SCENARIO("An edit costs at most 64 bytes a moved vertex and 16 KiB", "[session][project]") {
+SCENARIO("An edit takes at most 64 bytes per moved vertex and 16 KiB", "[session][project]") {
     const std::string file = new_project(5);
     const double reach = GENERATE(0.5, 3.0, 9.0, 100.0);
     const auto before = fs::file_size(file);

@@ -51,7 +51,7 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
-SCENARIO("The log tells of each edit what it was and what it did", "[session]") {
+SCENARIO("The log describes each edit and its effect", "[session]") {
     Session session = sphere_session();
     EditOptions how;
     how.note = "the bulge is real";
@@ -157,7 +157,7 @@ SCENARIO("Variants share the trunk only", "[session]") {
     CHECK(top_of(session.scene("none yet")) == top);
 }
 
-SCENARIO("What cannot be done leaves the session as it was", "[session]") {
+SCENARIO("A failed operation leaves the session unchanged", "[session]") {
     Session session = sphere_session();
     const StateId state = session.snapshot()->history->current();
     CHECK_THROWS_AS(session.apply("no-such-thing", {}), UsageError);
@@ -235,7 +235,7 @@ SCENARIO("A project holds the whole session", "[session]") {
     }
 }
 
-SCENARIO("Replay finds what is not reproduced", "[session]") {
+SCENARIO("Replay reports results that are not reproduced", "[session]") {
     const std::string file = test::temporary_folder() + "/case.vbench";
     {
         Session session = Session::create(file, options());
@@ -318,7 +318,7 @@ SCENARIO("Large images are referenced by their hash", "[session]") {
     }
 }
 
-SCENARIO("Memory is bounded, and what was dropped is read again", "[session]") {
+SCENARIO("Memory is bounded, and dropped scenes are read again", "[session]") {
     SessionOptions tight = options();
     tight.scene_bytes = 200000;
     Session session = Session::unsaved(tight);

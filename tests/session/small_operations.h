@@ -5,7 +5,7 @@
 
 namespace vesselbench::test {
 
-/// Small operations for testing what carries operations:
+/// Small operations for testing sessions and workers:
 /// - `make-sphere` (source): `radius`, `levels`, `centre`; decides `centre` if it is absent
 /// - `load-sphere` (source): reads a radius from the text file `file`
 /// - `make-image` (source): an image of `edge`^3 voxels, read from `file` as load-sphere does

@@ -39,7 +39,7 @@ const Arguments kTop = {{"at", Vec3(0.0, 0.0, 10.0)}, {"reach", 3.0}};
 
 }  // namespace
 
-SCENARIO("An isolated operation gives what it gives in process", "[session][worker]") {
+SCENARIO("An isolated operation gives the same result as in process", "[session][worker]") {
     const Scene scene = sphere();
     const Outcome near = run("bump", scene, kTop);
     const Outcome far = run("far-bump", scene, kTop);
@@ -65,7 +65,7 @@ SCENARIO("Errors keep their class across the processes", "[session][worker]") {
     CHECK_THROWS_AS(run("refuse", {}, {}), UsageError);
 }
 
-SCENARIO("The session outlives what its workers do", "[session][worker]") {
+SCENARIO("The session survives whatever its workers do", "[session][worker]") {
     CHECK_THROWS_AS(run("crash", sphere(), {}), AlgorithmFailure);
     THEN("a crash while reading a file is the file's fault") {
         const Arguments given = {{"file", std::string("/somewhere/bad.stl")}};

@@ -60,7 +60,7 @@ SCENARIO("Smoothing flattens a bump and nothing beyond the brush", "[smoothing][
         if ((bump.points()[v] - top).norm() > 4.5) CHECK(smooth.points()[v] == bump.points()[v]);
 }
 
-SCENARIO("A stroke has the same bits whenever it is looked at", "[smoothing][brush]") {
+SCENARIO("A stroke has the same bits whenever it is inspected", "[smoothing][brush]") {
     const Surface sphere = icosphere(10.0, 4);
     const auto kind = GENERATE(BrushKind::Smooth, BrushKind::Inflate, BrushKind::Weight);
     std::vector<Dab> dabs;
@@ -138,7 +138,7 @@ SCENARIO("A brush does not reach through a thin wall", "[smoothing][brush]") {
     CHECK(changed > 50);
 }
 
-SCENARIO("At its end a stroke is taken back where walls would cross", "[smoothing][brush]") {
+SCENARIO("A stroke is reverted at its end where walls would cross", "[smoothing][brush]") {
     const Surface tube = closed_tube(1.0, 10.0, 48, 80);
     const Surface both =
         merged(tube, mapped(tube, [](const Vec3& p) { return Vec3(p + Vec3(2.1, 0, 0)); }));
@@ -155,7 +155,7 @@ SCENARIO("At its end a stroke is taken back where walls would cross", "[smoothin
     CHECK(enclosed_volume(stroke.surface()) > enclosed_volume(both) + 0.02);
 }
 
-SCENARIO("The anchor's normal chooses the side of a thin gap", "[smoothing][brush]") {
+SCENARIO("The anchor's normal selects the side of a thin gap", "[smoothing][brush]") {
     const Surface tube = closed_tube(1.0, 10.0, 48, 80);
     const Surface both =
         merged(tube, mapped(tube, [](const Vec3& p) { return Vec3(p + Vec3(2.1, 0, 0)); }));
@@ -251,7 +251,7 @@ SCENARIO("Dabs of one stroke may fade differently", "[smoothing][brush]") {
     CHECK(lowest < 10.15);
 }
 
-SCENARIO("A point finds its anchor: normal and half of the way through", "[smoothing][brush]") {
+SCENARIO("A point finds its anchor: normal and half the distance across", "[smoothing][brush]") {
     const Surface tube = closed_tube(2.0, 10.0, 64, 60);
     const SurfaceDistance places(tube);
     const Anchor anchor = nearest_anchor(tube, places, {2.7, 0.1, 5.0}, 9.0);
@@ -274,7 +274,7 @@ SCENARIO("A point finds its anchor: normal and half of the way through", "[smoot
     }
 }
 
-SCENARIO("A brush does not care how the vessel lies in space", "[smoothing][brush]") {
+SCENARIO("A brush does not depend on the vessel's position and direction", "[smoothing][brush]") {
     const Surface sphere = icosphere(10.0, 3);
     const Eigen::Matrix3d turn = skew_rotation();
     const auto turned = [&](const Vec3& p) { return Vec3(turn * p + Vec3(5, -3, 40)); };

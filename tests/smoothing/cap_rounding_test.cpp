@@ -81,7 +81,7 @@ SCENARIO("Rounded caps are domes on the wall, which stays", "[smoothing][cap-rou
     CHECK(rounded_caps(tube, {}) == tube.points());
 }
 
-SCENARIO("A dome goes on in the wall's direction", "[smoothing][cap-rounding]") {
+SCENARIO("A dome continues in the wall's direction", "[smoothing][cap-rounding]") {
     for (const double slope : {0.0, 0.3, 0.8}) {
         CAPTURE(slope);
         const Surface tube = cut_obliquely(slope);
@@ -118,7 +118,7 @@ SCENARIO("A cap of one fan becomes a cone", "[smoothing][cap-rounding]") {
     CHECK(enclosed_volume(domed(tube)) == Approx(M_PI * 9.0 * (12.0 + 2.0)).epsilon(0.01));
 }
 
-SCENARIO("Domes do not depend on threads, and take any surface", "[smoothing][cap-rounding]") {
+SCENARIO("Domes do not depend on threads, and accept any surface", "[smoothing][cap-rounding]") {
     const Surface surface = bean();
     const Positions round = rounded_caps(surface, find_caps(surface));
     {

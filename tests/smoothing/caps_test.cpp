@@ -124,7 +124,7 @@ SCENARIO("The facets of a voxel mask are no caps", "[smoothing][caps]") {
     }
 }
 
-SCENARIO("Caps are told from staircases after up to 50 Laplace iterations",
+SCENARIO("Caps are distinguished from staircases after up to 50 Laplace iterations",
          "[smoothing][caps]") {  // Fig. 5.13
     const Phantom phantom = make_phantom(cylinder_with_cuboid());
     for (const Surface& raw : {iso_surface(phantom.mask, 0.5), iso_surface(phantom.image, 500.0)})
@@ -147,7 +147,7 @@ SCENARIO("Caps are told from staircases after up to 50 Laplace iterations",
         }
 }
 
-SCENARIO("Treads of a staircase are no caps, also on a smoothed surface", "[smoothing][caps]") {
+SCENARIO("Treads of a staircase are not caps, even on a smoothed surface", "[smoothing][caps]") {
     const Surface raw = tube_with_plate();
     const int iterations = GENERATE(0, 5, 20, 50);
     CAPTURE(iterations);
@@ -181,7 +181,7 @@ SCENARIO("Patches other than the wall are caps by definition", "[smoothing][caps
     }
 }
 
-SCENARIO("Areas without a border that bends are no caps", "[smoothing][caps]") {
+SCENARIO("Areas without a bending border are not caps", "[smoothing][caps]") {
     std::vector<Triangle> triangles;
     Positions points;
     for (VertexId i = 0; i < 100; ++i) points.emplace_back(i % 10, i / 10, 0.0);
@@ -214,7 +214,7 @@ SCENARIO("A small cap-like staircase is not a cap", "[smoothing][caps]") {
     }));
 }
 
-SCENARIO("Cap detection takes any surface", "[smoothing][caps]") {
+SCENARIO("Cap detection accepts any surface", "[smoothing][caps]") {
     const Surface odd =
         make_surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {9, 9, 9}},
                      {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 2, 3}, {1, 1, 1}});

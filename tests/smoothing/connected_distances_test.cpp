@@ -110,7 +110,7 @@ SCENARIO("Distances do not leak between surfaces that are not connected",
     }
 }
 
-SCENARIO("Vertices that are nowhere neither stop nor spoil staircase weights",
+SCENARIO("Vertices at non-finite positions neither stop nor spoil staircase weights",
          "[smoothing][connected-distances][staircases]") {
     const Surface sphere = icosphere(5.0, 3);
     Positions points = sphere.points();

@@ -183,7 +183,7 @@ SCENARIO("Curvature-triggered smoothing starts at the sharp places", "[smoothing
     }
 }
 
-SCENARIO("Curvature filters keep what must stay and do not depend on threads", "[smoothing]") {
+SCENARIO("Curvature filters keep fixed vertices and do not depend on threads", "[smoothing]") {
     const Surface box = noisy_box();
     std::vector<double> weights(box.vertex_count(), 1.0);
     for (std::size_t v = 0; v < weights.size(); v += 3) weights[v] = 0.0;

@@ -60,7 +60,7 @@ SCENARIO("Distances become weights as in Fig. 5.3", "[smoothing][distance]") {
     CHECK_THROWS_AS(distance_weights(std::vector<double>{std::nan("")}), InvalidInput);
 }
 
-SCENARIO("What is nearest to a neighbour stays there", "[smoothing][distance]") {
+SCENARIO("Vertices nearest to a neighbour do not move", "[smoothing][distance]") {
     const Surface sphere = icosphere(5.0, 4);
     const std::vector<Surface> neighbours = {icosphere(3.0, 3, Vec3(9.0, 0, 0))};
     const auto before = neighbour_distances(sphere.points(), neighbours);

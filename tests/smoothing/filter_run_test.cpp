@@ -25,7 +25,7 @@ std::shared_ptr<const std::vector<double>> some_weights(std::size_t count) {
 
 }  // namespace
 
-SCENARIO("A run in portions is the run at once, bit for bit", "[smoothing][run]") {
+SCENARIO("A run in portions equals a single run, bit for bit", "[smoothing][run]") {
     const Surface tube = with_noise(open_tube(3.0, 12.0, 18, 24), 0.2);
     const auto weights = some_weights(tube.vertex_count());
     std::vector<std::uint8_t> fixed(tube.vertex_count(), 0);

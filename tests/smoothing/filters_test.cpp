@@ -129,7 +129,7 @@ SCENARIO("Weights scale the final displacement of an iteration", "[smoothing][we
     CHECK(largest_difference(hc_half, middle(hc_full)) < 1e-12);
 }
 
-SCENARIO("What must stay, stays bit for bit", "[smoothing][weights]") {
+SCENARIO("Fixed vertices stay bit for bit", "[smoothing][weights]") {
     for (const auto& [name, run] : all_filters()) {
         CAPTURE(name);
         const Surface noisy = noisy_icosphere(10.0, 0.2, 3);

@@ -101,7 +101,7 @@ SCENARIO("Geodesic distances on a sphere are arcs", "[smoothing][geodesic]") {
     CHECK(worst < 0.01);
 }
 
-SCENARIO("A search does not see the one before it, nor the surface's size",
+SCENARIO("A search depends neither on the previous one nor on the surface's size",
          "[smoothing][geodesic]") {
     const Surface sphere = icosphere(10.0, 4);
     GeodesicNeighbourhood search(*sphere.topology);
@@ -116,7 +116,8 @@ SCENARIO("A search does not see the one before it, nor the surface's size",
     CHECK(std::ranges::is_sorted(first, {}, &GeodesicNeighbour::vertex));
 }
 
-SCENARIO("What is near in space, but far along the surface, is not met", "[smoothing][geodesic]") {
+SCENARIO("Vertices near in space, but far along the surface, are not visited",
+         "[smoothing][geodesic]") {
     GIVEN("two tubes 0.3 mm apart") {
         const Surface tube = open_tube(1.0, 10.0, 48, 80);
         const Surface both =

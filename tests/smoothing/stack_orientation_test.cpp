@@ -30,7 +30,7 @@ Surface of_labels(const Image& image) {
 
 }  // namespace
 
-SCENARIO("The stack axis of three organs is found however they are turned (thesis Table 5.6)",
+SCENARIO("The stack axis of three organs is found for any rotation (thesis Table 5.6)",
          "[smoothing][stack orientation]") {
     const std::array<PhantomDescription, 3> organs = {vessel_in_slices(), muscle_in_slices(),
                                                       organ_in_slices()};
@@ -52,7 +52,7 @@ SCENARIO("The stack axis of three organs is found however they are turned (thesi
     }
 }
 
-SCENARIO("Intensities inside a mask show the axis of an organ with a plateau, and else none",
+SCENARIO("Intensities inside a mask reveal the axis only of an organ with a plateau",
          "[smoothing][stack orientation]") {
     // Partial volumes leave a vessel no face across the stack axis at all.
     const Surface vessel = of_masked_intensities(vessel_in_slices());
@@ -63,7 +63,7 @@ SCENARIO("Intensities inside a mask show the axis of an organ with a plateau, an
     CHECK(degrees_between(liver.direction, Vec3::UnitZ()) < 1.0);
 }
 
-SCENARIO("What is called certain of spheres with a cut slice is right (thesis Table 5.7)",
+SCENARIO("Certain results for spheres with a cut slice are right (thesis Table 5.7)",
          "[smoothing][stack orientation]") {
     constexpr std::size_t kSpheres = 400;
 
@@ -120,7 +120,7 @@ SCENARIO("Smooth shapes have no stack axis, whatever the lattice of their surfac
     }
 }
 
-SCENARIO("Masks tell the axis of their longest voxel edge, and none of cubic voxels",
+SCENARIO("Masks reveal the axis of their longest voxel edge, and none for cubic voxels",
          "[smoothing][stack orientation]") {
     PhantomDescription organ = organ_in_slices();
     organ.imaging.spacing = Vec3(2, 2, 2);
@@ -134,7 +134,7 @@ SCENARIO("Masks tell the axis of their longest voxel edge, and none of cubic vox
     }
 }
 
-SCENARIO("A vessel along the slices' axis shows it by its two ends",
+SCENARIO("A vessel along the stack axis reveals it by its two ends",
          "[smoothing][stack orientation]") {
     PhantomDescription tube;
     tube.parts = {{"tube", VesselShape{{Vec3(0, 0, -18), Vec3(0, 0, 18)}, {2.2, 2.2}}, 0.0}};
@@ -152,7 +152,7 @@ SCENARIO("A vessel along the slices' axis shows it by its two ends",
     }
 }
 
-SCENARIO("Flat closures are no trace of slices", "[smoothing][stack orientation]") {
+SCENARIO("Flat closures are not a trace of slices", "[smoothing][stack orientation]") {
     const Surface tube = fine_tube(3.0, 12.0, 96);
     // Without the patches they cannot be told from a removed slice.
     CHECK(estimate_stack_orientation(*tube.topology, tube.points()).certain);
@@ -178,8 +178,7 @@ SCENARIO("The estimate turns with the surface, and does not depend on the thread
     CHECK(alone.flat_share == upright.flat_share);
 }
 
-SCENARIO("Where there is nothing to see, the stack orientation is uncertain",
-         "[smoothing][stack orientation]") {
+SCENARIO("Without evidence, the stack orientation is uncertain", "[smoothing][stack orientation]") {
     CHECK_FALSE(estimate_stack_orientation(Surface{}).certain);
     CHECK(estimate_stack_orientation(make_surface({}, {})).confidence == 0.0);
     const Surface line = mapped(cube(1.0), [](const Vec3& p) { return Vec3(p.x(), 0, 0); });
@@ -201,7 +200,7 @@ SCENARIO("Where there is nothing to see, the stack orientation is uncertain",
     CHECK_THROWS_AS(estimate_stack_orientation(sphere, {.theta_limit = 1.1}), InvalidInput);
 }
 
-SCENARIO("Label maps of patients tell their slices, unless their voxels are cubes",
+SCENARIO("Label maps of patients reveal their slices, unless their voxels are cubes",
          "[smoothing][stack orientation]") {
     const std::string sliced = shared_data("images/topcow_mr_roi_003_labels.nii.gz"),
                       cubic = shared_data("images/totalseg_aorta_true_false_lumen.nii.gz");

@@ -215,8 +215,7 @@ SCENARIO("Staircase weights of real raw surfaces are those of Sec. 5.3 as printe
     }
 }
 
-SCENARIO("Every cap that is found on real surfaces is one by Algorithm 1 as printed",
-         "[smoothing][caps]") {
+SCENARIO("Every cap found on real surfaces satisfies Algorithm 1 as printed", "[smoothing][caps]") {
     std::size_t found = 0;
     const auto check = [&](const std::string& name, const Surface& surface) {
         CAPTURE(name);

@@ -61,7 +61,7 @@ Surface terraced_ball(double radius) {
 
 }  // namespace
 
-SCENARIO("Weights of a 20-vertex step are those worked out by hand", "[smoothing][staircases]") {
+SCENARIO("Weights of a 20-vertex step match those computed by hand", "[smoothing][staircases]") {
     // Side view, z over x [mm], 4 lines along y make 5 columns of 4 vertices:
     //
     //                  3-----4      z = 3

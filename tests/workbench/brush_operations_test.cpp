@@ -31,7 +31,7 @@ std::vector<double> stroke(double strength, double falloff = 1.0) {
 
 }  // namespace
 
-SCENARIO("The brushes say what they did and replay it", "[workbench][brush]") {
+SCENARIO("The brushes report what they did and replay it", "[workbench][brush]") {
     const Surface tube = closed_tube(2.0, 12.0, 48, 60);
     GIVEN("brush-inflate") {
         const Outcome up = run("brush-inflate", tube, {{"dabs", stroke(0.5)}});
@@ -66,7 +66,7 @@ SCENARIO("The brushes say what they did and replay it", "[workbench][brush]") {
     }
 }
 
-SCENARIO("One dab at a point is written as the dab it became", "[workbench][brush]") {
+SCENARIO("A dab at a point is stored as the resolved dab", "[workbench][brush]") {
     const Surface tube = closed_tube(2.0, 12.0, 48, 60);
     const auto name = GENERATE("brush-smooth", "brush-inflate", "brush-weight");
     const Arguments given = {{"at", Vec3(2.4, 0.1, 6.0)}, {"radius", 1.5}, {"falloff", 0.5}};
@@ -89,10 +89,10 @@ SCENARIO("One dab at a point is written as the dab it became", "[workbench][brus
                       *outcome.scene.surface->attributes.at("painted_weight"));
         }
     }
-    THEN("a point off the surface is told") {
+    THEN("a point away from the surface causes a warning") {
         const Outcome off = run(name, tube, {{"at", Vec3(8, 0, 6)}, {"radius", 1.5}});
         REQUIRE(off.warnings.size() == 1);
-        CHECK_THAT(off.warnings[0], Catch::Contains("6 mm off the surface"));
+        CHECK_THAT(off.warnings[0], Catch::Contains("6 mm away from the surface"));
     }
 }
 
@@ -108,7 +108,7 @@ SCENARIO("A brush does not push a wall through another one", "[workbench][brush]
     CHECK(outcome.report->at("vertices_moved") > 20);
 }
 
-SCENARIO("A painted weight steers smooth, and every way back has the same bits",
+SCENARIO("A painted weight controls smooth, and undo and replay give the same bits",
          "[workbench][brush]") {
     const std::string file = temporary_folder() + "/tube.vtp";
     const Surface tube = mapped(closed_tube(2.0, 12.0, 48, 60), [](const Vec3& p) {
@@ -154,7 +154,7 @@ SCENARIO("A painted weight steers smooth, and every way back has the same bits",
     }
 }
 
-SCENARIO("A painted weight survives what changes connectivity", "[workbench][brush]") {
+SCENARIO("A painted weight survives changes of connectivity", "[workbench][brush]") {
     const Surface tube = closed_tube(2.0, 12.0, 48, 60);
     const Surface painted = *run("brush-weight", tube, {{"dabs", stroke(1.0, 0.0)}}).scene.surface;
     for (const char* name : {"remesh", "subdivide", "smooth"}) {
@@ -207,7 +207,7 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
         UsageError);
 }
 
-SCENARIO("Brushes take any shape, or say why not", "[workbench][brush]") {
+SCENARIO("Brushes accept any shape, or say why not", "[workbench][brush]") {
     const auto name = GENERATE(as<std::string>(), "brush-smooth", "brush-inflate", "brush-weight");
     std::size_t brushed = 0;
     for (const auto& [shape, surface] : nasty_shapes()) {
@@ -230,7 +230,7 @@ SCENARIO("Brushes take any shape, or say why not", "[workbench][brush]") {
     CHECK(brushed >= nasty_shapes().size() - 4);  // the others have no area at all
 }
 
-SCENARIO("In a project a stroke is undone, replayed, and stale where its place is gone",
+SCENARIO("In a project a stroke is undone, replayed, and stale if its place is gone",
          "[workbench][brush]") {
     const std::string file = temporary_folder() + "/tube.vtp";
     write_surface(closed_tube(2.0, 12.0, 48, 60), file);

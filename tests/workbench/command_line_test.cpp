@@ -59,7 +59,7 @@ SCENARIO("Help reads well at every level", "[workbench][command-line]") {
     CHECK_THAT(run({"--version"}).out, StartsWith("vesselbench "));
 }
 
-SCENARIO("Wrong usage is exit code 2 with a text that helps", "[workbench][command-line]") {
+SCENARIO("Wrong usage gives exit code 2 and a helpful text", "[workbench][command-line]") {
     check_usage_error({}, {"no window"});
     check_usage_error({"operation"}, {"no command 'operation'", "did you mean 'operations'"});
     check_usage_error({"view", "x"}, {"no command 'view' in this version"});
@@ -91,7 +91,7 @@ SCENARIO("The operation table is printed for people and for programs",
     }
 }
 
-SCENARIO("docs/operations.md says what the program says", "[workbench][command-line]") {
+SCENARIO("docs/operations.md matches the program", "[workbench][command-line]") {
     std::ifstream page(vesselbench::test::source_folder() + "/docs/operations.md");
     const std::string text{std::istreambuf_iterator<char>(page), {}};
     INFO("renew it with scripts/docs");

@@ -40,7 +40,7 @@ Image signed_ball() {
 
 }  // namespace
 
-SCENARIO("load-image states what it found and decided", "[workbench][images]") {
+SCENARIO("load-image reports its findings and decisions", "[workbench][images]") {
     const Image ball = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0), true);
     const std::string path = written(ball, "ball.nii.gz");
     GIVEN("an image alone") {
@@ -102,7 +102,7 @@ SCENARIO("load-image states what it found and decided", "[workbench][images]") {
     }
 }
 
-SCENARIO("extract-surface decides, says so, and replays without deciding", "[workbench][images]") {
+SCENARIO("extract-surface reports its decisions and replays them", "[workbench][images]") {
     const std::string image = written(ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0)), "ball.mha");
     const Scene loaded = run("load-image", {}, {{"file", image}}).scene;
     const Outcome outcome = run("extract-surface", loaded, {});
@@ -136,8 +136,7 @@ SCENARIO("extract-surface decides, says so, and replays without deciding", "[wor
     }
 }
 
-SCENARIO("extract-surface says when labels are looked for among intensities",
-         "[workbench][images]") {
+SCENARIO("extract-surface warns about labels in an intensity image", "[workbench][images]") {
     const Image grid = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
     const Vec3 middle = middle_of(grid);
     const auto warnings = [&](double around) {

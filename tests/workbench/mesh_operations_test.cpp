@@ -32,7 +32,7 @@ Surface half_sliced_ball() {
 
 }  // namespace
 
-SCENARIO("smooth keeps caps and rims bit for bit and says what it did", "[workbench][smooth]") {
+SCENARIO("smooth keeps caps and rims bit for bit and reports the change", "[workbench][smooth]") {
     const Surface tube = closed_tube(2.0, 12.0, 24, 30);
     const auto filter = GENERATE("laplace", "laplace-hc", "taubin");
     const Outcome outcome = run("smooth", tube, {{"filter", filter}});
@@ -67,12 +67,12 @@ SCENARIO("remesh decides its edges once and replays them", "[workbench][remesh]"
     CHECK_THROWS_AS(run("remesh", tube, {{"min_edge", 1.0}, {"max_edge", 0.5}}), UsageError);
 }
 
-SCENARIO("subdivide makes four triangles of one", "[workbench][subdivide]") {
+SCENARIO("subdivide splits each triangle into four", "[workbench][subdivide]") {
     const Outcome outcome = run("subdivide", icosphere(5.0, 2), {});
     CHECK(outcome.report->at("triangles_after") == 4 * 320);
 }
 
-SCENARIO("decimate keeps half of the triangles, or what it is asked for", "[workbench][decimate]") {
+SCENARIO("decimate keeps half of the triangles, or the requested number", "[workbench][decimate]") {
     const Surface sphere = icosphere(5.0, 4);  // 5120 triangles
     const Outcome half = run("decimate", sphere, {});
     CHECK(half.resolved.real("share") == 0.5);
@@ -109,7 +109,7 @@ SCENARIO("decimate refuses arguments that make no sense", "[workbench][decimate]
                     UsageError);
 }
 
-SCENARIO("decimate goes where a neighbour is far, and shows what that gains",
+SCENARIO("decimate removes triangles far from a neighbour, and reports the gain",
          "[workbench][decimate]") {
     Scene scene;
     scene.surface = icosphere(10.0, 4);
@@ -123,7 +123,7 @@ SCENARIO("decimate goes where a neighbour is far, and shows what that gains",
     CHECK(again.scene.surface->points() == outcome.scene.surface->points());
 }
 
-SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
+SCENARIO("decimate spends its error on staircases", "[workbench][decimate]") {
     const Surface stairs = half_sliced_ball();
     const auto [share, most] =
         GENERATE(table<double, double>({{0.25, 0.0072}, {0.1, 0.023}, {0.05, 0.053}}));
@@ -138,7 +138,7 @@ SCENARIO("decimate spends its error in staircases", "[workbench][decimate]") {
     CHECK(figure("inside_mean_distance_mm") < most);
 }
 
-SCENARIO("decimate says where weights gain nothing", "[workbench][decimate]") {
+SCENARIO("decimate reports weights that gain nothing", "[workbench][decimate]") {
     Surface sphere = icosphere(10.0, 3);
     std::vector<double> paint;
     for (const Vec3& p : sphere.points()) paint.push_back(p.z() > 9.0 ? 1.0 : 0.0);
@@ -158,7 +158,7 @@ SCENARIO("decimate says where weights gain nothing", "[workbench][decimate]") {
     CHECK(warned(0.25));
 }
 
-SCENARIO("decimate says why nothing went", "[workbench][decimate]") {
+SCENARIO("decimate says why nothing was removed", "[workbench][decimate]") {
     Scene scene;
     scene.surface = icosphere(10.0, 3);
     scene.neighbours["bone"] = icosphere(2.0, 2, Vec3(0, 0, 13));
@@ -168,37 +168,37 @@ SCENARIO("decimate says why nothing went", "[workbench][decimate]") {
         return outcome.warnings.front();
     };
     const Arguments beyond{{"max_error", 0.5}, {"distance", "margin"}, {"margin", 100.0}};
-    CHECK_THAT(warning(beyond), Catch::Contains("all triangles stay") &&
+    CHECK_THAT(warning(beyond), Catch::Contains("all triangles are kept") &&
                                     Catch::Contains("within the margin of 100 mm"));
     CHECK_THAT(warning({{"max_error", 1e-9}}), Catch::Contains("at this max_error"));
     Arguments smooth{
         {"max_error", 0.5}, {"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}, {"beta_min", 0.0}};
     CHECK_THAT(warning(smooth),
-               Catch::Contains("all triangles stay") && Catch::Contains("tau_theta = 0.7"));
+               Catch::Contains("all triangles are kept") && Catch::Contains("tau_theta = 0.7"));
     smooth.set("beta_min", 0.3);
     CHECK_THAT(warning(smooth), Catch::Contains("there are no staircases"));
 }
 
-SCENARIO("decimate says what kept it from its target", "[workbench][decimate]") {
+SCENARIO("decimate reports what kept it from its target", "[workbench][decimate]") {
     const Surface shell = sphere_shell(10.0, 0.03, 4);
     const Outcome outcome = run("decimate", shell, {{"share", 0.05}});
     REQUIRE_FALSE(outcome.warnings.empty());
-    CHECK_THAT(outcome.warnings.front(), Catch::Contains("let walls cross"));
+    CHECK_THAT(outcome.warnings.front(), Catch::Contains("make walls cross"));
     const Outcome least = run("decimate", icosphere(5.0, 3), {{"share", 0.001}});
     REQUIRE(least.warnings.size() == 1);
     CHECK_THAT(least.warnings.front(), Catch::Contains("fewer would fold the surface over"));
 }
 
-SCENARIO("decimate promises only what it keeps", "[workbench][decimate]") {
+SCENARIO("decimate reports missed targets", "[workbench][decimate]") {
     for (const char* name : {"margin", "painted"}) {
         CHECK_THAT(find_parameter(find_operation("decimate"), name).help,
-                   Catch::Contains("go last, and not at all under max_error"));
+                   Catch::Contains("are decimated last, and not at all with max_error"));
         CHECK_THAT(find_parameter(find_operation("smooth"), name).help,
                    Catch::Contains("do not move"));
     }
 }
 
-SCENARIO("decimate splits the surface by the same places for any beta_min",
+SCENARIO("decimate splits the surface into the same parts for any beta_min",
          "[workbench][decimate]") {
     const Surface stairs = half_sliced_ball();
     const auto unweighted = [&](double beta_min) {
@@ -225,7 +225,7 @@ SCENARIO("a search decimates once where the operation compares with a run withou
     Progress progress([&](double, std::string_view what) { done.emplace_back(what); }, {});
     const SearchSpace space = processing_space(operation, *scene.surface, given, false);
     const Surface found = processed_with(operation, scene, given, space, {0.25}, progress);
-    const std::string comparing = "decimating without weights, to compare";
+    const std::string comparing = "decimating without weights, for comparison";
     CHECK(std::ranges::count(done, "decimating") > 0);
     CHECK(std::ranges::count(done, comparing) == 0);
     Arguments same = given;

@@ -84,7 +84,7 @@ SCENARIO("A value that is not allowed is refused with its name and range",
     refused("length", "2mm", "a number");
     refused("length", "", "a number");
     refused("rounds", "0", "at least 1");
-    refused("rounds", "1.5", "a whole number");
+    refused("rounds", "1.5", "an integer");
     refused("profile", "circel", "did you mean 'circle'");
     refused("place", "1,2", "x,y,z");
     refused("place", "1,2,", "x,y,z");

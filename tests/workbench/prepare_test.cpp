@@ -137,7 +137,7 @@ SCENARIO("A print model is closed where its end could not be opened", "[workbenc
     CHECK(Json::parse(measured.out)["closed"] == true);
 }
 
-SCENARIO("A project is made and worked on by hand", "[workbench][prepare]") {
+SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
     const std::string folder = temporary_folder();
     const std::string project = folder + "/hand.vbench";
     REQUIRE(run({"new", project, tube() + "/exact.vtp"}).exit_code == 0);
@@ -177,7 +177,7 @@ SCENARIO("A project is made and worked on by hand", "[workbench][prepare]") {
     CHECK(run({"redo", project, "2"}).exit_code == 0);
 }
 
-SCENARIO("What prepare is not told right is refused before anything is written",
+SCENARIO("Wrong arguments of prepare are rejected before anything is written",
          "[workbench][prepare]") {
     const std::string folder = temporary_folder();
     const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
@@ -199,7 +199,7 @@ SCENARIO("What prepare is not told right is refused before anything is written",
     refused({tube() + "/exact.vtp", "--for", "cfd", "--units", "inch"}, "units");
 }
 
-SCENARIO("Bad input is exit code 3, and nothing half-written stays", "[workbench][bad-input]") {
+SCENARIO("Bad input gives exit code 3 and leaves nothing half-written", "[workbench][bad-input]") {
     const std::string folder = temporary_folder();
     const std::string out = folder + "/out";
     fs::create_directory(folder + "/case");
@@ -233,7 +233,7 @@ SCENARIO("A full disk leaves nothing half-written", "[workbench][bad-input]") {
     for (const std::string& name : names_in(out)) CHECK_THAT(name, Contains("project.vbench"));
 }
 
-SCENARIO("Of the damaged files each is prepared, or refused with a reason", "[workbench][nasty]") {
+SCENARIO("Each damaged file is prepared, or rejected with a reason", "[workbench][nasty]") {
     const std::string folder = shared_data("nasty");
     if (folder.empty()) return;
     const std::string out = temporary_folder() + "/out";

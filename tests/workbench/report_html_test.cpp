@@ -7,7 +7,7 @@ using namespace vesselbench;
 using Catch::Matchers::Contains;
 using Json = nlohmann::ordered_json;
 
-SCENARIO("The report's page says what its document says", "[workbench][report]") {
+SCENARIO("The report's page matches its document", "[workbench][report]") {
     const Json report = Json::parse(R"({
         "program_version": "1.2.3", "purpose": "cfd", "units": "mm",
         "input": {"name": "<vessel> & co"},

@@ -46,8 +46,8 @@ std::vector<Nonsense> nonsense() {
             {{"tau_max=nan"}, {"'tau_max'", "above 0 mm"}},
             {{"tau_theta=1.5"}, {"'tau_theta'", "0 to 1"}},
             {{"beta_min=-0.1"}, {"'beta_min'", "0 to 1"}},
-            {{"staircase=true", "stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all 0"}},
-            {{"stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all 0"}},
+            {{"staircase=true", "stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all of them 0"}},
+            {{"stack_axis=0,0,0"}, {"stack_axis = 0,0,0", "not all of them 0"}},
             {{"staircase=true", "stack_axis=0,nan,1"}, {"'stack_axis'", "three numbers"}},
             {{"omega=-1"}, {"'omega'", "above 0 1/mm"}},
             {{"omega=0"}, {"'omega'", "above 0 1/mm"}},
@@ -154,7 +154,7 @@ SCENARIO("A neighbour file without a surface is bad input and no edit", "[workbe
     CHECK(nlohmann::json::parse(log.out)["edits"].size() == 1);
 }
 
-SCENARIO("A surface without triangles or with places that are no numbers is refused",
+SCENARIO("A surface without triangles or with non-finite positions is rejected",
          "[workbench][smooth]") {
     const auto filter = GENERATE(from_range(kFilters));
     CHECK_THROWS_AS(run("smooth", make_surface({}, {}), {{"filter", filter}}), InvalidInput);
@@ -166,11 +166,11 @@ SCENARIO("A surface without triangles or with places that are no numbers is refu
                       Catch::Contains("vertex 7"));
 }
 
-SCENARIO("smooth takes any shape, however broken", "[workbench][smooth]") {
+SCENARIO("smooth accepts any shape, however broken", "[workbench][smooth]") {
     for (const auto& [name, surface] : nasty_shapes()) check_smooths(name, surface);
 }
 
-SCENARIO("smooth takes the broken files of others", "[workbench][smooth]") {
+SCENARIO("smooth accepts broken foreign files", "[workbench][smooth]") {
     const std::string folder = shared_data("nasty");
     if (folder.empty()) return;
     std::size_t smoothed = 0;

@@ -93,7 +93,7 @@ SCENARIO("smooth estimates the stack axis of a surface that lost its image",
     }
 }
 
-SCENARIO("smooth reports how far it went from the original surface", "[workbench][smooth]") {
+SCENARIO("smooth reports its distance from the original surface", "[workbench][smooth]") {
     GIVEN("a sphere, whose vertices can only go inward") {
         const Surface sphere = icosphere(5.0, 4);
         const Outcome outcome =
@@ -118,8 +118,7 @@ SCENARIO("smooth reports how far it went from the original surface", "[workbench
     }
 }
 
-SCENARIO("smooth says when the stack axis is uncertain instead of guessing",
-         "[workbench][smooth]") {
+SCENARIO("smooth reports an uncertain stack axis instead of guessing", "[workbench][smooth]") {
     const Scene sphere = scene_of(icosphere(5.0, 4));
     CHECK_THROWS_AS(smooth(sphere, {{"staircase", true}}), AlgorithmFailure);
     CHECK_THROWS_WITH(smooth(sphere, {{"staircase", true}}), Catch::Contains("stack_axis="));
@@ -165,7 +164,7 @@ SCENARIO("smooth says why nothing moved", "[workbench][smooth]") {
     CHECK(warning({{"iterations", std::int64_t{0}}}).empty());  // as asked for
 }
 
-SCENARIO("Arguments without effect are told by what they need", "[workbench][smooth]") {
+SCENARIO("Arguments without effect are reported with what they need", "[workbench][smooth]") {
     const Operation& operation = find_operation("smooth");
     const auto idle = [&](const Arguments& given) {
         const Outcome outcome = smooth(scene_of(icosphere(5.0, 2)), given);
@@ -203,7 +202,7 @@ SCENARIO("A neighbour that is loaded later changes no smoothing made before",
                       Catch::Contains("'nera'"));
 }
 
-SCENARIO("smooth says what holds it back nearly everywhere", "[workbench][smooth]") {
+SCENARIO("smooth reports what holds it back nearly everywhere", "[workbench][smooth]") {
     Scene scene = scene_of(icosphere(5.0, 3));
     scene.neighbours.emplace("near", icosphere(2.0, 2, Vec3(0, 8, 0)));
     const Outcome held = smooth(scene, {{"distance", "exponential"}, {"omega", 20.0}});
@@ -213,7 +212,7 @@ SCENARIO("smooth says what holds it back nearly everywhere", "[workbench][smooth
     CHECK(smooth(scene, {{"distance", "linear"}}).warnings.empty());
 }
 
-SCENARIO("smooth weighs with a painted attribute, and weights multiply", "[workbench][smooth]") {
+SCENARIO("smooth uses painted weights, and weights multiply", "[workbench][smooth]") {
     Scene scene = terraced_vessel();
     Surface& surface = *scene.surface;
     CHECK_THROWS_WITH(smooth(scene, {{"painted", "mine"}}), Catch::Contains("'mine'"));
@@ -273,7 +272,7 @@ SCENARIO("smooth constrains vertices to the image's voxels", "[workbench][smooth
     }
 }
 
-SCENARIO("Presets decide what is not given, and a replay decides nothing", "[workbench][smooth]") {
+SCENARIO("Presets supply what is not given, and a replay decides nothing", "[workbench][smooth]") {
     const Scene scene = terraced_vessel();
     const Outcome elongated = smooth(scene, {{"preset", "elongated"}});
     CHECK(elongated.resolved.text("filter") == "taubin");
@@ -309,7 +308,7 @@ SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU i
     }
 }
 
-SCENARIO("A GPU finds the context that the CPU finds", "[workbench][smooth][device]") {
+SCENARIO("A GPU finds the same context as the CPU", "[workbench][smooth][device]") {
     const auto shape = [](const Vec3& p) {  // cut off where the image ends
         const double z = 2.0 * std::round(p.z() / 2.0);
         const double vessel = capsule(Vec3(p.x(), p.y(), z), Vec3(-8, 0, -6), Vec3(8, 0, 6), 4.0);
@@ -355,7 +354,7 @@ SCENARIO("A GPU finds the context that the CPU finds", "[workbench][smooth][devi
     }
 }
 
-SCENARIO("What a GPU smoothed is replayed by tolerance", "[workbench][smooth][device]") {
+SCENARIO("Smoothing on a GPU is replayed by tolerance", "[workbench][smooth][device]") {
     const std::string folder = temporary_folder();
     write_surface(*terraced_vessel().surface, folder + "/vessel.vtp");
     SessionOptions options{.find = find_operation};

@@ -29,7 +29,7 @@ Scene scene_of(Surface surface) {
 
 }  // namespace
 
-SCENARIO("load-surface says what it decided about the unit", "[workbench][source]") {
+SCENARIO("load-surface reports its decision about the unit", "[workbench][source]") {
     const std::string file = temporary_folder() + "/tube.off";
     write_surface(open_tube(2.0, 30.0, 24, 20), file);
     const Outcome stated = run("load-surface", {}, {{"file", file}});
@@ -57,7 +57,7 @@ SCENARIO("keep-component keeps the largest part, several, or the one at a point"
     CHECK_THROWS_AS(run("keep-component", {}, {}), InvalidInput);
 }
 
-SCENARIO("repair lists what it did, and its replay gives the same bits", "[workbench][source]") {
+SCENARIO("repair lists its actions, and its replay gives the same bits", "[workbench][source]") {
     const Scene scene = scene_of(merged(flipped(icosphere(5.0, 3)), icosphere(0.2, 0)));
     const Outcome outcome = run("repair", scene, {});
     CHECK(is_closed_manifold(*outcome.scene.surface));

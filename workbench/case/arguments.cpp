@@ -10,7 +10,7 @@ namespace {
 
 const Value& value_of(const std::map<std::string, Value>& values, const std::string& name) {
     const auto found = values.find(name);
-    if (found == values.end()) throw UsageError("parameter '" + name + "' is needed");
+    if (found == values.end()) throw UsageError("parameter '" + name + "' is required");
     return found->second;
 }
 
@@ -59,7 +59,7 @@ bool Arguments::flag(const std::string& name) const {
 }
 
 std::int64_t Arguments::integer(const std::string& name) const {
-    return typed<std::int64_t>(values_, name, "a whole number");
+    return typed<std::int64_t>(values_, name, "an integer");
 }
 
 double Arguments::real(const std::string& name) const {

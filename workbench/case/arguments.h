@@ -15,7 +15,7 @@ namespace vesselbench {
 /// 1,2,3.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>>;
 
-/// Named values of an operation, by parameter name. What is absent takes its default or is decided
+/// Named values of an operation, by parameter name. An absent one takes its default or is decided
 /// by the operation.
 class Arguments {
 public:
@@ -30,8 +30,8 @@ public:
 
     void remove(const std::string& name) { values_.erase(name); }
 
-    /// \throw UsageError if the argument is missing or of another type (a whole number serves as a
-    /// real one)
+    /// \throw UsageError if the argument is missing or of another type (an integer is accepted as a
+    /// real number)
     [[nodiscard]] bool flag(const std::string& name) const;
     [[nodiscard]] std::int64_t integer(const std::string& name) const;
     [[nodiscard]] double real(const std::string& name) const;
@@ -52,7 +52,7 @@ private:
     std::map<std::string, Value> values_;
 };
 
-/// The command line's text of a value, with all digits that reading it back needs.
+/// The command line's text of a value, with enough digits to read it back exactly.
 [[nodiscard]] std::string to_text(const Value& value);
 
 }  // namespace vesselbench

@@ -35,13 +35,13 @@ Value plain_value(const std::string& name, const Json& json) {
         for (const Json& entry : json) {
             if (!entry.is_number())
                 throw UsageError("parameter '" + name + "' = " + json.dump() +
-                                 " holds something that is not a number");
+                                 " contains something that is not a number");
             numbers.push_back(entry.get<double>());
         }
         return numbers;
     }
     throw UsageError("parameter '" + name + "' = " + json.dump() +
-                     " is neither a number, a text, true, false, nor a list of numbers");
+                     " must be a number, a text, true, false or a list of numbers");
 }
 
 }  // namespace

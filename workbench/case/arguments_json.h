@@ -13,7 +13,7 @@ namespace vesselbench {
 [[nodiscard]] nlohmann::ordered_json to_json(const Arguments& arguments);
 
 /// Reads the JSON object back in the operation's own types, as checked_arguments does, but without
-/// filling in defaults or asking for what is absent.
+/// filling in defaults or requiring absent values.
 /// \throw UsageError as checked_arguments
 [[nodiscard]] Arguments arguments_from_json(const Operation& operation,
                                             const nlohmann::ordered_json& object);

@@ -9,25 +9,25 @@
 
 namespace vesselbench {
 
-/// What an edit did to the surface, in figures. Empty where there was no surface to measure.
+/// Figures of an edit's effect on the surface. Empty if there was no surface to measure.
 struct SurfaceChange {
-    std::optional<double> volume_before;      ///< [mm^3], openings closed in thought
+    std::optional<double> volume_before;      ///< [mm^3], openings closed virtually
     std::optional<double> volume_after;       ///< [mm^3]
     std::optional<double> largest_deviation;  ///< [mm], between the old surface and the new
     std::optional<double> mean_deviation;     ///< [mm]
     std::size_t triangles_before = 0;
     std::size_t triangles_after = 0;
-    std::size_t moved_vertices = 0;  ///< where the connectivity stayed
+    std::size_t moved_vertices = 0;  ///< if the connectivity was kept
 
     bool operator==(const SurfaceChange&) const = default;
 };
 
-/// What the user asked for: one revision of an edit.
+/// The user's request: one revision of an edit.
 struct EditRecord {
     EditRef edit;
     EditPlace place;
     std::string operation;
-    Arguments given;  ///< file arguments hold the file's name without its folder
+    Arguments given;  ///< file arguments contain the file's name without its folder
     std::string author;
     std::string time;  ///< UTC, 2024-05-17T09:30:00Z
     std::string note;
@@ -35,7 +35,7 @@ struct EditRecord {
     bool operator==(const EditRecord&) const = default;
 };
 
-/// What came of running it on a certain input.
+/// The result of running it on a certain input.
 struct ResultRecord {
     ResultId id = 0;
     EditRef edit;

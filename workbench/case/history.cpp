@@ -14,7 +14,7 @@ std::string edit_text(EditId id) {
     return "edit " + std::to_string(id);
 }
 
-/// Walks along edits: what stands before the next one, and whether that is known.
+/// Walks along edits: the result before the next one, and whether that is known.
 struct Walk {
     ResultId input = 0;
     bool pending = false;
@@ -85,7 +85,7 @@ History::History(std::map<EditRef, EditPlace> edits, std::vector<HistoryState> s
     if (!states_.contains(current)) throw InvalidInput("the history's current state is missing");
     for (HistoryResult& result : results) {
         if (!edits_.contains(result.edit) || result.input >= result.id)
-            throw InvalidInput("result " + std::to_string(result.id) + " belongs to no edit");
+            throw InvalidInput("result " + std::to_string(result.id) + " has no edit");
         result_by_input_[{result.edit, result.input}] = result.id;
         results_[result.id] = std::move(result);
     }
@@ -125,7 +125,7 @@ std::optional<EditRef> History::find(EditId id) const {
 
 EditRef History::held(EditId id) const {
     if (const auto edit = find(id)) return *edit;
-    throw UsageError("the current state holds no " + edit_text(id) + "; the log lists its edits");
+    throw UsageError("the current state has no " + edit_text(id) + "; see its edits with log");
 }
 
 std::vector<HistoryEntry> History::entries() const {
@@ -134,7 +134,8 @@ std::vector<HistoryEntry> History::entries() const {
     std::map<std::string, Walk> branches;
     for (const EditRef& edit : edits_of(current_)) {
         const std::string& variant = edits_.at(edit).variant;
-        // The trunk's edits all stand before the variants', so the trunk's walk is complete here.
+        // All edits of the trunk come before those of the variants, so the walk along the trunk is
+        // complete here.
         Walk& walk = variant.empty() ? trunk : branches.try_emplace(variant, trunk).first->second;
         entries.push_back(next_entry(*this, edit, walk));
     }
@@ -224,7 +225,7 @@ void History::redo_to(EditId id) {
             while (current_ != at) redo();
             return;
         }
-    throw UsageError("no state ahead makes " + edit_text(id) + "; jump to one that holds it");
+    throw UsageError("no later state makes " + edit_text(id) + "; jump to one that contains it");
 }
 
 void History::jump(StateId id) {

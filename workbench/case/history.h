@@ -15,7 +15,7 @@ using StateId = std::int64_t;   ///< 0 is the empty case every history starts fr
 using ResultId = std::int64_t;  ///< 0 is the empty scene
 
 /// One form of an edit: changing its arguments makes the next revision of the same edit. An
-/// expert's verdict binds to both.
+/// expert's verdict refers to both.
 struct EditRef {
     EditId id = 0;
     int revision = 1;
@@ -23,7 +23,7 @@ struct EditRef {
     auto operator<=>(const EditRef&) const = default;
 };
 
-/// Where an edit stands in the case.
+/// The place of an edit in the case.
 struct EditPlace {
     Step step = Step::Source;
     std::string variant;  ///< "cfd", "rp", ...; empty for steps 1-5, the trunk of all variants
@@ -42,39 +42,39 @@ struct HistoryState {
     StateId parent = 0;
     StateChange change = StateChange::Start;
     EditRef edit;            ///< the edit applied, changed (its new revision) or removed
-    StateId last_child = 0;  ///< the child last visited; 0: none. What redo goes to
+    StateId last_child = 0;  ///< the child last visited; 0: none. The target of redo
 };
 
-/// What came out when an edit ran on a certain input.
+/// The result of an edit on a certain input.
 struct HistoryResult {
     ResultId id = 0;
     EditRef edit;
     ResultId input = 0;        ///< the result it ran on
-    std::string stale_reason;  ///< not empty: it does not apply there; its input passes through
+    std::string stale_reason;  ///< if not empty, the edit does not apply; its input passes through
 };
 
 enum class EditStatus : std::uint8_t {
-    Done,     ///< it has run on what stands before it
-    Pending,  ///< something before it changed; it runs when its result is shown or exported
-    Stale     ///< it no longer applies to what stands before it
+    Done,     ///< it has run on the result before it
+    Pending,  ///< an edit before it changed; it runs when its result is shown or exported
+    Stale     ///< it no longer applies to the result before it
 };
 
 [[nodiscard]] std::string to_string(EditStatus status);
 
-/// An edit of a state with what is known of its result there.
+/// An edit of a state with its result there, as far as known.
 struct HistoryEntry {
     EditRef edit;
     EditPlace place;
     EditStatus status = EditStatus::Pending;
-    ResultId result = 0;  ///< Done: its result. Stale: the result that tells why. Pending: 0
-    ResultId input = 0;   ///< what it ran on or would run on; meaningless behind a pending edit
+    ResultId result = 0;  ///< Done: its result. Stale: the result with the reason. Pending: 0
+    ResultId input = 0;   ///< the result it ran on or would run on; undefined behind a pending edit
     std::string reason;   ///< of a stale edit
 };
 
 /// The tree of states (DESIGN 1), a value. A state is the list of its edits, ordered by step, then
-/// time; to apply, change or remove an edit makes a child state, and nothing is ever thrown away.
-/// Whether an edit is done is not stored but follows from the results known: an edit is done if its
-/// revision has run on exactly what stands before it.
+/// time; applying, changing or removing an edit makes a child state, and nothing is ever thrown
+/// away. Whether an edit is done is not stored but follows from the known results: an edit is done
+/// if its revision has run on exactly the result before it.
 class History {
 public:
     History();
@@ -94,14 +94,14 @@ public:
     /// \throw UsageError if there is no such state
     [[nodiscard]] const HistoryState& state(StateId id) const;
 
-    /// The revision of an edit in the current state; empty if the state does not hold it.
+    /// The revision of an edit in the current state; empty if the state does not contain it.
     [[nodiscard]] std::optional<EditRef> find(EditId id) const;
 
     /// All edits of the current state, by step, then time.
     [[nodiscard]] std::vector<HistoryEntry> entries() const;
 
-    /// The edits that make one variant of the current state: the trunk's, then its own. An unknown
-    /// variant has the trunk's only.
+    /// The edits that make one variant of the current state: the trunk's, then the variant's. An
+    /// unknown variant has the trunk's only.
     [[nodiscard]] std::vector<HistoryEntry> line(const std::string& variant) const;
 
     /// Names of the variants that have edits in the current state, ascending.
@@ -117,10 +117,10 @@ public:
     EditRef apply(const EditPlace& place);
 
     /// A new revision of an edit in its old place: a child state.
-    /// \throw UsageError if the current state does not hold it
+    /// \throw UsageError if the current state does not contain it
     EditRef change(EditId id);
 
-    /// Leaves an edit out: a child state. \throw UsageError if the current state does not hold it
+    /// Leaves an edit out: a child state. \throw UsageError if the current state lacks it
     void remove(EditId id);
 
     /// To the parent. \throw UsageError at the start
@@ -133,7 +133,7 @@ public:
     /// Forward along the children last visited until the edit is made, changed or removed.
     /// \throw UsageError if none of them does
     void redo_to(EditId id);
-    /// To any state. \throw UsageError if there is none of this id
+    /// To any state. \throw UsageError if there is none with this id
     void jump(StateId id);
 
     ResultId add_result(EditRef edit, ResultId input, std::string stale_reason = {});

@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-// One vocabulary for figures, whichever command or operation states them.
+// One vocabulary for figures, for all commands and operations.
 
 /// The document of `vesselbench measure --json` [mm, mm^2, mm^3, degrees].
 [[nodiscard]] nlohmann::ordered_json measure_json(const SurfaceMeasures& measures);
@@ -16,7 +16,7 @@ namespace vesselbench {
 /// Its "reference" part.
 [[nodiscard]] nlohmann::ordered_json reference_json(const ReferenceComparison& comparison);
 
-/// Its figures on the shape of triangles: `equiangle_skewness` and `radius_ratio`.
+/// Its figures of triangle shape: `equiangle_skewness` and `radius_ratio`.
 [[nodiscard]] nlohmann::ordered_json triangle_shape_json(const Spread& skewness,
                                                          const Spread& radius_ratio);
 

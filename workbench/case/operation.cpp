@@ -38,7 +38,7 @@ std::string wanted(const Parameter& parameter) {
         case ParameterType::Flag:
             return "true or false";
         case ParameterType::Integer:
-            return "a whole number" + in_range;
+            return "an integer" + in_range;
         case ParameterType::Real:
             return "a number" + in_range;
         case ParameterType::Choice:
@@ -59,8 +59,8 @@ std::string wanted(const Parameter& parameter) {
     const std::string near = parameter.type == ParameterType::Choice
                                  ? did_you_mean(text, parameter.choices)
                                  : std::string();
-    throw UsageError("parameter '" + parameter.name + "' = '" + text + "' is not allowed: it is " +
-                     wanted(parameter) + near);
+    throw UsageError("parameter '" + parameter.name + "' = '" + text +
+                     "' is not allowed: it must be " + wanted(parameter) + near);
 }
 
 template <class Number>
@@ -121,7 +121,7 @@ std::vector<double> numbers_of(const Value& value) {
     return {};
 }
 
-/// The value in the parameter's own type: whole numbers serve as real ones, three numbers as a
+/// The value in the parameter's own type: integers are accepted as real numbers, three numbers as a
 /// point, a text is parsed.
 std::optional<Value> in_type(const Parameter& parameter, const Value& value) {
     if (const auto* text = std::get_if<std::string>(&value))
@@ -177,7 +177,8 @@ Arguments checked_values(const Operation& operation, const Arguments& given, boo
             else if (whole && parameter.default_value)
                 result.set(parameter.name, checked(parameter, *parameter.default_value));
             else if (whole && parameter.required)
-                throw UsageError("parameter '" + parameter.name + "' is needed: " + parameter.help);
+                throw UsageError("parameter '" + parameter.name +
+                                 "' is required: " + parameter.help);
         } catch (const UsageError& error) {
             throw UsageError(operation.name + ": " + error.what());
         }
@@ -207,7 +208,7 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
         if (parameter.name == name) return parameter;
         names.push_back(parameter.name);
     }
-    const std::string takes = names.empty() ? "it takes none" : "it takes " + joined(names);
+    const std::string takes = names.empty() ? "it has none" : "its parameters are " + joined(names);
     throw UsageError(operation.name + " has no parameter '" + name + "'" +
                      did_you_mean(name, names) + " (" + takes + ")");
 }

@@ -17,7 +17,7 @@
 
 namespace vesselbench {
 
-/// The ordered steps of a case (DESIGN 2); an edit's place in the history goes by step, then by
+/// The ordered steps of a case (DESIGN 2); edits are ordered by step, then by
 /// time.
 enum class Step : int {
     Source = 1,
@@ -38,33 +38,33 @@ enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File 
 /// An argument without which another one has no effect: "distance=margin".
 struct Condition {
     std::string parameter;
-    std::vector<std::string> values;  ///< any of them, as the command line writes it
+    std::vector<std::string> values;  ///< any of them, in the command line's form
 };
 
 [[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
 
 /// One documented parameter: the command line's option, the check and its error text, the recipe's
-/// key and the page docs/operations.md all come from this.
+/// key and the page docs/operations.md are all generated from this.
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::Real;
     std::string unit = {};  ///< "mm", "-", "deg" ...; empty for texts
     std::optional<Value> default_value =
         {};            ///< none: the operation decides by itself, or `required`
-    std::string help;  ///< one sentence; says what is decided when it is absent
+    std::string help;  ///< one sentence; states the default decision if it is absent
     double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
     double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
     std::vector<std::string> choices = {};                      ///< for Choice
     bool required = false;
     bool above_minimum = false;               ///< the minimum itself is not allowed
-    std::optional<Condition> only_with = {};  ///< else it has no effect; none: it always has
+    std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
 };
 
-/// Figures an operation states about what it found and did: a JSON object with units in the keys
+/// An operation's figures about its findings and results: a JSON object with units in the keys
 /// (`volume_mm3`).
 using Report = std::shared_ptr<const nlohmann::ordered_json>;
 
-/// What an operation leaves: a new scene, its figures, the arguments with everything it decided
+/// The outcome of an operation: a new scene, its figures, and the arguments with all its decisions
 /// filled in.
 struct Outcome {
     Scene scene;
@@ -78,26 +78,26 @@ struct Outcome {
 using OperationFunction = Outcome (*)(const Scene& scene, const Arguments& arguments,
                                       Progress& progress);
 
-/// An operation that is driven live: started on a scene, then given arguments as they come. Its
-/// batch form is start plus everything added, so that what was previewed and what is committed have
-/// the same bits. Not thread-safe: one thread drives it.
+/// An operation that is driven live: started on a scene, then given arguments as they arrive. Its
+/// batch form is start plus everything added, so the preview and the committed result have the same
+/// bits. Not thread-safe.
 class Stepper {
 public:
     virtual ~Stepper() = default;
 
     /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \param more as checked_changes() returns them
-    /// \throw as the operation's batch form; everything then stays as it was
+    /// \param more as from checked_changes()
+    /// \throw as the operation's batch form; everything is then unchanged
     virtual void add(const Arguments& more, Progress& progress) = 0;
 
     /// The scene after everything added so far.
     [[nodiscard]] virtual const Scene& scene() const = 0;
 
-    /// The arguments after everything added so far, with what the operation decided filled in.
+    /// The arguments after everything added so far, with the operation's decisions filled in.
     [[nodiscard]] virtual const Arguments& resolved() const = 0;
 
-    /// What the batch form returns for everything added so far, figures included. More may be
-    /// added afterwards.
+    /// The batch form's outcome for everything added so far, including figures. More may be added
+    /// afterwards.
     [[nodiscard]] virtual Outcome outcome(Progress& progress) = 0;
 };
 
@@ -109,11 +109,11 @@ using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene, const A
 struct Operation {
     std::string name;  ///< the command-line name, "clip-opening"
     Step usual_step = Step::Source;
-    std::vector<Step> allowed;  ///< all the steps it may stand in, the usual one included
+    std::vector<Step> allowed;  ///< all the steps it is allowed in, including the usual one
     std::string summary;        ///< one line
     std::vector<Parameter> parameters;
-    OperationFunction run = nullptr;  ///< the batch form; null: start to outcome
-    /// The live form, whose scene() comes without the figures of outcome(); null: it has none.
+    OperationFunction run = nullptr;  ///< the batch form; null: from start to outcome
+    /// The live form, whose scene() comes without the figures of outcome(); null: none.
     StepperFunction start = nullptr;
     bool isolated =
         false;  ///< run in a worker process: it reads foreign files, or may crash or hang
@@ -122,13 +122,12 @@ struct Operation {
     OperationSearch search = {};
 };
 
-/// Runs an operation's batch form in this process. \param checked as checked_arguments() returns
-/// them
+/// Runs an operation's batch form in this process. \param checked as from checked_arguments()
 /// \throw what the operation throws
 [[nodiscard]] Outcome run_here(const Operation& operation, const Scene& scene,
                                const Arguments& checked, Progress& progress);
 
-/// \throw UsageError that lists the near names and all names if the operation has none of this name
+/// \throw UsageError that lists similar names and all names if the operation has no such parameter
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
 
 /// Parses the command line's text of one argument.
@@ -140,13 +139,13 @@ struct Operation {
 /// \throw UsageError that names the operation, the parameter, the value and what is allowed
 [[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
 
-/// The same checks for arguments that are added to others: no default is filled in, and what is
-/// required may be absent.
+/// The same checks for arguments added to others: no defaults are filled in, and required ones may
+/// be absent.
 /// \throw UsageError as checked_arguments
 [[nodiscard]] Arguments checked_changes(const Operation& operation, const Arguments& more);
 
 /// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
-/// \param resolved what the operation was run with in the end
+/// \param resolved the arguments that the operation finally ran with
 [[nodiscard]] std::vector<std::string> arguments_without_effect(const Operation& operation,
                                                                 const Arguments& given,
                                                                 const Arguments& resolved);

@@ -6,7 +6,7 @@
 
 namespace vesselbench {
 
-/// A point or a direction as reports state it: [x, y, z].
+/// A point or a direction in the form used in reports: [x, y, z].
 [[nodiscard]] nlohmann::ordered_json point_json(const Vec3& point);
 
 }  // namespace vesselbench

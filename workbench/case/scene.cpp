@@ -9,7 +9,7 @@ namespace vesselbench {
 const Surface& surface_of(const Scene& scene) {
     if (!scene.surface || scene.surface->empty())
         throw InvalidInput(
-            "there is no surface yet: use load-surface, or load-image and extract-surface");
+            "there is no surface: use load-surface first, or load-image and extract-surface");
     return *scene.surface;
 }
 

@@ -11,18 +11,18 @@
 
 namespace vesselbench {
 
-/// Everything a case consists of at one state: an immutable value with shared parts (DESIGN 1).
+/// All data of a case at one state: an immutable value with shared parts (DESIGN 1).
 struct Scene {
     std::optional<Surface> surface;
     std::optional<Image> image;
     std::optional<Image> mask;                  ///< labels or a level set on the image's grid
-    std::optional<Sampling> sampling;           ///< of the image the surface came from, when known
+    std::optional<Sampling> sampling;           ///< of the surface's source image, if known
     std::map<std::string, Surface> neighbours;  ///< other structures, for distance awareness
     std::shared_ptr<const VolumeMesh> volume_mesh;
 };
 
 /// The scene's surface.
-/// \throw InvalidInput that names the operations that make one, if there is none
+/// \throw InvalidInput that names the operations to make one, if there is none
 [[nodiscard]] const Surface& surface_of(const Scene& scene);
 
 /// The scene with another surface; a volume mesh of the old one is dropped.

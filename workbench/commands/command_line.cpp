@@ -54,26 +54,26 @@ constexpr const char* kPictureFooter =
     "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
 
 constexpr const char* kSuggestFooter =
-    "Each suggestion weighs less curvature (smooth) against distance and volume (accurate) by\n"
-    "tau; the rows below the first one are for little, medium and much of it. Of remesh and\n"
-    "decimate, fewer triangles count in place of less curvature.\n\n"
-    "  vesselbench suggest aorta.vbench --filter laplace --tau 0.4\n"
-    "  vesselbench suggest aorta.vbench staircase=true\n"
-    "  vesselbench suggest aorta.vbench --operation decimate";
+    "Each suggestion balances low curvature (smooth) against distance and volume (accurate) "
+    "by\ntau; the rows below the first one are for a low, medium and high tau. For remesh "
+    "and\ndecimate, the number of triangles replaces the curvature.\n\n  vesselbench suggest "
+    "aorta.vbench --filter laplace --tau 0.4\n  vesselbench suggest aorta.vbench staircase=true\n  "
+    "vesselbench suggest aorta.vbench --operation decimate";
 
 constexpr const char* kQualityFooter =
-    "Graphs and bars start from the given arguments of the operation (or its defaults) and change\n"
-    "one parameter at a time. Errors and volumes are shares of what a strong change does: of\n"
-    "smooth, 50 iterations of Laplace with lambda 1. Curvature goes from 100 % of the original to\n"
-    "0 % of the strong change.\n\n"
-    "  vesselbench quality aorta.stl --out graphs.svg --out bars.svg --out gallery.png\n"
-    "  vesselbench quality aorta.stl --operation remesh --out graphs.svg";
+    "Graphs and bars start from the given arguments of the operation (or its defaults) and "
+    "change\none parameter at a time. Errors and volumes are relative to those of a strong change: "
+    "for\nsmooth, 50 iterations of Laplace with lambda 1. Curvature ranges from 100 % for the "
+    "original\nto 0 % for the strong change.\n\n  vesselbench quality aorta.stl --out graphs.svg "
+    "--out bars.svg --out gallery.png\n  vesselbench quality aorta.stl --operation remesh --out "
+    "graphs.svg";
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is bad.\n"
-    "'vesselbench COMMAND --help' explains a command, 'vesselbench operations' the operations.";
+    "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is "
+    "bad.\nSee 'vesselbench COMMAND --help' for a command, 'vesselbench operations' for the "
+    "operations.";
 
-/// The parser, and what to do with what it found.
+/// The parser, and the command it found.
 struct CommandLine {
     explicit CommandLine(Progress p) : progress(std::move(p)) {}
 
@@ -113,12 +113,12 @@ void add_apply(CommandLine& line) {
         add_command(line, "apply", "Run an operation on a project, as an edit that can be undone",
                     [options, &line] { return apply_operation(*options, line.progress), 0; });
     add_project(command, options->project);
-    command.add_option("OPERATION", options->operation, "Its name, as 'operations' lists it")
+    command.add_option("OPERATION", options->operation, "Its name, as listed by 'operations'")
         ->required()
         ->type_name("");
     command
         .add_option("parameter=value", options->arguments,
-                    "Its arguments; 'vesselbench operations OPERATION' explains them")
+                    "Its arguments; see 'vesselbench operations OPERATION'")
         ->type_name("");
     command
         .add_option("--variant", options->variant,
@@ -129,9 +129,9 @@ void add_apply(CommandLine& line) {
         .add_option("--step", options->step,
                     "Step the edit belongs to (default: the operation's usual step)")
         ->type_name("STEP");
-    command.add_option("--author", options->author, "Who makes the edit (default: login name)")
+    command.add_option("--author", options->author, "Author of the edit (default: login name)")
         ->type_name("NAME");
-    command.add_option("--note", options->note, "Why, in your words")->type_name("WORDS");
+    command.add_option("--note", options->note, "Reason, in your own words")->type_name("WORDS");
     add_json(command, options->json, "Print the edit as one JSON document");
 }
 
@@ -152,7 +152,7 @@ void add_change_and_remove(CommandLine& line) {
         ->type_name("");
     change.add_option("--author", changed->author, "Who makes the change (default: login name)")
         ->type_name("NAME");
-    change.add_option("--note", changed->note, "Why, in your words (default: as it was)")
+    change.add_option("--note", changed->note, "Reason, in your own words (default: as it was)")
         ->type_name("WORDS");
     add_json(change, changed->json, "Print the edit as one JSON document");
     change.footer(kChangeFooter);
@@ -176,16 +176,16 @@ void add_log(CommandLine& line) {
 
 void add_undo_and_redo(CommandLine& line) {
     const auto options = std::make_shared<StepBackOptions>();
-    CLI::App& undo = add_command(line, "undo", "Go back to the state before an edit",
+    CLI::App& undo = add_command(line, "undo", "Return to the state before an edit",
                                  [options] { return undo_edit(*options), 0; });
     add_project(undo, options->project);
-    undo.add_option("EDIT", options->edit, "Go back to before this edit (default: the last one)")
+    undo.add_option("EDIT", options->edit, "Return to before this edit (default: the last one)")
         ->type_name("");
     add_json(undo, options->json);
-    CLI::App& redo = add_command(line, "redo", "Go forward again to an edit that was undone",
+    CLI::App& redo = add_command(line, "redo", "Redo an edit that was undone",
                                  [options] { return redo_edit(*options), 0; });
     add_project(redo, options->project);
-    redo.add_option("EDIT", options->edit, "Go forward to this edit (default: one state)")
+    redo.add_option("EDIT", options->edit, "Redo up to this edit (default: one state)")
         ->type_name("");
     add_json(redo, options->json);
 }
@@ -193,7 +193,7 @@ void add_undo_and_redo(CommandLine& line) {
 void add_replay(CommandLine& line) {
     const auto options = std::make_shared<LogOptions>();
     CLI::App& command = add_command(
-        line, "replay", "Run every edit anew and compare with the stored results, bit for bit",
+        line, "replay", "Run every edit again and compare with the stored results, bit for bit",
         [options, &line] { return replay_project(*options, line.progress) ? 0 : 1; });
     add_project(command, options->project);
     add_json(command, options->json);
@@ -202,38 +202,38 @@ void add_replay(CommandLine& line) {
 void add_input(CLI::App& command, InputArguments& input) {
     command
         .add_option("INPUT", input.input,
-                    "A surface, an image, a folder of DICOM slices, or of a case")
+                    "A surface, an image, a folder of DICOM slices, or a case folder")
         ->required()
         ->type_name("");
     command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
         ->type_name("FILE");
     command
         .add_option("--units", input.units,
-                    "Unit of the file: mm, cm or m (default: as it says, or a guess)")
+                    "Unit of the file: mm, cm or m (default: as stated in it, or guessed)")
         ->type_name("UNIT");
 }
 
 void add_prepare(CommandLine& line) {
     const auto options = std::make_shared<PrepareArguments>();
     CLI::App& command =
-        add_command(line, "prepare", "Make a CFD model or a print model of an image or a surface",
+        add_command(line, "prepare", "Make a CFD model or a print model from an image or a surface",
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
     command.footer(prepare_footer());
     command
         .add_option("--for", options->purpose,
-                    "What the model is for: flow simulation (cfd), printing (rp), pictures\n"
-                    "(planning: keeps raw triangles), or surgery simulation (simulation)")
+                    "Purpose of the model: flow simulation (cfd), printing (rp), "
+                    "pictures\n(planning: keeps raw triangles), or surgery simulation (simulation)")
         ->required()
         ->type_name("cfd|rp|planning|simulation");
-    command.add_option("--recipe", options->recipe, "JSON list of operations to follow instead")
+    command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
     command
         .add_option("--set", options->settings,
                     "operation.parameter=value: change an argument of the recipe")
         ->allow_extra_args(false)
         ->type_name("OPERATION.PARAMETER=VALUE");
-    command.add_option("--out", options->out, "Folder of the results; made if it is not there")
+    command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
     add_json(command, options->json);
@@ -242,7 +242,7 @@ void add_prepare(CommandLine& line) {
 void add_new(CommandLine& line) {
     const auto options = std::make_shared<NewArguments>();
     CLI::App& command =
-        add_command(line, "new", "Make a project of an image or a surface",
+        add_command(line, "new", "Make a project from an image or a surface",
                     [options, &line] { return make_project(*options, line.progress), 0; });
     add_project(command, options->project);
     add_input(command, options->input);
@@ -257,7 +257,7 @@ void add_export(CommandLine& line) {
     add_project(command, options->project);
     command
         .add_option("FILE", options->file,
-                    "Its suffix tells the format; a folder: an OpenFOAM case")
+                    "Its suffix determines the format; a folder: an OpenFOAM case")
         ->required()
         ->type_name("");
     command.footer(export_footer());
@@ -275,7 +275,7 @@ void add_export(CommandLine& line) {
 void add_measure(CommandLine& line) {
     const auto options = std::make_shared<MeasureOptions>();
     CLI::App& command =
-        add_command(line, "measure", "Measure a surface, also against a reference surface",
+        add_command(line, "measure", "Measure a surface, optionally against a reference surface",
                     [options] { return measure_surface(*options), 0; });
     command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
     command.add_option("REFERENCE", options->reference, "Surface file to compare with")
@@ -294,15 +294,15 @@ void add_picture(CommandLine& line) {
     command.add_option("OUT.png", options->out, "The picture")->required()->type_name("");
     command
         .add_option("--reference", options->reference,
-                    "Surface file to compare with: blue is inside, red outside of it")
+                    "Surface file to compare with: blue is inside it, red outside")
         ->type_name("FILE");
     command
         .add_option("--full-colour", options->full_colour,
-                    "Deviation of the full colours [mm] (default: 98 of 100 vertices are below)")
+                    "Deviation shown in full colour [mm] (default: 98 % of the vertices are below)")
         ->type_name("MM");
     command
         .add_option("--view", options->view,
-                    "Direction of sight (default: 0,1,0, from the patient's front)")
+                    "View direction (default: 0,1,0, from the patient's front)")
         ->delimiter(',')
         ->expected(3)
         ->type_name("X,Y,Z");
@@ -321,7 +321,7 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
         ->type_name("");
     command
         .add_option("parameter=value", subject.arguments,
-                    "Arguments of the operation, which stay as they are; of smooth, staircase=true "
+                    "Arguments of the operation, which are kept; for smooth, staircase=true "
                     "searches its thresholds, too")
         ->type_name("");
     command
@@ -330,9 +330,9 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
         ->type_name("NAME");
     command
         .add_option("--variant", subject.variant,
-                    "Variant of a project, where the operation belongs to one (default: cfd)")
+                    "Variant of a project, if the operation belongs to one (default: cfd)")
         ->type_name("NAME");
-    command.add_option("--filter", subject.filter, "Filter of smooth (default: what smooth takes)")
+    command.add_option("--filter", subject.filter, "Filter of smooth (default: as in smooth)")
         ->type_name("NAME");
     command
         .add_option("--units", subject.units, "Unit of surface files: mm, cm or m (default: mm)")
@@ -351,22 +351,21 @@ void add_suggest(CommandLine& line) {
         ->type_name("TAU");
     command
         .add_option("--score", options->score,
-                    "default, thesis (its Eq. 6.6 as printed) or compact (few triangles)")
+                    "default, thesis (Eq. 6.6 as printed) or compact (few triangles)")
         ->capture_default_str()
         ->type_name("FORM");
     command
-        .add_option(
-            "--search", options->search,
-            "automatic, coarse (of laplace: steps of 0.1 and 5 iterations), exhaustive (0.05 "
-            "and 1) or pattern")
+        .add_option("--search", options->search,
+                    "automatic, coarse (laplace: steps of 0.1 and 5 iterations), exhaustive (0.05 "
+                    "and 1) or pattern")
         ->capture_default_str()
         ->type_name("WAY");
     add_json(command, options->json);
-    command.add_flag("--grid", options->grid, "With --json: the measures of all coarse sets, too");
+    command.add_flag("--grid", options->grid, "With --json: also the measures of all coarse sets");
     command
-        .add_option("--truth", options->truth,
-                    "With --grid: how far each set ends from this surface, which is known to be "
-                    "true")
+        .add_option(
+            "--truth", options->truth,
+            "With --grid: distance of each set's result from this surface, the known true one")
         ->type_name("FILE");
     command.footer(kSuggestFooter);
 }
@@ -374,12 +373,13 @@ void add_suggest(CommandLine& line) {
 void add_quality(CommandLine& line) {
     const auto options = std::make_shared<QualityOptions>();
     CLI::App& command = add_command(
-        line, "quality", "Draw how parameters of smooth, or another operation, change a surface",
+        line, "quality",
+        "Draw the effect of the parameters of smooth, or another operation, on a surface",
         [options, &line] { return draw_quality(*options, line.progress), 0; });
     add_subject(command, options->subject);
     command
         .add_option("--out", options->out,
-                    "Where to: an .svg gets graphs, or bars if its name holds that word; a .png "
+                    "Output: an .svg gets graphs, or bars if its name contains that word; a .png "
                     "gets the gallery of three suggestions; may be repeated")
         ->allow_extra_args(false)
         ->type_name("FILE");
@@ -391,11 +391,11 @@ void add_quality(CommandLine& line) {
         ->type_name("ORDER");
     command
         .add_option("--at", options->at,
-                    "Place that the gallery magnifies [mm] (default: where the surface moves most)")
+                    "Place magnified in the gallery [mm] (default: where the surface moves most)")
         ->delimiter(',')
         ->expected(3)
         ->type_name("X,Y,Z");
-    add_json(command, options->json, "Print the graphs' figures as one JSON document");
+    add_json(command, options->json, "Print the data of the graphs as one JSON document");
     command.footer(kQualityFooter);
 }
 
@@ -420,14 +420,15 @@ void add_phantom(CommandLine& line) {
     CLI::App& command =
         add_command(line, "phantom", "Write a phantom's image, mask and exact surface",
                     [options, &line] { return write_phantom(*options, line.progress), 0; });
-    command.add_option("--seed", options->seed, "Seed of its noise; its own by default");
+    command.add_option("--seed", options->seed,
+                       "Seed of its noise (default: from its description)");
     command
         .add_option("NAME", options->name,
                     "One of " + joined(phantom_names()) +
-                        ", or a file (.json) that describes one, as those of cases/phantoms do")
+                        ", or a file (.json) that describes one, like those in cases/phantoms")
         ->required()
         ->type_name("");
-    command.add_option("--out", options->out, "Folder; made if it is not there")
+    command.add_option("--out", options->out, "Folder; created if missing")
         ->required()
         ->type_name("FOLDER");
     add_json(command, options->json);
@@ -476,7 +477,7 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
                      did_you_mean(name, names) + " (the commands are " + joined(names) + ")");
 }
 
-/// The command whose arguments were wrong: its help is what the user needs.
+/// The command with wrong arguments: the user needs its help.
 std::string help_hint(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
     const std::string command = chosen.empty() ? "" : chosen.front()->get_name() + " ";

@@ -11,7 +11,7 @@
 namespace vesselbench {
 
 // One function per command of the command line; each writes its result to stdout and throws the
-// classes of geometry/errors.h. The options are what the command line's parser found.
+// classes of geometry/errors.h. The command line's parser fills in the options.
 
 struct OperationsOptions {
     std::string name;  ///< of one operation; empty: all of them
@@ -41,7 +41,7 @@ struct ChangeOptions {
     std::int64_t edit = 0;
     std::vector<std::string> arguments;  ///< "parameter=value"; the others stay as they were
     std::string author;                  ///< empty: the login name
-    std::string note;                    ///< empty: stays as it was
+    std::string note;                    ///< empty: unchanged
     bool json = false;
 };
 
@@ -66,7 +66,7 @@ struct LogOptions {
 /// Prints steps, edits, authors, and what each changed.
 void show_log(const LogOptions& options);
 
-/// Runs every edit anew and compares. \return false if something differs
+/// Runs every edit again and compares. \return false if something differs
 bool replay_project(const LogOptions& options, const Progress& progress);
 
 struct StepBackOptions {
@@ -85,15 +85,15 @@ struct MeasureOptions {
     bool json = false;
 };
 
-/// Prints what can be measured on a surface, and its distance to a reference.
+/// Prints all measures of a surface, and its distance to a reference.
 void measure_surface(const MeasureOptions& options);
 
 struct PictureArguments {
     std::string surface;
     std::string out;                       ///< .png
     std::string reference;                 ///< empty: colours by patch
-    std::vector<double> view = {0, 1, 0};  ///< direction of sight, 3 numbers (LPS)
-    std::optional<double> full_colour;     ///< [mm]; none: what 98 of 100 vertices stay below
+    std::vector<double> view = {0, 1, 0};  ///< view direction, 3 numbers (LPS)
+    std::optional<double> full_colour;     ///< [mm]; none: 98 % of the vertices are below
     int size = 700;                        ///< width and height [pixels]
     std::string units;                     ///< of the files; empty: mm
     bool json = false;
@@ -105,9 +105,9 @@ void draw_picture(const PictureArguments& arguments);
 struct SuggestOptions {
     SubjectOptions subject;
     double tau = 0.5;   ///< target smoothness
-    std::string score;  ///< empty: what suits the operation
+    std::string score;  ///< empty: the operation's usual one
     std::string search = "automatic";
-    std::string truth;  ///< surface file, in the units of the subject's; empty: none
+    std::string truth;  ///< surface file, in the subject's units; empty: none
     bool grid = false;  ///< adds all coarse sets to the JSON document
     bool json = false;
 };
@@ -117,10 +117,10 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
 
 struct QualityOptions {
     SubjectOptions subject;
-    std::vector<std::string> out;  ///< .svg (graphs, or bars if its name holds that) and .png
+    std::vector<std::string> out;  ///< .svg (graphs, or bars if its name contains that) and .png
     double tau = 0.5;
     std::string sort = "parameter";  ///< of bars: parameter or measure
-    std::vector<double> at;          ///< artifact of the gallery, 3 numbers [mm]; empty: found
+    std::vector<double> at;          ///< artifact of the gallery, 3 numbers [mm]; empty: automatic
     bool json = false;
 };
 
@@ -162,7 +162,7 @@ struct PrepareArguments {
     bool json = false;
 };
 
-/// Walks from the input to a CFD or print model.
+/// Turns the input into a CFD or print model.
 void prepare_case(const PrepareArguments& arguments, const Progress& progress);
 
 struct NewArguments {
@@ -171,7 +171,7 @@ struct NewArguments {
     bool json = false;
 };
 
-/// Makes a project that holds the input.
+/// Creates a project with the input.
 void make_project(const NewArguments& arguments, const Progress& progress);
 
 struct ExportArguments {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kLineWidth = 100;
 
-/// The writing end of the pipe that the signal handler tells; -1 while nobody listens. A handler
-/// can reach nothing but a global.
+/// The writing end of the signal handler's pipe; -1 while nobody listens. A handler can only access
+/// globals.
 volatile std::sig_atomic_t signal_pipe = -1;  // NOLINT
 volatile std::sig_atomic_t signals_seen = 0;  // NOLINT
 

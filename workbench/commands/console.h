@@ -26,17 +26,17 @@ private:
     std::unique_ptr<Listener> listener_;
 };
 
-/// Shows progress as one changing line on stderr when stderr is a terminal, else shows nothing.
+/// Shows progress as one changing line on stderr if that is a terminal, else nothing.
 [[nodiscard]] Progress console_progress(std::stop_token stop);
 
-/// Writes the line "vesselbench: text" to stderr: why the program ends without having done it.
+/// Writes the line "vesselbench: text" to stderr: why the program failed.
 void complain(const std::string& text);
 
-/// Writes one line to stderr: what was done, or a warning.
+/// Writes one line to stderr: a remark or a warning.
 void remark(const std::string& text);
 
-/// Rows as left-aligned columns, two spaces apart; the last column is wrapped to the width of 100
-/// letters.
+/// Rows as left-aligned columns, two spaces apart; the last column is wrapped to a width of 100
+/// characters.
 [[nodiscard]] std::string as_columns(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace vesselbench

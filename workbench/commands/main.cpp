@@ -44,11 +44,12 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (argc == 2 && std::string_view(argv[1]) == "--worker") {
-        std::signal(SIGINT, SIG_IGN);  // a terminal tells it to all; the session ends its worker
+        std::signal(SIGINT,
+                    SIG_IGN);  // a terminal signals all processes; the session ends its worker
         return vesselbench::worker_main(vesselbench::find_operation);
     }
-    // A full disk or a closed pipe then shows as a failed write, which is told and cleaned up
-    // after.
+    // A full disk or a closed pipe then causes a failed write, which is reported and cleaned
+    // up.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     const int code = run(argc, argv);

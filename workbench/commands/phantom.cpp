@@ -20,8 +20,9 @@ using Json = nlohmann::ordered_json;
 constexpr const char *kImage = "image.nii.gz", *kMask = "mask.nii.gz", *kExact = "exact.vtp",
                      *kNoisy = "noisy.vtp", *kNeighbour = "neighbour.vtp";
 
-/// A case description, so that the folder is an INPUT of its own. It uses the mask only where an
-/// expert had to part vessels that blend in the image; elsewhere the intensities are more accurate.
+/// A case description, so that the folder can be used as an INPUT. It uses the mask only where an
+/// expert had to separate vessels that blend in the image; elsewhere the intensities are more
+/// accurate.
 std::string case_text(const PhantomDescription& description) {
     Json json = {{"name", description.name}, {"image", kImage}, {"exact", kExact}};
     if (!description.imaging.kept_apart.empty()) json["mask"] = kMask;
@@ -63,7 +64,7 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     std::cout << description.name << ": " << kImage << ", " << kMask
               << (phantom.neighbour ? std::string(", ") + kNeighbour : "") << " and " << kExact
               << " are in " << options.out << "\n'vesselbench prepare " << options.out
-              << " --for cfd --out RESULT' takes the folder as it is.\n";
+              << " --for cfd --out RESULT' accepts this folder as INPUT.\n";
 }
 
 }  // namespace vesselbench

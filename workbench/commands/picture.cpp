@@ -16,7 +16,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kLargestSide = 8192;  ///< what gpu/picture.h draws
+constexpr int kLargestSide = 8192;  ///< limit of gpu/picture.h
 
 void check(const PictureArguments& arguments) {
     if (!arguments.out.ends_with(".png"))
@@ -26,7 +26,7 @@ void check(const PictureArguments& arguments) {
                          " pixels are out of the range 1 to " + std::to_string(kLargestSide));
     if (arguments.full_colour) {
         if (arguments.reference.empty())
-            throw UsageError("--full-colour is a deviation: it needs --reference");
+            throw UsageError("--full-colour is a deviation and needs --reference");
         if (!(*arguments.full_colour > 0.0 && std::isfinite(*arguments.full_colour)))
             throw UsageError("--full-colour must be above 0 mm");
     }
@@ -35,7 +35,7 @@ void check(const PictureArguments& arguments) {
 Vec3 view_of(const std::vector<double>& numbers) {
     const Vec3 view(numbers.at(0), numbers.at(1), numbers.at(2));
     if (view.allFinite() && view.norm() > 0.0) return view.normalized();
-    throw UsageError("--view has no direction: give three numbers x,y,z that are not all 0");
+    throw UsageError("--view has no direction: give three numbers x,y,z, not all of them 0");
 }
 
 }  // namespace

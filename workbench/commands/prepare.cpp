@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 void check_purpose(const std::string& purpose) {
     static const std::vector<std::string> purposes = {"cfd", "rp", "planning", "simulation"};
     if (std::ranges::count(purposes, purpose) == 0)
-        throw UsageError("--for '" + purpose + "' is not known" + did_you_mean(purpose, purposes) +
+        throw UsageError("--for '" + purpose + "' is unknown" + did_you_mean(purpose, purposes) +
                          " (it is " + joined(purposes) + ")");
 }
 
@@ -81,7 +81,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const CfdParameters flow = take_flow_parameters(settings);
     if (!settings.empty())
         throw UsageError("--set '" + settings.front() +
-                         "': export knows openfoam.parameter=value only");
+                         "': export accepts only openfoam.parameter=value");
     check_export_name(arguments.file);
     Session session = Session::open(arguments.project, {.find = find_operation});
     const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 Session open_for_reading(const std::string& project) {
     Session session = Session::open(project, {.find = find_operation});
-    if (!session.read_only_reason().empty()) remark("only reading: " + session.read_only_reason());
+    if (!session.read_only_reason().empty()) remark("read-only: " + session.read_only_reason());
     return session;
 }
 
@@ -44,7 +44,7 @@ bool is_short(const Json& value) {
             std::ranges::all_of(value, [](const Json& part) { return part.is_number(); }));
 }
 
-/// What comes of the operation in figures: the parts of its report that are short.
+/// The operation's figures: the short parts of its report.
 void print_report(const std::string& text) {
     const Json report = Json::parse(text, nullptr, false);
     if (!report.is_object()) return;
@@ -184,8 +184,8 @@ void remark_warnings(const LogEntry& entry, const Arguments& given) {
 const EditRecord& edit_of(const Snapshot& now, EditId id) {
     for (const LogEntry& entry : now.log)
         if (entry.edit.edit.id == id) return entry.edit;
-    throw UsageError("the current state holds no edit " + std::to_string(id) +
-                     "; 'vesselbench log " + now.project + "' lists its edits");
+    throw UsageError("the current state has no edit " + std::to_string(id) + "; 'vesselbench log " +
+                     now.project + "' lists its edits");
 }
 
 }  // namespace

@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 BarOrder order_from(const std::string& name) {
     if (name == "parameter") return BarOrder::Parameter;
     if (name == "measure") return BarOrder::Measure;
-    throw UsageError("--sort: '" + name + "' is neither parameter nor measure");
+    throw UsageError("--sort: '" + name + "' is unknown: use parameter or measure");
 }
 
 void check(const QualityOptions& options) {
     if (options.out.empty() && !options.json)
-        throw UsageError("say where to draw: --out graphs.svg, bars.svg or gallery.png, or --json");
+        throw UsageError("give an output: --out graphs.svg, bars.svg or gallery.png, or --json");
     for (const std::string& out : options.out)
         if (!out.ends_with(".svg") && !out.ends_with(".png"))
             throw UsageError("--out: '" + out + "' ends neither in .svg nor in .png");
@@ -88,7 +88,7 @@ SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
     return sensitivity(search, now, false, progress.part(0.1, 1.0));
 }
 
-/// The target and the parameters, in lines that fit under a model.
+/// The target and the parameters, as lines that fit below a model.
 std::vector<std::string> caption(double tau, const SearchSpace& space, const ParameterSet& set) {
     constexpr std::size_t kMostLetters = 34;
     std::vector<std::string> lines = {"tau " + formatted(tau, "%g")};
@@ -107,7 +107,7 @@ std::vector<std::string> caption(double tau, const SearchSpace& space, const Par
     return lines;
 }
 
-/// The surface as it is drawn: some files' triangles face inward.
+/// The surface for drawing: in some files the triangles face inward.
 Surface outward(const Surface& surface, double volume) {
     return volume >= 0.0 ? surface : flipped(surface);
 }
@@ -136,7 +136,7 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
     if (!options.at.empty()) at = Vec3(options.at[0], options.at[1], options.at[2]);
     return png(quality_gallery(outward(surface_of(subject.scene), search.original().volume), models,
                                subject.name + ", " + change_text(subject) +
-                                   ": suggestions for little, medium and much of it",
+                                   ": suggestions for low, medium and high targets",
                                at));
 }
 

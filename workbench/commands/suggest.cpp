@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The arguments that the search found, without those that stay.
+/// The arguments found by the search, without the fixed ones.
 Json found_json(const SearchSpace& space, const ParameterSet& set) {
     Json json;
     for (std::size_t i = 0; i < set.size(); ++i)
@@ -57,7 +57,7 @@ Json suggestion_json(SuggestionSearch& search, double tau, const Suggestion& sug
     return json;
 }
 
-/// Mean distance of a changed surface's vertices from a surface known to be true [mm].
+/// Mean distance of a changed surface's vertices from the true surface [mm].
 double distance_from(const SurfaceDistance& truth, const Surface& surface) {
     double sum = 0.0;
     for (const SurfacePoint& closest : truth.closest_points(surface.points()))
@@ -138,14 +138,14 @@ Json work_json(const MeasureSource::Work& work, double seconds) {
             {"seconds", seconds}};
 }
 
-/// The score that the user names, or the operation's usual one.
+/// The score given by the user, or the operation's usual one.
 ScoreForm form_for(const SuggestOptions& options, const SearchSubject& subject) {
     if (options.score.empty()) return usual_score(subject);
     const ScoreForm form = score_form_from(options.score);
     if (form == ScoreForm::Compact && subject.smoothing)
-        throw UsageError("--score compact is of operations that change the number of triangles");
+        throw UsageError("--score compact is for operations that change the number of triangles");
     if (form == ScoreForm::Thesis && !subject.smoothing)
-        throw UsageError("--score thesis is of smooth: its error needs the same triangles");
+        throw UsageError("--score thesis is for smooth: its error needs the same triangles");
     return form;
 }
 
@@ -180,9 +180,9 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
 }  // namespace
 
 void suggest_parameters(const SuggestOptions& options, const Progress& progress) {
-    if (options.grid && !options.json) throw UsageError("--grid goes with --json");
+    if (options.grid && !options.json) throw UsageError("--grid needs --json");
     if (!options.truth.empty() && !(options.json && options.grid))
-        throw UsageError("--truth goes with --json --grid: it adds a distance to each set");
+        throw UsageError("--truth needs --json --grid: it adds a distance to each set");
     const SearchSubject subject = search_subject(options.subject, progress);
     const auto start = std::chrono::steady_clock::now();
     SuggestionSearch search(subject, form_for(options, subject), search_way_from(options.search),
@@ -197,16 +197,16 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
     for (const std::string& note : subject.notes) remark(note);
     if (subject.smoothing && subject.arguments.text("device") == "gpu" &&
         !search.chosen().reason.empty())
-        remark("device=gpu: the CPU searched instead, because " + search.chosen().reason);
+        remark("device=gpu: fell back to the CPU, because " + search.chosen().reason);
     if (options.json) return print_json(search, subject, options, found, work, progress);
     std::cout << subject.name << (subject.state.empty() ? "" : ", " + subject.state) << ": "
               << counted(surface_of(subject.scene).vertex_count(), "vertex", "vertices")
               << ", mean edge " << formatted(search.mean_edge()) << " mm; " << change_text(subject)
               << ", score " << to_string(search.form()) << "\n\n";
     print_suggestions(search, subject, found);
-    std::cout << "\ncurvature: integral of |H|, of the original's; mean distance: "
-              << (subject.smoothing ? "of each vertex from the original around where it came from\n"
-                                    : "both ways, from the original surface\n")
+    std::cout << "\ncurvature: integral of |H|, relative to the original's; mean distance: "
+              << (subject.smoothing ? "of each vertex from the original around its start\n"
+                                    : "both ways, to the original surface\n")
               << "searched: " << ranges_text(search.space()) << "; " << work["evaluations"]
               << " parameter sets, "
               << (subject.smoothing ? work["sweeps"].dump() + " iterations, " : "")

@@ -14,7 +14,8 @@ namespace {
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
-        throw InvalidInput("there is no volume mesh in this variant: use tetrahedralize");
+        throw InvalidInput(
+            "there is no volume mesh in this variant: use tetrahedralize first first");
     return *scene.volume_mesh;
 }
 

@@ -10,7 +10,7 @@ namespace vesselbench {
 /// The documented parameters of an exported OpenFOAM case: density, viscosity, flow, profile ...
 [[nodiscard]] std::vector<Parameter> flow_parameters();
 
-/// \param arguments checked against flow_parameters(); what is absent keeps its default
+/// \param arguments checked against flow_parameters(); absent ones keep their default
 [[nodiscard]] CfdParameters flow_from(const Arguments& arguments);
 
 }  // namespace vesselbench

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The flow as a row like those of the operation table: the same checks and texts serve it.
+/// The flow as a row like those of the operation table, to share their checks and texts.
 Operation openfoam() {
     return {.name = "openfoam", .parameters = flow_parameters()};
 }

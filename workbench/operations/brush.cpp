@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A negative strength deflates and takes weight away; there is no negative smoothing.
+/// A negative strength deflates and removes weight; there is no negative smoothing.
 constexpr double kWeakest = -1.0, kSmoothWeakest = 0.0;
 
 /// By how much a surface grew whose boundary, if any, stayed [mm^3].
@@ -68,7 +68,7 @@ ordered_json painting(const Surface& before, const Surface& surface, const std::
             {"vertices_above_0", above}};
 }
 
-/// Letters, digits and underscores: a name that every file format takes.
+/// Letters, digits and underscores: a name that every file format accepts.
 void check_attribute(const std::string& name) {
     const bool fits = name.size() > 1 && !std::isdigit(static_cast<unsigned char>(name[0])) &&
                       std::ranges::all_of(name, [](unsigned char c) {
@@ -76,8 +76,8 @@ void check_attribute(const std::string& name) {
                       });
     if (!fits)
         throw UsageError("brush-weight: attribute = '" + name +
-                         "' is not allowed: it is two or more letters, digits and underscores, no "
-                         "digit first");
+                         "' is not allowed: use two or more letters, digits and underscores, not "
+                         "starting with a digit");
 }
 
 /// A stroke that dabs are added to. The walls that it would push through each other are kept apart
@@ -129,13 +129,13 @@ public:
         outcome.resolved = stroke_->resolved;
         outcome.warnings = stroke_->warnings;
         if (stroke_->empty > 0)
-            outcome.warnings.push_back(
-                counted(stroke_->empty, "dab") +
-                " changed nothing: strength 0, a radius below the triangles' size, or a cap");
+            outcome.warnings.push_back(counted(stroke_->empty, "dab") +
+                                       " changed nothing: its strength is 0, its radius is smaller "
+                                       "than the triangles, or it is on a cap");
         BrushStroke ended = stroke_->brush;
         if (settings_.kind != BrushKind::Weight)
             warn_of_crossings(ended.keep_walls_apart(progress), "brush",
-                              "undo, and brush with less strength", outcome);
+                              "undo and brush with less strength", outcome);
         outcome.scene = scene_with(ended.surface());
         ordered_json report = {{"dabs", stroke_->dabs}};
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
@@ -230,7 +230,7 @@ std::unique_ptr<Stepper> live_weight(const Scene& scene, const Arguments& argume
                       scene, arguments, progress);
 }
 
-/// What all brushes have in common.
+/// Common part of all brushes.
 Operation brush(const DabUse& use, const std::string& summary, const std::string& strength) {
     return {.name = use.operation,
             .usual_step = Step::LocalRepair,
@@ -246,12 +246,12 @@ Operation brush(const DabUse& use, const std::string& summary, const std::string
 Operation brush_smooth_operation() {
     Operation operation =
         brush({"brush-smooth", kSmoothWeakest},
-              "smooth the wall under a brush; caps, rims and open boundaries stay",
-              "share of the way to its ring's mean that the middle goes in a pass");
+              "smooth the wall under a brush; caps, rims and open boundaries are kept",
+              "fraction of the way to the one-ring mean at the centre, per pass");
     operation.parameters.push_back({.name = "passes",
                                     .type = ParameterType::Integer,
                                     .default_value = std::int64_t{4},
-                                    .help = "Laplace passes a dab; more is smoother",
+                                    .help = "Laplace passes per dab; more passes smooth more",
                                     .minimum = 1,
                                     .maximum = 100});
     operation.start = &live_smooth;
@@ -261,8 +261,8 @@ Operation brush_smooth_operation() {
 Operation brush_inflate_operation() {
     Operation operation =
         brush({"brush-inflate", kWeakest},
-              "lift or lower the wall under a brush; caps, rims and open boundaries stay",
-              "the middle moves out by a tenth of the brush's radius at 1, in at -1");
+              "lift or lower the wall under a brush; caps, rims and open boundaries are kept",
+              "the centre moves out by a tenth of the brush radius at 1, in at -1");
     operation.start = &live_inflate;
     return operation;
 }
@@ -270,12 +270,12 @@ Operation brush_inflate_operation() {
 Operation brush_weight_operation() {
     Operation operation =
         brush({"brush-weight", kWeakest}, "paint a weight on the surface's vertices",
-              "added to the weight, which stays in 0 to 1");
-    operation.parameters.push_back({.name = "attribute",
-                                    .type = ParameterType::Text,
-                                    .default_value = "painted_weight",
-                                    .help = "name of the vertex attribute to paint; made where it "
-                                            "is absent"});
+              "added to the weight, which is limited to 0 to 1");
+    operation.parameters.push_back(
+        {.name = "attribute",
+         .type = ParameterType::Text,
+         .default_value = "painted_weight",
+         .help = "name of the vertex attribute to paint; created if absent"});
     operation.start = &live_weight;
     return operation;
 }

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Numbers of one opening in `planes`: tip, point, normal, 1 where a cap is kept.
+/// Numbers of one opening in `planes`: tip, point, normal, 1 if a cap is kept.
 constexpr std::size_t kNumbers = 10;
 
 void check_arguments(const Arguments& arguments) {
@@ -31,7 +31,7 @@ void check_arguments(const Arguments& arguments) {
     if (arguments.has("distance") && arguments.has("radii"))
         throw UsageError("clip-opening: give distance or radii, not both");
     if (arguments.has("planes") != arguments.has("names"))
-        throw UsageError("clip-opening: planes and names belong together");
+        throw UsageError("clip-opening: give planes and names together");
 }
 
 /// A surface's centerlines, found when they are asked for and then kept.
@@ -80,7 +80,7 @@ OpeningPlan decide(const Surface& surface, const Arguments& arguments, KnownCent
     return plan;
 }
 
-/// The plan that an earlier run resolved.
+/// The plan resolved by an earlier run.
 OpeningPlan stored(const Arguments& arguments) {
     const auto& numbers = arguments.list("planes");
     std::istringstream names(arguments.text("names"));
@@ -99,7 +99,7 @@ OpeningPlan stored(const Arguments& arguments) {
     }
     if (plan.openings.empty() || plan.openings.size() * kNumbers != numbers.size())
         throw UsageError(
-            "clip-opening: planes needs 10 numbers an opening (tip, point, unit normal, 1 for a "
+            "clip-opening: planes needs 10 numbers per opening (tip, point, unit normal, 1 for a "
             "kept cap), and names as many entries kind:name");
     return plan;
 }
@@ -138,13 +138,13 @@ Resolved describe(const Surface& surface, const OpeningPlan& plan) {
     return resolved;
 }
 
-/// Takes openings that were not made out of the plan, and says so.
+/// Removes openings that were not made from the plan, with a warning.
 void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
     for (auto i = left_out.rbegin(); i != left_out.rend(); ++i) {
         const auto opening = plan.openings.begin() + static_cast<std::ptrdiff_t>(*i);
         plan.warnings.push_back("the end at " + place_text(opening->place.tip) +
-                                " was left closed: a cut there would take other vessels' ends with "
-                                "it; tip=x,y,z distance=... chooses the place");
+                                " was left closed: a cut there would remove the ends of other "
+                                "vessels, too; choose the place with tip=x,y,z distance=...");
         plan.openings.erase(opening);
     }
 }
@@ -210,12 +210,11 @@ Operation clip_opening_operation() {
             {{.name = "tip",
               .type = Point,
               .unit = "mm",
-              .help = "a point near the tip of the branch to open; without it every vessel end is "
-                      "opened"},
+              .help = "a point near the tip of the branch to open; default: every vessel end"},
              {.name = "distance",
               .unit = "mm",
-              .help = "distance of the cut from the tip along the centerline; without it the "
-                      "nearest straight place is chosen",
+              .help = "distance of the cut from the tip along the centerline; default: the nearest "
+                      "straight place",
               .minimum = 0.0,
               .above_minimum = true},
              {.name = "radii",
@@ -226,25 +225,24 @@ Operation clip_opening_operation() {
              {.name = "inlet",
               .type = Point,
               .unit = "mm",
-              .help = "a point near the opening where the blood comes in; without it the largest "
-                      "opening is the inlet"},
+              .help = "a point near the opening where the blood flows in; default: the largest "
+                      "opening"},
              {.name = "name",
               .type = Text,
-              .help = "name of the opening at tip; without it inlet, outlet_1, outlet_2 ... by "
-                      "size"},
+              .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size"},
              {.name = "kind",
               .type = Choice,
-              .help = "what the opening at tip is for the solver; without it chosen by size",
+              .help = "role of the opening at tip for the solver; default: by size",
               .choices = {"inlet", "outlet"}},
              {.name = "planes",
               .type = List,
               .unit = "mm",
-              .help = "what an earlier run decided, 10 numbers an opening: tip, point of the "
-                      "plane, unit normal out of the vessel, 1 where a good cap was kept; then "
-                      "nothing is chosen anew"},
+              .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
+                      "plane, unit normal out of the vessel, 1 if a good cap was kept; nothing is "
+                      "chosen again then"},
              {.name = "names",
               .type = Text,
-              .help = "belongs to planes: kind:name of each opening, separated by commas"}},
+              .help = "with planes: kind:name of each opening, separated by commas"}},
         .start = &started<LiveClipping>,
         .thesis = "4.2.7",
         .recipe = {.cuts_ends = true}};

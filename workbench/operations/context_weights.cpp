@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Multiplies one more kind of weights in, and reports its mean.
+/// Multiplies by one more kind of weights, and reports its mean.
 void weigh(std::vector<double>& weights, std::vector<double> by, const char* kind, Json& report) {
     const double sum = std::accumulate(by.begin(), by.end(), 0.0);
     report["mean_weight_" + std::string(kind)] =
@@ -28,17 +28,17 @@ void weigh(std::vector<double>& weights, std::vector<double> by, const char* kin
         for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
 }
 
-/// The stack axis that the user gave; also one that is not asked for must make sense.
+/// The stack axis given by the user; it must make sense even if it is not used.
 std::optional<Vec3> given_stack_axis(const Arguments& arguments, const std::string& operation) {
     const auto axis = arguments.optional_point("stack_axis");
     if (!axis) return std::nullopt;
     const Vec3 direction = axis->stableNormalized();
     if (direction.allFinite() && direction.norm() > 0.5) return direction;
     throw UsageError(operation + ": stack_axis = " + to_text(*axis) +
-                     " has no direction: give three numbers that are not all 0");
+                     " has no direction: give three numbers, not all of them 0");
 }
 
-/// A flat end has a normal that many faces share, but is no staircase.
+/// A flat end has a normal shared by many faces, but is no staircase.
 Surface without_caps(const Surface& surface, const std::vector<Cap>& caps) {
     std::vector<std::uint8_t> on_cap(surface.triangle_count(), 0);
     for (const Cap& cap : caps)
@@ -49,7 +49,7 @@ Surface without_caps(const Surface& surface, const std::vector<Cap>& caps) {
     return make_surface(surface.points(), std::move(wall));
 }
 
-/// Where the stack axis comes from: the user, the image, or the surface itself.
+/// Source of the stack axis: the user, the image, or the surface itself.
 Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder& finder,
                 Arguments& arguments, Json& report) {
     if (const auto given = given_stack_axis(arguments, operation)) {
@@ -67,8 +67,8 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder&
     report["stack_axis_confidence"] = estimate.confidence;
     if (!estimate.certain)
         throw AlgorithmFailure(
-            "the direction of the image stack is uncertain: the surface comes from no image and "
-            "shows too few staircases; give stack_axis=x,y,z, or staircase=false");
+            "the direction of the image stack is uncertain: the surface has no image and too few "
+            "staircases; give stack_axis=x,y,z, or staircase=false");
     report["stack_axis_from"] = "estimate";
     arguments.set("stack_axis", estimate.direction);
     return estimate.direction;
@@ -92,7 +92,7 @@ std::vector<double> staircase_part(const Scene& scene, const WeightSettings& set
     return std::move(found.weights);
 }
 
-/// The names of the neighbours that count: those given, or all that are loaded.
+/// The names of the neighbours to consider: those given, or all that are loaded.
 std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& arguments,
                                          const std::string& operation) {
     std::vector<std::string> names;
@@ -105,7 +105,7 @@ std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& ar
     if (names.empty())
         throw InvalidInput(
             operation +
-            ": distance awareness needs a neighbour, and there is none: use load-neighbour");
+            ": distance awareness needs a neighbour, but there is none: use load-neighbour");
     return names;
 }
 
@@ -116,7 +116,7 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
         const auto found = scene.neighbours.find(name);
         if (found == scene.neighbours.end())
             throw InvalidInput(operation + ": there is no neighbour '" + name +
-                               "': use load-neighbour, or name others by neighbours=");
+                               "': use load-neighbour, or name others with neighbours=");
         const Surface& surface = found->second;
         if (surface.empty())
             throw InvalidInput(operation + ": the neighbour '" + name +
@@ -130,7 +130,8 @@ std::vector<double> distance_part(const Scene& scene, const std::string& operati
                                   ContextFinder& finder, Arguments& arguments, Json& report) {
     const std::string& name = arguments.text("distance");
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
-    arguments.set("neighbours", joined(names, ","));  // one loaded later changes nothing here
+    arguments.set("neighbours",
+                  joined(names, ","));  // fixed, so that neighbours loaded later change nothing
     const DistanceParameters parameters{.scaling = name == "margin" ? DistanceScaling::Margin
                                                    : name == "exponential"
                                                        ? DistanceScaling::Exponential
@@ -148,11 +149,11 @@ std::vector<double> painted_part(const Surface& surface, const std::string& name
     const auto attribute = surface.attributes.find(name);
     if (attribute == surface.attributes.end())
         throw InvalidInput(operation + ": the surface has no attribute '" + name +
-                           "' to weigh with");
+                           "' to use as weights");
     for (const double weight : *attribute->second)
         if (!(weight >= 0.0 && weight <= 1.0))
             throw InvalidInput(operation + ": the attribute '" + name +
-                               "' holds values outside of [0, 1]");
+                               "' has values outside [0, 1]");
     return *attribute->second;
 }
 
@@ -163,11 +164,12 @@ std::string why_all_is_kept(const Json& report, const Arguments& resolved) {
     const double margin = resolved.real("margin");
     const double farthest = report.value("largest_neighbour_distance_mm", 0.0);
     if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
-        text << "no vertex bends by more than tau_theta = " << to_text(resolved.real("tau_theta"))
-             << "; a smaller one finds smoother staircases";
+        text << "the surface bends nowhere by more than tau_theta = "
+             << to_text(resolved.real("tau_theta"))
+             << "; a smaller value finds smoother staircases";
     else if (resolved.text("distance") == "margin" && margin >= farthest)
-        text << "all of the surface lies within the margin of " << margin
-             << " mm, its farthest vertex " << farthest << " mm from a neighbour";
+        text << "the whole surface is within the margin of " << margin
+             << " mm; its farthest vertex is " << farthest << " mm from a neighbour";
     return text.str();
 }
 
@@ -184,22 +186,22 @@ std::vector<Parameter> staircase_parameter_table(const WeighedAction& action) {
         {.name = "staircase", .type = Flag, .default_value = false, .help = action.staircase_help},
         {.name = "stack_axis",
          .type = Point,
-         .help = "direction across the image's slices, in patient coordinates; known from the "
-                 "image, or estimated from the surface, when left out",
+         .help = "direction across the image's slices, in patient coordinates; default: from the "
+                 "image, or estimated from the surface",
          .only_with = when_staircase},
         {.name = "tau_theta",
          .unit = "-",
          .default_value = 0.7,
-         .help = "how sharply a surface must bend across the slices to be a staircase: 1 is a "
-                 "right angle; smaller finds smoother staircases",
+         .help = "how sharply a surface must bend across the slices to count as a staircase: 1 is "
+                 "a right angle; smaller values find smoother staircases",
          .minimum = 0.0,
          .maximum = 1.0,
          .only_with = when_staircase},
         {.name = "tau_max",
          .unit = "mm",
          .default_value = 3.0,
-         .help =
-             "how far around staircases the " + action.doing + " fades out; about a slice distance",
+         .help = "how far around staircases the " + action.doing +
+                 " fades out; about one slice distance",
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = when_staircase}};
@@ -211,37 +213,37 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
         {.name = "distance",
          .type = Choice,
          .default_value = std::string("none"),
-         .help = "keep what is near the structures of load-neighbour; the nearest vertex gets "
-                 "no " +
+         .help = "preserve the surface near the structures of load-neighbour; the nearest vertex "
+                 "gets no " +
                  action.doing +
-                 ", the farthest all of it, and between them it grows evenly (linear), from a "
-                 "margin on, or late and fast (exponential)",
+                 ", the farthest vertex all of it; in between it grows linearly (linear), linearly "
+                 "from a margin on (margin), or late and fast (exponential)",
          .choices = {"none", "linear", "margin", "exponential"}},
         {.name = "neighbours",
          .type = Text,
-         .help = "names of the neighbours that count, a,b,...; all that are loaded by then when "
-                 "left out",
+         .help = "names of the neighbours to consider, a,b,...; default: all that are loaded",
          .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
         {.name = "margin",
          .unit = "mm",
          .default_value = 2.0,
-         .help = "vertices that are this near to a neighbour " + action.kept,
+         .help = "vertices this close to a neighbour " + action.kept,
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = Condition{"distance", {"margin"}}},
         {.name = "omega",
          .unit = "1/mm",
          .default_value = 0.06,
-         .help = "how late the " + action.doing +
-                 " sets in: near 0 as linear; larger keeps more of what "
-                 "is near",
+         .help =
+             "how late the " + action.doing +
+             " sets in: near 0 as with linear; larger values preserve more of the surface nearby",
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = Condition{"distance", {"exponential"}}},
         {.name = "painted",
          .type = Text,
-         .help = "name of a vertex attribute in [0, 1], as brush-weight paints: vertices of 0 " +
-                 action.kept + ", 1 " + action.painted_one}};
+         .help =
+             "name of a vertex attribute in [0, 1], as painted by brush-weight: vertices of 0 " +
+             action.kept + ", 1 " + action.painted_one}};
 }
 
 void check_stack_axis(const Arguments& arguments, const std::string& operation) {

@@ -11,15 +11,15 @@
 
 namespace vesselbench {
 
-// Weights from a surface's context (thesis 5.2, 5.3): staircases, neighbours, paint. They say how
-// much of an operation a vertex gets, whatever it does; 1 is all of it.
+// Weights from a surface's context (thesis 5.2, 5.3): staircases, neighbours, paint. A weight is
+// the fraction of an operation's effect on a vertex; 1 is all of it.
 
-/// How an operation that is weighed speaks of itself in helps.
+/// The words of a weighted operation for help texts.
 struct WeighedAction {
     std::string doing;           ///< "smoothing"
     std::string staircase_help;  ///< of the flag `staircase`
-    std::string kept;            ///< what vertices of weight 0 do: "do not move"
-    std::string painted_one;     ///< what weight 1 does to a vertex: "smooths it"
+    std::string kept;            ///< effect of weight 0 on vertices: "do not move"
+    std::string painted_one;     ///< effect of weight 1 on vertices: "are smoothed in full"
 };
 
 /// staircase, stack_axis, tau_theta, tau_max
@@ -28,38 +28,38 @@ struct WeighedAction {
 /// distance, neighbours, margin, omega, painted
 [[nodiscard]] std::vector<Parameter> distance_parameter_table(const WeighedAction& action);
 
-/// What the arguments above do not say.
+/// Settings not covered by the arguments above.
 struct WeightSettings {
     std::string operation;           ///< named in error texts
-    double beta_min = 0.0;           ///< weight of what is no staircase, in [0, 1] [-]
+    double beta_min = 0.0;           ///< weight outside staircases, in [0, 1] [-]
     double cap_weight = 0.0;         ///< of caps, which are no staircases, in [0, 1] [-]
     bool thesis_scaling = false;     ///< Eq. 5.5 as printed
     std::vector<std::uint8_t> caps;  ///< 1 at their vertices, #V
 };
 
-/// Checks the stack axis, also of one that has no effect.
+/// Checks the stack axis, even if it has no effect.
 /// \throw UsageError if it has no direction
 void check_stack_axis(const Arguments& arguments, const std::string& operation);
 
-/// The product of all weights that the arguments ask for; fills in what it decided (stack_axis,
+/// The product of all weights that the arguments request; fills in its decisions (stack_axis,
 /// neighbours).
 /// \param finder of the scene's surface
-/// \param report what was found is added here
+/// \param report receives the findings
 /// \return #V; empty: 1 everywhere
-/// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks what they name;
-/// AlgorithmFailure if the stack orientation is uncertain
+/// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks something they
+/// name; AlgorithmFailure if the stack orientation is uncertain
 [[nodiscard]] std::vector<double> context_weights(const Scene& scene,
                                                   const WeightSettings& settings,
                                                   ContextFinder& finder, Arguments& arguments,
                                                   nlohmann::ordered_json& report);
 
-/// What takes the weight from all of the surface: thresholds that find no staircase, or a margin
-/// that nothing is beyond; empty if neither does.
+/// The reason if the weights are 0 on the whole surface: thresholds that find no staircase, or a
+/// margin that covers everything; else empty.
 /// \param report, resolved after context_weights
 [[nodiscard]] std::string why_all_is_kept(const nlohmann::ordered_json& report,
                                           const Arguments& resolved);
 
-/// Distance of the position that is nearest to a neighbour [mm]; 0 inside.
+/// Smallest distance of a position from a neighbour [mm]; 0 inside.
 /// \throw InvalidInput if there is no neighbour, or one without triangles
 [[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
                                                  const std::string& operation,

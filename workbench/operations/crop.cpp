@@ -30,7 +30,7 @@ Region region_from(const Arguments& arguments) {
         region.low = Vec3(numbers[0], numbers[1], numbers[2]);
         region.high = Vec3(numbers[3], numbers[4], numbers[5]);
         if (!((region.high - region.low).minCoeff() > 0.0))
-            throw UsageError("crop: box is empty: x1, y1, z1 must lie above x0, y0, z0");
+            throw UsageError("crop: box is empty: x1, y1, z1 must be above x0, y0, z0");
     } else {
         region.centre = arguments.point("centre");
         region.radius = arguments.real("radius");
@@ -51,7 +51,7 @@ Surface cropped(const Surface& surface, const Region& region) {
 Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Region region = region_from(arguments);
     if (!scene.image && !scene.surface)
-        throw InvalidInput("there is nothing to crop: use load-image or load-surface first");
+        throw InvalidInput("nothing to crop: use load-image or load-surface first");
     Outcome outcome;
     outcome.scene = scene;
     outcome.resolved = arguments;
@@ -81,31 +81,33 @@ Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress)
 
 Operation crop_operation() {
     using enum ParameterType;
-    return {.name = "crop",
-            .usual_step = Step::Source,
-            .allowed = {Step::Source},
-            .summary = "keep a region of interest of image, mask and surface",
-            .parameters =
-                {{.name = "box",
-                  .type = List,
-                  .unit = "mm",
-                  .help = "opposite corners x0,y0,z0,x1,y1,z1 of the region, patient coordinates "
-                          "(LPS); an image keeps its voxel grid, so its part may reach further"},
-                 {.name = "centre",
-                  .type = Point,
-                  .unit = "mm",
-                  .help = "centre of a ball (LPS); of an image its bounding box is kept"},
-                 {.name = "radius",
-                  .unit = "mm",
-                  .help = "radius of the ball",
-                  .minimum = 0.0,
-                  .above_minimum = true},
-                 {.name = "component",
-                  .type = Choice,
-                  .default_value = "largest",
-                  .help = "which pieces of a cut surface stay: the one of largest area, or all",
-                  .choices = {"largest", "all"}}},
-            .run = &crop};
+    return {
+        .name = "crop",
+        .usual_step = Step::Source,
+        .allowed = {Step::Source},
+        .summary = "keep a region of interest of image, mask and surface",
+        .parameters =
+            {{.name = "box",
+              .type = List,
+              .unit = "mm",
+              .help = "opposite corners x0,y0,z0,x1,y1,z1 of the region, patient coordinates "
+                      "(LPS); an image keeps its voxel grid, so it may extend farther"},
+             {.name = "centre",
+              .type = Point,
+              .unit = "mm",
+              .help = "centre of a ball (LPS); an image keeps the ball's bounding box"},
+             {.name = "radius",
+              .unit = "mm",
+              .help = "radius of the ball",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "component",
+              .type = Choice,
+              .default_value = "largest",
+              .help =
+                  "which pieces of a cut surface are kept: the one with the largest area, or all",
+              .choices = {"largest", "all"}}},
+        .run = &crop};
 }
 
 }  // namespace vesselbench

@@ -8,7 +8,7 @@ void warn_of_crossings(const TakenBack& taken, const std::string& mover, const s
                        Outcome& outcome) {
     if (taken.vertices == 0) return;
     std::string text = counted(taken.vertices, "vertex", "vertices") + " moved less than the " +
-                       mover + " wanted, first near " + place_text(taken.place) +
+                       mover + " would have moved them, first near " + place_text(taken.place) +
                        ": walls would have passed through each other";
     if (taken.crossings_left > 0)
         text += "; " + counted(taken.crossings_left, "pair of triangles", "pairs of triangles") +

@@ -7,9 +7,9 @@
 
 namespace vesselbench {
 
-/// Tells what was taken back so that walls do not pass through each other; nothing if nothing was.
-/// \param mover what wanted to move them: "filter", "brush"
-/// \param remedy for crossings that are left
+/// Warns if displacements were reverted to keep walls from passing through each other.
+/// \param mover the cause: "filter", "brush"
+/// \param remedy for the remaining crossings
 void warn_of_crossings(const TakenBack& taken, const std::string& mover, const std::string& remedy,
                        Outcome& outcome);
 

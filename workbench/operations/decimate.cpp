@@ -22,11 +22,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kUsualShare = 0.5;
 
-/// The arguments' target; decides for half of the triangles where they name none.
+/// The arguments' target; half of the triangles if they name none.
 DecimateParameters target_from(const Surface& surface, Arguments& arguments) {
     const bool counted = arguments.has("triangles");
     if (arguments.has("share") && counted)
-        throw UsageError("decimate: share and triangles say the same thing: give one of them");
+        throw UsageError("decimate: share and triangles exclude each other: give one of them");
     if (!arguments.has("share") && !counted && !arguments.has("max_error"))
         arguments.set("share", kUsualShare);
     DecimateParameters target{.max_error = arguments.optional_real("max_error")};
@@ -42,7 +42,8 @@ std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json&
     const auto finder = make_cpu_finder(surface);
     WeightSettings settings{.operation = "decimate", .beta_min = arguments.real("beta_min")};
     if (arguments.flag("staircase")) {
-        settings.cap_weight = settings.beta_min;  // a flat end is no staircase, nor to be spared
+        settings.cap_weight =
+            settings.beta_min;  // a flat end is neither a staircase nor to be preserved
         settings.caps = cap_vertices(finder->caps(), surface.vertex_count());
     }
     return context_weights(scene, settings, *finder, arguments, report);
@@ -66,7 +67,7 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["equiangle_skewness_after_mean"] = mean_skewness(after);
 }
 
-/// The same places for any beta_min: 1 where the weight is largest, 0 where it is least.
+/// The same parts for any beta_min: 1 at the largest weight, 0 at the smallest.
 std::vector<double> stretched(std::vector<double> weights) {
     const auto [least, largest] = std::ranges::minmax(weights);
     if (!(largest > least)) return weights;
@@ -84,7 +85,7 @@ void add_split(Json& report, const std::string& prefix, const Surface& before, c
     report[prefix + "outside_largest_distance_mm"] = found.outside.largest;
 }
 
-/// What the weights gain: the same figures for as many triangles without them.
+/// The gain of the weights: the same figures for as many triangles without them.
 void add_gain(Json& report, const Surface& before, const Surface& after,
               const std::vector<double>& weights, const Progress& progress) {
     double sum = 0.0;
@@ -92,27 +93,27 @@ void add_gain(Json& report, const Surface& before, const Surface& after,
     report["mean_weight"] = sum / static_cast<double>(weights.size());
     const std::vector<double> parts = stretched(weights);
     add_split(report, "", before, after, parts);
-    progress.report(0.0, "decimating without weights, to compare");
+    progress.report(0.0, "decimating without weights, for comparison");
     const Decimated plain = decimate(before, {.triangles = after.triangle_count()}, {}, progress);
     report["unweighted_triangles_after"] = plain.surface.triangle_count();
     add_split(report, "unweighted_", before, plain.surface, parts);
 }
 
-/// Why fewer triangles could not be had.
+/// Why fewer triangles are not possible.
 std::string what_stops(const DecimateReport& figures) {
     const std::string others = "fold the surface over, or lose a part of it";
     if (figures.vertices_locked == 0) return others;
-    return "let walls cross that all but touch, near which " +
-           counted(figures.vertices_locked, "vertex", "vertices") + " stayed, " + others;
+    return "make walls cross that almost touch (" +
+           counted(figures.vertices_locked, "vertex", "vertices") + " kept there), " + others;
 }
 
-/// What the weights have to do with a result that has as many triangles as before.
+/// How the weights explain a result with as many triangles as before.
 std::string why_nothing_went(const Json& report, const Arguments& resolved) {
     if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty())
         return reason;
     return report.contains("mean_weight")
-               ? "no place that weighs anything could go at this max_error"
-               : "no edge could go at this max_error; a larger one lets more go";
+               ? "no triangle with a weight above 0 can be removed at this max_error"
+               : "no edge can be collapsed at this max_error; a larger one permits more";
 }
 
 void warn(const DecimateReport& figures, const DecimateParameters& target, const Json& report,
@@ -121,10 +122,9 @@ void warn(const DecimateReport& figures, const DecimateParameters& target, const
     const bool idle = target.triangles && *target.triangles >= figures.triangles_before;
     const bool nothing_went = figures.triangles_after == figures.triangles_before;
     if (idle)
-        add("nothing to do: the surface has no more than " +
-            counted(*target.triangles, "triangle"));
+        add("nothing to do: the surface has at most " + counted(*target.triangles, "triangle"));
     else if (nothing_went && target.max_error)
-        add("all triangles stay: " + why_nothing_went(report, outcome.resolved));
+        add("all triangles are kept: " + why_nothing_went(report, outcome.resolved));
     else if (const auto found = report.find("staircase_vertices");
              found != report.end() && *found == 0)
         add("there are no staircases: " + why_all_is_kept(report, outcome.resolved));
@@ -133,27 +133,28 @@ void warn(const DecimateReport& figures, const DecimateParameters& target, const
             std::to_string(*target.triangles) + ": fewer would " + what_stops(figures));
     if (figures.kept_vertices_lost > 0)
         add(counted(figures.kept_vertices_lost, "vertex", "vertices") +
-            " of weight 0 went or moved, so that the rest was not ruined; keep more triangles");
+            " of weight 0 were removed or moved, to avoid ruining the rest; keep more triangles");
     if (figures.crossings_left > 0)
-        add("walls that all but touch near " + place_text(figures.crossing) + " cross in " +
+        add("walls that almost touch near " + place_text(figures.crossing) + " cross in " +
             counted(figures.crossings_left, "place") +
-            " now; ask for more triangles, or separate the walls first");
+            " now; keep more triangles, or separate the walls first");
 }
 
-/// Said where decimation without weights leaves what they keep nearer to where it was.
+/// Warns if decimation without weights preserves the kept part better.
 void warn_of_loss(const Json& report, Outcome& outcome) {
     if (!report.contains("unweighted_outside_mean_distance_mm")) return;
     const double with = report.at("outside_mean_distance_mm"),
                  without = report.at("unweighted_outside_mean_distance_mm");
     constexpr double kNoticeable = 1.05;
     if (with <= kNoticeable * without) return;
-    outcome.warnings.push_back(
-        "the weights gain nothing: what they keep is " + formatted(with) +
-        " mm off on average, and without them it would be " + formatted(without) +
-        " mm, for too little is free to pay for it; keep more triangles, or decimate without them");
+    outcome.warnings.push_back("the weights gain nothing: the part they keep is " +
+                               formatted(with) + " mm off on average, and would be " +
+                               formatted(without) +
+                               " mm off without them, because the free part is too small to pay "
+                               "for it; keep more triangles, or decimate without weights");
 }
 
-/// What the arguments make of the scene, before figures are added.
+/// The operation's inputs from the scene, before figures are added.
 struct Run {
     Outcome outcome;
     Json report;  ///< on the context
@@ -167,7 +168,7 @@ Run decimated_by(const Scene& scene, const Arguments& arguments, const Progress&
     Run run;
     run.outcome.resolved = arguments;
     run.target = target_from(before, run.outcome.resolved);
-    progress.report(0.0, "looking at the context");
+    progress.report(0.0, "finding the context");
     run.weights = weights_from(scene, run.outcome.resolved, run.report);
     Decimated decimated = decimate(before, run.target, run.weights, progress.part(0.2, 1.0));
     run.decimated = decimated.report;
@@ -219,29 +220,28 @@ std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = {
         {.name = "share",
          .unit = "-",
-         .help = "share of the triangles that is kept; 0.5 when neither triangles nor max_error "
-                 "is given",
+         .help = "fraction of the triangles to keep; default 0.5, unless triangles or max_error is "
+                 "given",
          .minimum = 0.0,
          .maximum = 1.0,
          .above_minimum = true},
         {.name = "triangles",
          .type = ParameterType::Integer,
-         .help = "number of triangles that is kept, instead of share",
+         .help = "number of triangles to keep, instead of share",
          .minimum = 4},
         {.name = "max_error",
          .unit = "mm",
-         .help = "stop where the surface would come to be farther than this from what it was; "
-                 "alone, or before share or triangles is reached. What weighs less may only move "
-                 "by that much less",
+         .help = "largest distance from the original surface; alone, or as a limit before share or "
+                 "triangles is reached. Where the weight is smaller, the limit is smaller in "
+                 "proportion",
          .minimum = 0.0,
          .above_minimum = true}};
-    const WeighedAction action{
-        .doing = "decimation",
-        .staircase_help =
-            "decimate staircases of the image's slices first, which are inaccurate "
-            "anyway, and less and less around them",
-        .kept = "go last, and not at all under max_error",
-        .painted_one = "lets it go like any other"};
+    const WeighedAction action{.doing = "decimation",
+                               .staircase_help =
+                                   "decimate the staircases of the image's slices first, which are "
+                                   "inaccurate anyway, fading out around them",
+                               .kept = "are decimated last, and not at all with max_error",
+                               .painted_one = "like all others"};
     const auto add = [&](const std::vector<Parameter>& more) {
         table.insert(table.end(), more.begin(), more.end());
     };
@@ -249,9 +249,8 @@ std::vector<Parameter> parameter_table() {
     add({{.name = "beta_min",
           .unit = "-",
           .default_value = 0.3,
-          .help =
-              "how much of the error [mm] of staircases all that is none may get: near 0 is kept "
-              "as long as that ruins no staircase, 1 is decimated as staircases are",
+          .help = "fraction of the staircases' error [mm] allowed elsewhere: near 0 the rest is "
+                  "kept as long as that ruins no staircase, 1 decimates it like staircases",
           .minimum = 0.0,
           .maximum = 1.0,
           .only_with = Condition{"staircase", {"true"}}}});
@@ -267,8 +266,8 @@ Operation decimate_operation() {
             .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
                         Step::Smoothing, Step::Deformation, Step::Remeshing},
             .summary =
-                "cover the surface with fewer triangles, fewest where the context allows; rims, "
-                "flat caps and patches stay",
+                "reduce the number of triangles, most where the context allows it; rims, flat caps "
+                "and patches are kept",
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
             .thesis = "5.6, 7.2",

@@ -16,11 +16,11 @@ namespace vesselbench {
 
 namespace {
 
-/// Bodies left out that are larger than this part of the kept one are worth a warning.
+/// Dropped bodies that are larger than this fraction of the kept one cause a warning.
 constexpr double kNoticeable = 0.05;
 
 const Image& image_of(const Scene& scene) {
-    if (!scene.image) throw InvalidInput("there is no image yet: use load-image");
+    if (!scene.image) throw InvalidInput("there is no image: use load-image first");
     return *scene.image;
 }
 
@@ -37,7 +37,7 @@ std::vector<int> labels_from(const Arguments& arguments) {
     if (!arguments.has("labels")) return labels;
     for (const double label : arguments.list("labels")) {
         if (label != std::floor(label) || label < 1.0 || label > 1e6)
-            throw UsageError("extract-surface: labels are whole numbers from 1 on");
+            throw UsageError("extract-surface: labels are integers, 1 or above");
         labels.push_back(static_cast<int>(label));
     }
     return labels;
@@ -55,7 +55,7 @@ ExtractionParameters parameters_from(const Arguments& arguments, bool with_mask)
     ExtractionParameters parameters;
     parameters.method = method_from(arguments);
     if (arguments.has("iso") && arguments.has("threshold"))
-        throw UsageError("extract-surface: iso and threshold are the same value: give one of them");
+        throw UsageError("extract-surface: iso and threshold are synonyms: give one of them");
     parameters.threshold = arguments.optional_real(arguments.has("iso") ? "iso" : "threshold");
     if (const auto inside = arguments.optional_text("inside"))
         parameters.inside_below = *inside == "below";
@@ -70,7 +70,7 @@ ExtractionParameters parameters_from(const Arguments& arguments, bool with_mask)
     return parameters;
 }
 
-/// Everything that was decided, so that a replay decides nothing.
+/// All decisions, so that a replay repeats them.
 Arguments resolved_from(const Arguments& given, const Extraction& extraction) {
     Arguments resolved = given;
     resolved.set("method", to_string(extraction.method));
@@ -128,9 +128,9 @@ std::vector<std::string> warnings_of(const Extraction& extraction) {
     const double kept = volume(extraction.surface);
     if (extraction.largest_dropped > kNoticeable * kept) {
         std::ostringstream text;
-        text << "there are " << extraction.bodies << " bodies; the largest one left out has "
+        text << "there are " << extraction.bodies << " bodies; the largest one dropped has "
              << extraction.largest_dropped << " mm^3 (kept: " << kept
-             << "): seed= chooses another one, component=all keeps them all";
+             << "): choose another one with seed=, or keep all with component=all";
         warnings.push_back(text.str());
     }
     if (extraction.before && !(*extraction.before == *extraction.after)) {
@@ -144,17 +144,17 @@ std::vector<std::string> warnings_of(const Extraction& extraction) {
     if (extraction.surface.patches.size() > 1)
         warnings.push_back("the vessel leaves the image in " +
                            counted(extraction.surface.patches.size() - 1, "place") +
-                           "; it is closed flat there (patches cut_1 ...)");
+                           "; it is closed by flat caps there (patches cut_1 ...)");
     return warnings;
 }
 
-/// Labels are whole numbers; an image with fractions was most likely measured.
+/// Labels are integers; an image with fractions was most likely measured.
 void warn_of_fractions(const Image& image, Outcome& outcome) {
     const auto fraction =
         std::ranges::find_if(*image.voxels, [](float v) { return v != std::floor(v); });
     if (fraction == image.voxels->end()) return;
-    outcome.warnings.push_back("the image holds " + to_text(*fraction) +
-                               " and is no map of labels: method=threshold is for intensities");
+    outcome.warnings.push_back("the image contains " + to_text(*fraction) +
+                               " and is not a label map: use method=threshold for intensities");
 }
 
 class LiveExtraction final : public ReplacingStepper {
@@ -208,31 +208,34 @@ std::vector<Parameter> source_parameters() {
          .choices = {"auto", "threshold", "labels", "masked"}},
         {.name = "threshold",
          .unit = "-",
-         .help = "image value that bounds the vessel; when left out: Otsu's on the brightest "
+         .help = "image value at the vessel's boundary; default: Otsu's threshold of the brightest "
                  "voxels, 0 for a level set, with a mask midway between inside and around it"},
-        {.name = "iso", .unit = "-", .help = "another name of threshold, for level sets"},
+        {.name = "iso", .unit = "-", .help = "synonym of threshold, for level sets"},
         {.name = "inside",
          .type = Choice,
-         .help = "side of the threshold on which the vessel lies; when left out: above, or "
-                 "for a level set the side away from the image's border",
+         .help = "side of the threshold on which the vessel lies; default: above, or for a level "
+                 "set the side away from the image's border",
          .choices = {"above", "below"}},
         {.name = "labels",
          .type = List,
-         .help = "labels that are the vessel, as 1,2,3; when left out: every label above 0",
+         .help = "labels of the vessel, as 1,2,3; default: every label above 0",
          .minimum = 1},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",
          .default_value = std::int64_t{1},
-         .help = "by how much the mask grows before it limits the intensities",
+         .help = "dilation of the mask before it limits the intensities",
          .minimum = 0,
          .maximum = 50},
         {.name = "component",
          .type = Choice,
          .default_value = "largest",
-         .help = "which bodies are kept; seed overrides it",
+         .help = "which bodies to keep; seed overrides it",
          .choices = {"largest", "all"}},
-        {.name = "seed", .type = Point, .unit = "mm", .help = "point in the wanted vessel (LPS)"}};
+        {.name = "seed",
+         .type = Point,
+         .unit = "mm",
+         .help = "point inside the vessel to keep (LPS)"}};
 }
 
 std::vector<Parameter> cleaning_parameters() {
@@ -245,8 +248,8 @@ std::vector<Parameter> cleaning_parameters() {
              .maximum = 1000},
             {.name = "contrast",
              .unit = "-",
-             .help = "differences above it count as edges for the diffusion; when left out: from "
-                     "the image's noise",
+             .help = "differences above it count as edges in the diffusion; default: from the "
+                     "image's noise",
              .minimum = 0.0,
              .above_minimum = true},
             {.name = "gaussian",
@@ -259,20 +262,20 @@ std::vector<Parameter> cleaning_parameters() {
              .type = Integer,
              .unit = "voxels",
              .default_value = std::int64_t{0},
-             .help = "removes what is thinner than twice this and one voxel; 0: none",
+             .help = "removes structures thinner than twice this plus one voxel; 0: none",
              .minimum = 0,
              .maximum = 50},
             {.name = "closing",
              .type = Integer,
              .unit = "voxels",
              .default_value = std::int64_t{0},
-             .help = "fills gaps narrower than twice this and one voxel; 0: none",
+             .help = "fills gaps narrower than twice this plus one voxel; 0: none",
              .minimum = 0,
              .maximum = 50},
             {.name = "resample",
              .unit = "mm",
-             .help = "edge of cubic voxels to resample to (cubic B-spline; masks by shape); when "
-                     "left out: the image's own voxels",
+             .help = "edge of cubic voxels to resample to (cubic B-spline; masks by shape); "
+                     "default: the image's own voxels",
              .minimum = 0.0,
              .above_minimum = true}};
 }

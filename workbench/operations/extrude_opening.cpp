@@ -70,7 +70,7 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         if (made.shortened) {
             std::ostringstream text;
             text << "the extrusion of '" << names[i] << "' is " << made.length << " mm instead of "
-                 << parameters.length << " mm long: another part of the surface is in its way";
+                 << parameters.length << " mm long: another part of the surface is in the way";
             outcome.warnings.push_back(text.str());
         }
         surface = made.surface;
@@ -95,11 +95,11 @@ Operation extrude_opening_operation() {
     return {.name = "extrude-opening",
             .usual_step = Step::Openings,
             .allowed = {Step::Openings, Step::Smoothing, Step::Deformation},
-            .summary = "lengthen vessels straight ahead at their openings",
+            .summary = "lengthen vessels straight at their openings",
             .parameters =
                 {{.name = "opening",
                   .type = Text,
-                  .help = "names of the openings, separated by commas; without it all of them"},
+                  .help = "names of the openings, separated by commas; default: all"},
                  {.name = "diameters",
                   .unit = "-",
                   .default_value = 3.0,
@@ -109,27 +109,26 @@ Operation extrude_opening_operation() {
                   .above_minimum = true},
                  {.name = "length",
                   .unit = "mm",
-                  .help = "length; without it that in diameters holds",
+                  .help = "length; default: diameters",
                   .minimum = 0.0,
                   .above_minimum = true},
                  {.name = "profile",
                   .type = Choice,
                   .default_value = "circle",
-                  .help = "circle: the section turns into a circle of the same area; keep: it "
-                          "stays as it is",
+                  .help = "circle: the section becomes a circle of the same area; keep: it is kept",
                   .choices = {"circle", "keep"}},
                  {.name = "blend",
                   .unit = "-",
                   .default_value = 0.5,
-                  .help = "share of the length over which the section turns into a circle",
+                  .help = "fraction of the length over which the section becomes a circle",
                   .minimum = 0.0,
                   .maximum = 1.0,
                   .above_minimum = true},
                  {.name = "lengths",
                   .type = List,
                   .unit = "mm",
-                  .help = "what an earlier run decided: the length of each opening, which may be "
-                          "shorter where another vessel is in the way"}},
+                  .help = "decisions of an earlier run: the length at each opening, which may be "
+                          "shorter if another vessel is in the way"}},
             .run = &extrude,
             .thesis = "4.2.8"};
 }

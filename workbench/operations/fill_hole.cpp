@@ -36,7 +36,7 @@ Outcome fill(const Scene& scene, const Arguments& arguments, Progress& progress)
     const auto near = arguments.optional_point("near");
     const std::size_t holes = surface.topology->boundary_loops().size();
     if (holes == 0)
-        throw AlgorithmFailure("fill-hole: the surface is closed, there is no hole to fill");
+        throw AlgorithmFailure("fill-hole: the surface is closed: there is no hole to fill");
     ordered_json report = ordered_json::array();
     for (std::size_t done = 0; done < (near ? 1 : holes); ++done) {
         progress.report(static_cast<double>(done) / static_cast<double>(holes), "filling");
@@ -71,8 +71,8 @@ Operation fill_hole_operation() {
             {{.name = "near",
               .type = Point,
               .unit = "mm",
-              .help = "a point near the hole's border; without it every hole is closed, open "
-                      "vessel ends too"},
+              .help = "a point near the hole's border; default: every hole, including open vessel "
+                      "ends"},
              {.name = "continuity",
               .type = Integer,
               .unit = "-",

@@ -7,9 +7,9 @@
 
 namespace vesselbench {
 
-/// Reads a surface file in a worker process, by the operation load-surface: whatever a damaged file
-/// does to its reader, the program lives. [mm]
-/// \param units of the file: "mm", "cm" or "m"; empty: mm, for a figure must not depend on a guess
+/// Reads a surface file in a worker process, by the operation load-surface: the program survives
+/// whatever a damaged file does to its reader. [mm]
+/// \param units of the file: "mm", "cm" or "m"; empty: mm, to avoid a guess
 /// \throw UsageError for other units; what read_surface throws; InvalidInput if the reader crashed
 [[nodiscard]] Surface read_foreign_surface(const std::string& file, const std::string& units = "",
                                            const Progress& progress = {});

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Component numbers by falling number of triangles; equal ones in the order of the file.
+/// Component numbers by descending number of triangles; equal ones in file order.
 std::vector<std::size_t> by_size(const Components& parts) {
     std::vector<std::size_t> order(parts.count());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -64,13 +64,13 @@ Operation keep_component_operation() {
             .parameters = {{.name = "seed",
                             .type = Point,
                             .unit = "mm",
-                            .help = "keep the part nearest to this point; without it the parts "
-                                    "with most triangles are kept"},
+                            .help = "keep the part nearest to this point; default: the parts with "
+                                    "the most triangles"},
                            {.name = "count",
                             .type = Integer,
                             .unit = "-",
                             .default_value = std::int64_t{1},
-                            .help = "how many of the largest parts are kept, if there is no seed",
+                            .help = "number of the largest parts to keep, without seed",
                             .minimum = 1}},
             .run = &keep,
             .thesis = "3.2"};

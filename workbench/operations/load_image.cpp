@@ -45,7 +45,7 @@ Image in_millimetres(const ImageFile& file, Outcome& outcome) {
         factor = millimetres_in(unit);
         std::ostringstream text;
         text << "the file states no unit and its voxels measure "
-             << file.image.spacing().transpose() << ": metres are taken; units= overrides it";
+             << file.image.spacing().transpose() << ": taken as metres; override with units=";
         outcome.warnings.push_back(text.str());
     }
     outcome.resolved.set("units", unit);
@@ -66,7 +66,7 @@ std::string size_text(const Image& image) {
 void check_same_place(const Image& image, const Image& mask) {
     if (mask.size != image.size)
         throw InvalidInput("the mask has " + size_text(mask) + " voxels, but the image has " +
-                           size_text(image) + ": give the mask that was made on this image");
+                           size_text(image) + ": give the mask made on this image");
     double apart = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 index(corner & 1 ? image.size[0] - 1 : 0, corner & 2 ? image.size[1] - 1 : 0,
@@ -76,13 +76,13 @@ void check_same_place(const Image& image, const Image& mask) {
     constexpr double kSamePlace = 0.1;  // voxels: rounded headers
     if (apart > kSamePlace * image.spacing().minCoeff()) {
         std::ostringstream text;
-        text << "the mask lies elsewhere than the image: their corners are up to " << apart
+        text << "the mask is at a different place than the image: their corners are up to " << apart
              << " mm apart; export it with the image's orientation and spacing";
         throw InvalidInput(text.str());
     }
 }
 
-/// A mask of labels as it is, or a level set made 1 inside and 0 outside.
+/// A mask of labels unchanged, or a level set converted to 1 inside and 0 outside.
 Image usable_mask(const Image& mask, Outcome& outcome) {
     Arguments& resolved = outcome.resolved;
     const ImageJudgement judgement = judge(mask);
@@ -90,8 +90,8 @@ Image usable_mask(const Image& mask, Outcome& outcome) {
     if (judgement.kind == ImageKind::Labels && !wants_iso) return mask;
     if (judgement.kind == ImageKind::Intensity && !resolved.has("mask_iso"))
         throw InvalidInput(
-            "the mask holds neither labels nor a level set: say with mask_iso= from "
-            "which value on it is inside");
+            "the mask holds neither labels nor a level set: give the value that bounds its inside "
+            "with mask_iso=");
     if (!wants_iso) outcome.warnings.push_back("mask: " + judgement.reason);
     if (!resolved.has("mask_iso")) resolved.set("mask_iso", 0.0);
     if (!resolved.has("mask_inside"))
@@ -99,7 +99,7 @@ Image usable_mask(const Image& mask, Outcome& outcome) {
     return mask_of_iso(mask, resolved.real("mask_iso"), resolved.text("mask_inside") == "below");
 }
 
-/// The patient directions that the axes point to, nearest first letters: "LPS", "RAI" ...
+/// The patient directions closest to the axes, as letters: "LPS", "RAI" ...
 std::string axis_letters(const Image& image) {
     static constexpr char kPositive[] = {'L', 'P', 'S'}, kNegative[] = {'R', 'A', 'I'};
     std::string letters;
@@ -135,7 +135,7 @@ void load_mask(const Arguments& arguments, const Image& image, Outcome& outcome,
     const Image usable = usable_mask(mask, outcome);
     const auto inside = std::count_if(usable.voxels->begin(), usable.voxels->end(),
                                       [](float v) { return v > 0.0f; });
-    if (inside == 0) throw InvalidInput("the mask is empty: no voxel of it lies inside");
+    if (inside == 0) throw InvalidInput("the mask is empty: none of its voxels is inside");
     report["mask_voxels"] = inside;
     report["mask_labels"] = labels_of(usable);
     outcome.scene.mask = usable;
@@ -178,17 +178,17 @@ Operation load_image_operation() {
                   .help = "segmentation on the same grid: labels (0 is outside) or a level set"},
                  {.name = "units",
                   .type = Choice,
-                  .help = "unit of length of the file; when left out: what the file states, else "
+                  .help = "unit of length of the file; default: the unit stated in the file, else "
                           "mm, or m if the voxels would be too small for mm",
                   .choices = {"mm", "cm", "m", "um"}},
                  {.name = "mask_iso",
                   .unit = "-",
-                  .help = "value that bounds the mask's inside; when left out: 0 for a level set, "
-                          "any label above 0 for labels"},
+                  .help = "value that bounds the mask's inside; default: 0 for a level set, any "
+                          "label above 0 for labels"},
                  {.name = "mask_inside",
                   .type = Choice,
-                  .help = "side of mask_iso that is inside; when left out: above, or for a level "
-                          "set the side away from the image's border",
+                  .help = "side of mask_iso that is inside; default: above, or for a level set the "
+                          "side away from the image's border",
                   .choices = {"above", "below"}}},
             .run = &load_image,
             .isolated = true,

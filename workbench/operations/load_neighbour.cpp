@@ -19,7 +19,7 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
     ExtractionParameters parameters{.method = ExtractionMethod::Labels, .bodies = Bodies::All};
     for (const double label : arguments.list("labels")) {
         if (label != std::floor(label) || label < 1.0 || label > 1e6)
-            throw UsageError("load-neighbour: labels are whole numbers from 1 on");
+            throw UsageError("load-neighbour: labels are integers, 1 or above");
         parameters.labels.push_back(static_cast<int>(label));
     }
     return extract_surface(*scene.image, scene.mask, parameters, progress).surface;
@@ -50,7 +50,7 @@ Operation load_neighbour_operation() {
     return {.name = "load-neighbour",
             .usual_step = Step::Source,
             .allowed = {Step::Source},
-            .summary = "add a neighbouring structure, whose distance smoothing can keep",
+            .summary = "add a neighbouring structure, whose distance smoothing can preserve",
             .parameters = {{.name = "name",
                             .type = Text,
                             .help = "its name; a second one of the same name replaces the first",
@@ -58,7 +58,7 @@ Operation load_neighbour_operation() {
                            {.name = "file", .type = File, .help = "a surface file"},
                            {.name = "labels",
                             .type = List,
-                            .help = "labels of the mask or label map instead, as 1,2,3",
+                            .help = "labels of the mask or label map instead of a file, as 1,2,3",
                             .minimum = 1},
                            units_parameter()},
             .run = &load,

@@ -50,7 +50,7 @@ Operation load_surface_operation() {
                        " file",
             .parameters = {{.name = "file",
                             .type = File,
-                            .help = "the surface file; its suffix tells the format",
+                            .help = "the surface file; its suffix determines the format",
                             .required = true},
                            units_parameter()},
             .run = &load,

@@ -71,7 +71,7 @@ Operation print_check_operation() {
     return {.name = "print-check",
             .usual_step = Step::Product,
             .allowed = {Step::Product},
-            .summary = "check that the model can be printed: watertight, thin places, narrow gaps",
+            .summary = "check the model for printing: watertight, thin places, narrow gaps",
             .parameters = {{.name = "thinnest",
                             .unit = "mm",
                             .default_value = 0.8,

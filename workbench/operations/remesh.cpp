@@ -44,7 +44,7 @@ Report report_from(const RemeshReport& figures) {
                                {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
 }
 
-/// The lines, if they are wanted and can be found; what was used is resolved.
+/// The centerlines, if they are wanted and can be found; the source used is resolved.
 std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outcome& outcome,
                                                    const Progress& progress) {
     if (outcome.resolved.text("radius") != "centerlines") return nullptr;
@@ -58,8 +58,7 @@ std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outco
     }
     outcome.resolved.set("radius", std::string("rays"));
     outcome.warnings.push_back(
-        "remesh measured the radius by rays across the lumen, for there are "
-        "no centerlines: " +
+        "remesh measured the radius by rays across the lumen, because there are no centerlines: " +
         reason);
     return nullptr;
 }
@@ -80,9 +79,9 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     outcome.report = report_from(figures);
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back(
-            "walls that all but touch near " + place_text(figures.crossing) +
-            " crossed when remeshed, and were parted there: triangles are worse, and the wall may "
-            "have moved; separate the walls or use a smaller edge if that part matters");
+            "walls that almost touch near " + place_text(figures.crossing) +
+            " crossed after remeshing and were separated there: triangles are worse, and the wall "
+            "may have moved; separate the walls or use a smaller edge if that part matters");
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
 }
@@ -90,7 +89,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
 std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool all) {
     const double radius = usual_radius(surface, local_radii(surface, nullptr));
     SearchedParameter edge{.name = "edge", .values = {}, .coarse = 3};
-    for (const double factor :  // 45 ... 9 triangles around, as the operation's 0.28 makes 22
+    for (const double factor :  // 45 ... 9 triangles around; the operation's 0.28 gives 22
          {0.14, 0.17, 0.2, 0.24, 0.28, 0.33, 0.4, 0.5, 0.6, 0.7}) {
         const double length = three_digits(factor * radius);
         const double triangle = std::sqrt(3.0) / 4.0 * length * length;
@@ -98,11 +97,11 @@ std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool 
     }
     if (edge.values.empty())
         throw InvalidInput(
-            "remesh: the vessel is so thin for its area that every edge length in question makes "
-            "more than 4 million triangles");
+            "remesh: the vessel is so thin for its area that every candidate edge length would "
+            "make more than 4 million triangles");
     if (!all) {
         edge.values.insert(edge.values.begin(), 0.0);
-        edge.idle = 0.0;  // the surface's triangles may be better than any
+        edge.idle = 0.0;  // the surface's own triangles may be better than any result
         return {edge};
     }
     return {edge, {.name = "gradation", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
@@ -117,7 +116,8 @@ Operation remesh_operation() {
         .usual_step = Step::Remeshing,
         .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
                     Step::Smoothing, Step::Deformation, Step::Remeshing},
-        .summary = "cover the surface with well-shaped triangles; rims, flat caps and patches stay",
+        .summary =
+            "remesh the surface with well-shaped triangles; rims, flat caps and patches are kept",
         .parameters =
             {{.name = "mode",
               .type = Choice,
@@ -127,30 +127,30 @@ Operation remesh_operation() {
               .choices = {"graded", "uniform"}},
              {.name = "edge",
               .unit = "mm",
-              .help = "edge length where the vessel has its usual radius (the median over the "
-                      "wall); 0.28 of that radius when left out, which puts 22 triangles around",
+              .help = "edge length at the vessel's typical radius (the median over the wall); "
+                      "default: 0.28 of that radius, which is 22 triangles around",
               .minimum = 0.0,
               .above_minimum = true},
              {.name = "min_edge",
               .unit = "mm",
-              .help = "graded: no edge shall be shorter; a fifth of edge when left out",
+              .help = "graded: shortest edge; default: a fifth of edge",
               .minimum = 0.0,
               .above_minimum = true},
              {.name = "max_edge",
               .unit = "mm",
-              .help = "graded: no edge shall be longer; twice edge when left out",
+              .help = "graded: longest edge; default: twice edge",
               .minimum = 0.0,
               .above_minimum = true},
              {.name = "radius",
               .type = Choice,
               .default_value = "centerlines",
-              .help = "where the vessel's radius comes from: centerlines, or rays across the lumen "
-                      "(faster, and taken by itself where no centerlines can be found)",
+              .help = "source of the vessel's radius: centerlines, or rays across the lumen "
+                      "(faster; also used if no centerlines can be found)",
               .choices = {"centerlines", "rays"}},
              {.name = "gradation",
               .unit = "-",
               .default_value = 1.5,
-              .help = "graded: neighbouring edges differ by at most this factor",
+              .help = "graded: largest ratio of neighbouring edge lengths",
               .minimum = 1.05,
               .maximum = 3.0}},
         .run = &run,

@@ -18,7 +18,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A branch's name survives an edit before it as long as its tip moves by less [radii of the tip].
+/// A branch's name survives an edit before it if its tip moves by less than this [radii of the
+/// tip].
 constexpr double kTipReach = 3.0;
 
 struct NamedBranch {
@@ -32,8 +33,8 @@ double distance_to_tip(const CenterlineGraph& graph, const Vec3& point) {
                : std::numeric_limits<double>::infinity();
 }
 
-/// The branch with its tip at a point; what the automatic search leaves out (a sac) gets a line of
-/// its own.
+/// The branch with its tip at a point; one that the automatic search leaves out (a sac) gets its
+/// own line.
 NamedBranch branch_at(const Surface& surface, const Vec3& point, Progress& progress) {
     auto graph = centerlines_of(surface, {}, progress.part(0.0, 0.4));
     const auto found = nearest_tip(*graph, point);
@@ -74,7 +75,7 @@ Operation remove_branch_operation() {
         .name = "remove-branch",
         .usual_step = Step::Branches,
         .allowed = {Step::Branches, Step::LocalRepair, Step::Openings},
-        .summary = "cut a branch or an aneurysm off at its root and renew the parent's wall",
+        .summary = "cut off a branch or an aneurysm at its root and rebuild the parent's wall",
         .parameters = {{.name = "tip",
                         .type = Point,
                         .unit = "mm",
@@ -83,8 +84,8 @@ Operation remove_branch_operation() {
                        {.name = "margin",
                         .unit = "-",
                         .default_value = 0.4,
-                        .help = "how far around the branch's foot the parent's wall is renewed, in "
-                                "radii of the branch; more where a wide fillet is left",
+                        .help = "width of the parent's wall to rebuild around the branch's foot, "
+                                "in radii of the branch; more where a wide fillet remains",
                         .minimum = 0.0,
                         .maximum = 3.0},
                        {.name = "continuity",

@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Of each kind of repair at most this many places are listed; all are counted.
+/// At most this many places of each kind of repair are listed; all are counted.
 constexpr std::size_t kMostPlaces = 50;
 
-/// A removed piece of more than this part of the triangles [-] is worth a warning.
+/// A removed piece of more than this fraction of the triangles [-] causes a warning.
 constexpr double kWorthAWarning = 0.01;
 
 ordered_json places_json(const std::vector<RepairPlace>& places) {
@@ -68,9 +68,9 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
         warnings.push_back("repair removed " +
                            counted(report.removed_components, "unconnected piece") + " with " +
                            counted(report.removed_component_triangles, "triangle") +
-                           "; keep_components= keeps more of them");
+                           "; keep more of them with keep_components=");
     if (report.turned_inside_out)
-        warnings.push_back("the surface was inside out and has been turned over");
+        warnings.push_back("the surface was inside out; its orientation was reversed");
     return warnings;
 }
 
@@ -104,25 +104,25 @@ Operation repair_operation() {
             {{.name = "close_holes_up_to",
               .type = Real,
               .unit = "mm",
-              .help = "holes up to this radius are closed; without it those are closed that are "
-                      "no vessel ends: much narrower than the lumen behind them, or ragged",
+              .help = "close holes up to this radius; default: close holes that are no vessel "
+                      "ends, because they are much narrower than the lumen behind them, or ragged",
               .minimum = 0.0},
              {.name = "keep_components",
               .type = Integer,
               .unit = "-",
               .default_value = std::int64_t{1},
-              .help = "how many unconnected pieces are kept, those of largest area first",
+              .help = "number of unconnected pieces to keep, in descending order of area",
               .minimum = 1},
              {.name = "self_intersections",
               .type = Flag,
               .default_value = true,
-              .help = "remove places where the surface passes through itself"},
+              .help = "remove self-intersections of the surface"},
              {.name = "smallest_feature",
               .type = Real,
               .unit = "-",
               .default_value = 1e-3,
-              .help = "edges and triangle heights below this part of the mean edge length are "
-                      "removed",
+              .help =
+                  "remove edges and triangle heights below this fraction of the mean edge length",
               .minimum = 0.0,
               .maximum = 0.1}},
         .run = &run,

@@ -8,7 +8,7 @@
 namespace vesselbench {
 
 /// Live form of an operation whose add() replaces arguments: the result is that of the last
-/// arguments, whatever came before them.
+/// arguments, whatever the earlier ones.
 class ReplacingStepper : public Stepper {
 public:
     void add(const Arguments& more, Progress& progress) final;
@@ -17,7 +17,7 @@ protected:
     explicit ReplacingStepper(Arguments arguments) : arguments_(std::move(arguments)) {}
 
 private:
-    /// Works with these arguments from now on. \throw as the batch form; nothing is changed then
+    /// Uses these arguments from now on. \throw as the batch form; nothing is changed then
     virtual void use(const Arguments& arguments, Progress& progress) = 0;
 
     Arguments arguments_;

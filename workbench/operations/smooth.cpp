@@ -27,7 +27,7 @@ double mean(const std::vector<double>& values) {
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// What the run changed.
+/// Adds the figures of the change.
 void add_changes(Json& report, const Surface& before, const Surface& after) {
     std::vector<double> moved(before.vertex_count());
     for (std::size_t v = 0; v < moved.size(); ++v)
@@ -48,21 +48,21 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }
 
-constexpr double kNextToNothing = 0.02;  // mean weight below which a run hardly does anything
+constexpr double kNextToNothing = 0.02;  // mean weight below which a run hardly has an effect
 
-/// What holds a run back nearly everywhere; empty if nothing does.
+/// The weights that hold a run back nearly everywhere; empty if none do.
 std::string what_holds_back(const Json& report) {
     if (!report.contains("mean_weight") || report["mean_weight"] >= kNextToNothing) return "";
     std::ostringstream text;
-    text << "the weights leave next to nothing to smooth (mean " << report["mean_weight"] << "):";
+    text << "the weights leave almost nothing to smooth (mean " << report["mean_weight"] << "):";
     for (const char* kind : {"staircase", "distance", "painted"})
         if (const std::string key = std::string("mean_weight_") + kind; report.contains(key))
             text << " " << kind << " " << report[key];
     return text.str();
 }
 
-/// Why a filter that was to move something moved nothing, or next to nothing; empty if it did, or
-/// was not to.
+/// Why a filter that should have moved something moved nothing, or almost nothing; empty if it did,
+/// or should not have.
 std::string why_little_moved(const Json& report, const Arguments& resolved) {
     const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
     if (idle) return "";
@@ -70,9 +70,9 @@ std::string why_little_moved(const Json& report, const Arguments& resolved) {
     if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty()) {
         const bool no_staircase = resolved.flag("staircase") && report["staircase_vertices"] == 0;
         return "nothing moved: " + reason +
-               (no_staircase ? ", and beta_min lets the rest move" : "");
+               (no_staircase ? "; use beta_min to let the rest move" : "");
     }
-    return "nothing moved: every vertex is kept or has the weight 0";
+    return "nothing moved: every vertex is kept or has weight 0";
 }
 
 class LiveSmoothing final : public ReplacingStepper {
@@ -114,7 +114,7 @@ private:
         bare.resolved = std::move(resolved);
         bare.report = std::move(report);
         if (!reason.empty())
-            bare.warnings.push_back("device=gpu: the CPU smoothed instead, because " + reason);
+            bare.warnings.push_back("device=gpu: fell back to the CPU, because " + reason);
         release_freed_memory();
         // No filter may make the surface pass through itself.
         warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.8, 1.0)), "filter",
@@ -135,9 +135,9 @@ std::vector<Parameter> parameter_table() {
         {.name = "device",
          .type = ParameterType::Choice,
          .default_value = std::string("auto"),
-         .help = "where the context is found and vertices are moved: auto and cpu give the same "
-                 "bits everywhere; gpu is faster on large surfaces, a replay compares by tolerance "
-                 "then, and without a usable GPU the CPU serves",
+         .help = "device that finds the context and moves the vertices: auto and cpu give the same "
+                 "bits everywhere; gpu is faster on large surfaces, is replayed by tolerance, and "
+                 "falls back to the CPU without a usable GPU",
          .choices = {"auto", "cpu", "gpu"}});
     return table;
 }

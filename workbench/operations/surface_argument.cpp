@@ -11,8 +11,8 @@ Parameter units_parameter() {
             .type = ParameterType::Choice,
             .default_value = std::string("auto"),
             .help =
-                "unit of the file's coordinates; auto takes what the file "
-                "states, or the unit in which it has the size of a vessel",
+                "unit of the file's coordinates; auto: the unit stated in the file, or the one in "
+                "which it has the size of a vessel",
             .choices = {"auto", "mm", "cm", "m"}};
 }
 
@@ -27,8 +27,8 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
                          .notes = std::move(file.notes)};
     outcome.resolved.set("units", read.units);
     if (!file.unit_certain)
-        outcome.warnings.push_back(read.name + ": the unit is not certain (" + file.unit_reason +
-                                   "); give units=mm, cm or m if this is wrong");
+        outcome.warnings.push_back(read.name + ": the unit is uncertain (" + file.unit_reason +
+                                   "); give units=mm, cm or m if it is wrong");
     return read;
 }
 

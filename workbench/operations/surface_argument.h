@@ -7,16 +7,16 @@ namespace vesselbench {
 /// The parameter `units` of operations that read a surface file.
 [[nodiscard]] Parameter units_parameter();
 
-/// A surface file as its operation's arguments `file` and `units` say.
+/// A surface file read according to the arguments `file` and `units`.
 struct SurfaceArgument {
     Surface surface;          ///< [mm]
     std::string name;         ///< the file's, without its folder
-    std::string units;        ///< taken: mm, cm or m
+    std::string units;        ///< unit used: mm, cm or m
     std::string unit_reason;  ///< one sentence
     std::vector<std::string> notes;
 };
 
-/// Reads the file; the unit goes into the outcome's resolved arguments, a doubt of it into its
+/// Reads the file; the unit goes into the outcome's resolved arguments, doubts about it into the
 /// warnings.
 /// \throw as read_surface
 [[nodiscard]] SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome);

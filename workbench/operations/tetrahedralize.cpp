@@ -59,47 +59,48 @@ Outcome tetrahedralize(const Scene& scene, const Arguments& arguments, Progress&
 Operation tetrahedralize_operation() {
     using enum ParameterType;
     const TetrahedralizeParameters d;
-    return {.name = "tetrahedralize",
-            .usual_step = Step::Product,
-            .allowed = {Step::Product},
-            .summary = "fill the closed, remeshed surface with tetrahedra for a flow solver",
-            .parameters = {{.name = "cells",
-                            .unit = "-",
-                            .help = "wanted number of tetrahedra, met within 10 % if the surface "
-                                    "allows it; when left out, `size` decides",
-                            .minimum = 100.0,
-                            .maximum = 1e8},
-                           {.name = "size",
-                            .unit = "-",
-                            .default_value = d.size,
-                            .help = "edge length in the lumen by the surface's edge length nearby",
-                            .minimum = 0.05,
-                            .maximum = 20.0},
-                           {.name = "growth",
-                            .unit = "-",
-                            .default_value = d.growth,
-                            .help = "by how much the edge length grows per distance from the wall; "
-                                    "0 keeps the surface's edge length up to the middle",
-                            .minimum = 0.0,
-                            .maximum = 1.0},
-                           {.name = "quality",
-                            .unit = "-",
-                            .default_value = d.quality,
-                            .help = "largest ratio of a tetrahedron's circumradius to its shortest "
-                                    "edge that TetGen leaves; smaller is better and finer",
-                            .minimum = 1.1,
-                            .maximum = 5.0},
-                           {.name = "improve",
-                            .type = Integer,
-                            .default_value = std::int64_t{d.improve},
-                            .help = "rounds of moving inner vertices and exchanging edges after "
-                                    "TetGen; 0: none",
-                            .minimum = 0,
-                            .maximum = 50}},
-            .run = &tetrahedralize,
-            .isolated = true,
-            .thesis = "3.3.3",
-            .recipe = {.makes_volume_mesh = true}};
+    return {
+        .name = "tetrahedralize",
+        .usual_step = Step::Product,
+        .allowed = {Step::Product},
+        .summary = "fill the closed, remeshed surface with tetrahedra for a flow solver",
+        .parameters = {{.name = "cells",
+                        .unit = "-",
+                        .help = "target number of tetrahedra, met within 10 % if the surface "
+                                "allows it; default: determined by `size`",
+                        .minimum = 100.0,
+                        .maximum = 1e8},
+                       {.name = "size",
+                        .unit = "-",
+                        .default_value = d.size,
+                        .help = "edge length in the lumen relative to that of the surface nearby",
+                        .minimum = 0.05,
+                        .maximum = 20.0},
+                       {.name = "growth",
+                        .unit = "-",
+                        .default_value = d.growth,
+                        .help = "growth of the edge length per distance from the wall; 0 keeps the "
+                                "surface's edge length throughout",
+                        .minimum = 0.0,
+                        .maximum = 1.0},
+                       {.name = "quality",
+                        .unit = "-",
+                        .default_value = d.quality,
+                        .help = "largest ratio of a tetrahedron's circumradius to its shortest "
+                                "edge in TetGen; smaller is better and finer",
+                        .minimum = 1.1,
+                        .maximum = 5.0},
+                       {.name = "improve",
+                        .type = Integer,
+                        .default_value = std::int64_t{d.improve},
+                        .help = "rounds of moving inner vertices and exchanging edges after "
+                                "TetGen; 0: none",
+                        .minimum = 0,
+                        .maximum = 50}},
+        .run = &tetrahedralize,
+        .isolated = true,
+        .thesis = "3.3.3",
+        .recipe = {.makes_volume_mesh = true}};
 }
 
 }  // namespace vesselbench

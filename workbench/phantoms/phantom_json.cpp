@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// An object of the description that knows its place in it, for error texts, and refuses keys
-/// nobody reads.
+/// An object of the description that knows its place in it, for error texts, and rejects unknown
+/// keys.
 class Node {
 public:
     Node(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
@@ -32,7 +32,7 @@ public:
         try {
             value = json_.at(key).get<T>();
         } catch (const Json::exception&) {
-            throw InvalidInput(place_ + "." + key + " has a wrong type: " + json_.at(key).dump());
+            throw InvalidInput(place_ + "." + key + " has the wrong type: " + json_.at(key).dump());
         }
     }
 
@@ -198,7 +198,8 @@ PhantomDescription phantom_from_json(const std::string& text) {
     try {
         return description_from(Json::parse(text));
     } catch (const Json::exception& error) {
-        throw InvalidInput(std::string("the phantom's description is not usable: ") + error.what());
+        throw InvalidInput(std::string("the phantom's description cannot be used: ") +
+                           error.what());
     }
 }
 

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 /// Reads a phantom's description (cases/phantoms/*.json; keys as the fields of PhantomDescription;
 /// points of a vessel are [x, y, z, radius] in mm).
-/// \throw InvalidInput that names the key and what it needs
+/// \throw InvalidInput that names the key and the value it needs
 [[nodiscard]] PhantomDescription phantom_from_json(const std::string& text);
 
 /// Names of the built-in phantoms, sorted.

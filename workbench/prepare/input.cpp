@@ -21,13 +21,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kCaseFile = "case.json";
 
-/// A new folder for files that live as long as the input.
+/// A new folder for files with the lifetime of the input.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "vesselbench-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr)
-            throw IoError("no temporary folder can be made in '" +
+            throw IoError("cannot create a temporary folder in '" +
                           fs::temp_directory_path().string() + "'");
         path_ = name;
     }
@@ -83,8 +83,7 @@ void fill_from_case(Input& input, const fs::path& folder, const Json& json,
     input.is_image = json.contains("image");
     if (!input.is_image && !json.contains("surface"))
         throw InvalidInput("case '" + input.name +
-                           "': case.json names no \"image\", \"surface\" "
-                           "or \"phantom\"");
+                           "': case.json has no \"image\", \"surface\" or \"phantom\"");
     input.file = case_file(folder, json, input.is_image ? "image" : "surface");
     if (json.contains("mask")) input.mask = case_file(folder, json, "mask");
     if (json.contains("exact"))
@@ -97,7 +96,7 @@ void read_case(Input& input, const fs::path& folder, const Progress& progress) {
         fill_from_case(input, folder, json, progress);
     } catch (const nlohmann::json::exception& error) {
         throw InvalidInput("case '" + folder.filename().string() +
-                           "': case.json is not usable: " + error.what());
+                           "': case.json cannot be used: " + error.what());
     } catch (const UsageError& error) {
         throw InvalidInput("case '" + folder.filename().string() + "': " + error.what());
     }
@@ -121,7 +120,7 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     if (!input.mask.empty() && !fs::exists(input.mask))
         throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
     if (!input.mask.empty() && !input.is_image)
-        throw UsageError("--mask belongs to an image, and '" + input.name + "' is a surface");
+        throw UsageError("--mask requires an image, but '" + input.name + "' is a surface");
     return input;
 }
 

@@ -13,7 +13,7 @@
 
 namespace vesselbench {
 
-/// What a user names as INPUT.
+/// The user's INPUT.
 struct InputOptions {
     std::string
         input;  ///< a surface, an image, a folder of DICOM slices, or a folder with case.json
@@ -21,27 +21,27 @@ struct InputOptions {
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or guessed
 };
 
-/// What INPUT turned out to be.
+/// The INPUT after inspection.
 struct Input {
     bool is_image = false;
     std::string name;            ///< the file's or case's name without its folder
     std::filesystem::path file;  ///< surface, image, or folder of DICOM slices
     std::filesystem::path mask;
     std::string units;
-    std::optional<Surface> exact;  ///< the true surface, where a phantom knows it
+    std::optional<Surface> exact;  ///< the true surface, if a phantom provides it
     std::shared_ptr<const nlohmann::ordered_json> recipes;  ///< a case's own: by "cfd" and "rp"
     std::shared_ptr<const void> keep;  ///< folder of files made for this input; removed with it
 };
 
-/// Looks at INPUT and reads the description of a case; of surfaces and images it reads no more than
-/// their kind. A phantom's image and mask are made.
-/// \throw IoError if it does not exist, InvalidInput if it is neither of these
+/// Inspects INPUT and reads the description of a case; of surfaces and images it determines only
+/// the kind. A phantom's image and mask are created.
+/// \throw IoError if it does not exist, InvalidInput if it is none of these
 [[nodiscard]] Input resolve_input(const InputOptions& options, const Progress& progress);
 
-/// Words of "when" that fit the input.
+/// The words of "when" that apply to the input.
 [[nodiscard]] RecipeUse recipe_use(const Input& input, const std::string& purpose);
 
-/// The edit that loads the input, with the arguments an entry of a recipe may add to it.
+/// The edit that loads the input, with the arguments that an entry of a recipe may add.
 [[nodiscard]] RecipeEntry loading_entry(const Input& input);
 
 }  // namespace vesselbench

@@ -22,30 +22,30 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Share of the whole progress that the edits take; reports and files take the rest.
+/// Fraction of the progress for the edits; the rest is for reports and files.
 constexpr double kEditsShare = 0.8;
 
-/// The surface that was loaded cannot be repaired: the input is bad, not the recipe.
+/// The loaded surface cannot be repaired: the input is bad, not the recipe.
 class UnusableSource : public InvalidInput {
 public:
     using InvalidInput::InvalidInput;
 };
 
-/// Removes a project that holds nothing because its first edit failed.
+/// Removes a project that is empty because its first edit failed.
 void remove_project(const fs::path& project) {
     std::error_code ignored;
     for (const char* suffix : {"", "-wal", "-shm", "-journal"})
         fs::remove(project.string() + suffix, ignored);
 }
 
-/// Leaves no trace of a run on an input that cannot be used.
+/// Removes all traces of a run on an unusable input.
 void clear_away(const fs::path& project, bool new_folder) {
     remove_project(project);
     std::error_code ignored;
-    if (new_folder) fs::remove(project.parent_path(), ignored);  // keeps what is not empty
+    if (new_folder) fs::remove(project.parent_path(), ignored);  // keeps a folder that is not empty
 }
 
-/// An earlier project stays, as project.1.vbench, project.2.vbench ...
+/// An earlier project is kept as project.1.vbench, project.2.vbench ...
 void keep_earlier_project(const fs::path& project, const Teller& tell) {
     if (!fs::exists(project)) return;
     fs::path other;
@@ -55,9 +55,8 @@ void keep_earlier_project(const fs::path& project, const Teller& tell) {
     for (const char* suffix : {"", "-wal"})
         if (fs::exists(project.string() + suffix))
             fs::rename(project.string() + suffix, other.string() + suffix, error);
-    if (error)
-        throw IoError("the earlier 'project.vbench' cannot be set aside: " + error.message());
-    tell("the earlier project.vbench is now " + other.filename().string());
+    if (error) throw IoError("the existing 'project.vbench' cannot be renamed: " + error.message());
+    tell("the existing project.vbench was renamed to " + other.filename().string());
 }
 
 Json recipe_json_from(const PrepareOptions& options, const Input& input) {
@@ -66,7 +65,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
         try {
             return Json::parse(file_content(options.recipe));
         } catch (const nlohmann::json::exception& error) {
-            throw UsageError("recipe '" + name + "' is no JSON: " + error.what());
+            throw UsageError("recipe '" + name + "' is not valid JSON: " + error.what());
         }
     }
     if (!input.recipes) return nullptr;
@@ -74,7 +73,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
     return input.recipes->value(options.purpose, Json());
 }
 
-/// The recipe with the input's loading edit in front, its files and units filled in.
+/// The recipe preceded by the edit that loads the input, with its files and units filled in.
 Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     const RecipeUse use = recipe_use(input, options.purpose);
     const Json json = recipe_json_from(options, input);
@@ -113,7 +112,7 @@ std::string noticed(const LogEntry& entry) {
            formatted(100.0 * (ratio - 1.0), "%.1f") + " %: " + remedy;
 }
 
-/// Applies one entry. \return what should be told beside the edit's own warnings; else empty
+/// Applies one entry. \return a warning in addition to the edit's own; empty if there is none
 std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
                         const Teller& tell, const Progress& progress) {
     const Operation& operation = find_operation(entry.operation);
@@ -128,7 +127,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         if (!warning.empty()) tell("warning: " + warning);
         return warning;
     } catch (const InvalidInput& error) {
-        // What was loaded was accepted: from here on it is the operation that cannot be done.
+        // The loaded data was accepted: from here on, the operation is to blame.
         if (operation.usual_step == Step::Source) throw;
         throw AlgorithmFailure(error.what());
     } catch (const AlgorithmFailure& error) {
@@ -148,7 +147,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
             return more.empty() ? warning : warning + "; " + more;
         }
         if (!entry.optional) throw;
-        const std::string warning = entry.operation + " was left out: " + error.what();
+        const std::string warning = entry.operation + " was skipped: " + error.what();
         tell("warning: " + warning);
         return warning;
     }
@@ -212,7 +211,7 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
         try {
             write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
         } catch (const InvalidInput& error) {
-            throw AlgorithmFailure(error.what());  // the model lacks what the product needs
+            throw AlgorithmFailure(error.what());  // the model lacks something the product needs
         }
     } catch (const UnusableSource&) {
         clear_away(project, new_folder);
@@ -221,7 +220,7 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
         if (!any_edit)
             clear_away(project, new_folder);
         else
-            tell("the edits done so far are kept in " + project.filename().string() +
+            tell("the completed edits are kept in " + project.filename().string() +
                  "; no other file was written");
         throw;
     }

@@ -13,24 +13,24 @@ namespace vesselbench {
 
 struct PrepareOptions {
     InputOptions input;
-    std::string purpose;                 ///< "cfd" or "rp"
+    std::string purpose;                 ///< "cfd", "rp", "planning" or "simulation"
     std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
     std::vector<std::string> arguments;  ///< "operation.parameter=value"
     std::filesystem::path out;           ///< folder of the results
 };
 
-/// What prepare tells while it works: one line of text at a time.
+/// Receives prepare's messages, one line of text at a time.
 using Teller = std::function<void(const std::string&)>;
 
-/// Walks the whole way from the input to a CFD or print model: a project with one edit per entry of
-/// the recipe, then surface.vtp, surface.stl, report.json, report.html and the product's files.
-/// Results appear only when all of them are whole. An earlier project in the folder is kept under
-/// another name.
+/// Turns the input into a CFD or print model: a project with one edit per entry of the recipe,
+/// then surface.vtp, surface.stl, report.json, report.html and the product's files. Results appear
+/// only when all of them are complete. An earlier project in the folder is kept under another
+/// name.
 /// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
 /// the edits that were done; there is no project if the input cannot be loaded or repaired
 void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
 
-/// Makes a project whose first edit loads the input. \throw IoError if the file exists
+/// Creates a project whose first edit loads the input. \throw IoError if the file exists
 void new_project(const std::filesystem::path& project, const InputOptions& options,
                  const Teller& tell, const Progress& progress);
 

@@ -19,17 +19,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A cut end: what lies beyond it, or close before it, was made by clipping, blending and
-/// extruding and has no counterpart in the source.
+/// A cut end: the surface beyond and just before it was made by clipping, blending and extruding,
+/// and has no counterpart in the source.
 struct CutEnd {
     Vec3 centre;
     Vec3 outward;
     double diameter = 0.0;
 };
 
-/// How far inward of a cut the surface may differ from the source on purpose [diameters].
+/// How far inward of a cut the surface may intentionally differ from the source [diameters].
 constexpr double kInward = 0.5;
-/// How far to the side the end's own vessel reaches [diameters].
+/// How far to the side the end's own vessel extends [diameters].
 constexpr double kSideward = 1.5;
 
 std::vector<CutEnd> cut_ends(const Surface& surface) {
@@ -147,7 +147,7 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
             {"outlets", summary.outlets}};
 }
 
-/// The openings' measures, with how they stand to the vessel just inside of them.
+/// The openings' measures, with their tilt against the vessel just inside them.
 Json openings_json(const Json& patches, const Surface& surface) {
     Json openings = Json::array();
     for (Json opening : patches) {
@@ -163,7 +163,7 @@ Json openings_json(const Json& patches, const Surface& surface) {
     return openings;
 }
 
-/// Turn of the vessel just inside the inlet [deg]; 0 where it cannot be measured.
+/// Turn of the vessel just inside the inlet [deg]; 0 if it cannot be measured.
 double inlet_bend(const Json& openings) {
     for (const Json& opening : openings)
         if (opening["kind"] == "inlet" && opening["bend_deg"].is_number())

@@ -12,9 +12,9 @@
 
 namespace vesselbench {
 
-/// What prepare made, as far as the report needs it.
+/// The results of prepare, for the report.
 struct PreparedCase {
-    std::string purpose;  ///< "cfd" or "rp"
+    std::string purpose;  ///< "cfd", "rp", "planning" or "simulation"
     Input input;
     Scene scene;  ///< the result
     CfdParameters flow;
@@ -28,7 +28,7 @@ struct PreparedReport {
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the
-/// openings, patches, flow, volume mesh; draws the pictures where OpenGL is there.
+/// openings, patches, flow, volume mesh; draws the pictures if OpenGL is available.
 [[nodiscard]] PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                                             const Progress& progress);
 

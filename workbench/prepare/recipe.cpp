@@ -35,8 +35,8 @@ bool word_holds(const std::string& word, const RecipeUse& use) {
     const bool negated = word.starts_with("no-");
     const std::string name = negated ? word.substr(3) : word;
     if (std::ranges::count(kWords, name) == 0)
-        throw UsageError("\"when\" names '" + word + "'; it may name " + joined(kWords) +
-                         ", each also with no- before it");
+        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(kWords) +
+                         ", each also with the prefix no-");
     return (std::ranges::count(use, name) > 0) != negated;
 }
 
@@ -49,7 +49,7 @@ bool is_used(const Json& entry, const RecipeUse& use) {
 }
 
 RecipeEntry entry_from_json(const Json& json) {
-    if (!json.contains("operation")) throw UsageError("it names no \"operation\"");
+    if (!json.contains("operation")) throw UsageError("it has no \"operation\"");
     const Operation& operation = find_operation(json["operation"].get<std::string>());
     RecipeEntry entry{.operation = operation.name,
                       .optional = json.value("optional", false),
@@ -83,10 +83,9 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
         } catch (const UsageError& error) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
         } catch (const nlohmann::json::exception&) {
-            throw UsageError(
-                "recipe, entry " + std::to_string(i + 1) +
-                ": \"operation\" and \"step\" are texts, \"optional\" and "
-                "\"unless_closed\" are true or false, \"when\" is a text or a list of texts");
+            throw UsageError("recipe, entry " + std::to_string(i + 1) +
+                             ": \"operation\" and \"step\" must be texts, \"optional\" and "
+                             "\"unless_closed\" true or false, \"when\" a text or a list of texts");
         }
     return recipe;
 }

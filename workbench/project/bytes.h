@@ -39,7 +39,7 @@ private:
     Bytes bytes_;
 };
 
-/// Reads them back. Every read is checked: what is cut short throws InvalidInput.
+/// Reads them back. Every read is checked: truncated data throws InvalidInput.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -60,7 +60,7 @@ public:
 
     /// The next `count` bytes. \throw InvalidInput if there are fewer
     [[nodiscard]] std::span<const std::byte> get_bytes(std::uint64_t count) {
-        if (count > bytes_.size()) throw InvalidInput("the stored data is cut short");
+        if (count > bytes_.size()) throw InvalidInput("the stored data is truncated");
         const auto head = bytes_.first(static_cast<std::size_t>(count));
         bytes_ = bytes_.subspan(static_cast<std::size_t>(count));
         return head;

@@ -38,11 +38,11 @@ Bytes compress(std::span<const std::byte> bytes) {
 Bytes decompress(std::span<const std::byte> blob, std::uint64_t size) {
     if (size / kLargestRatio > blob.size() ||
         ZSTD_getFrameContentSize(blob.data(), blob.size()) != size)
-        throw InvalidInput("the stored data is damaged: its size is wrong");
+        throw InvalidInput("the stored data is damaged: wrong size");
     Bytes bytes(static_cast<std::size_t>(size));
     const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), blob.data(), blob.size());
     if (ZSTD_isError(got) || got != size)
-        throw InvalidInput("the stored data is damaged: its checksum does not fit");
+        throw InvalidInput("the stored data is damaged: wrong checksum");
     return bytes;
 }
 

@@ -7,15 +7,15 @@
 
 namespace vesselbench {
 
-/// zstd at its fastest ordinary level, with a checksum of the content.
+/// zstd at its fastest regular level, with a checksum of the content.
 [[nodiscard]] Bytes compress(std::span<const std::byte> bytes);
 
-/// \param size of the content, as it was stored beside it
+/// \param size of the content, as stored beside it
 /// \throw InvalidInput if the blob is damaged or its content has another size
 [[nodiscard]] Bytes decompress(std::span<const std::byte> blob, std::uint64_t size);
 
-/// Puts the first bytes of all words first, then the second bytes, ...: numbers of similar size
-/// compress better so. A rest shorter than a word stays at the end.
+/// Stores the first bytes of all words first, then the second bytes, ...: numbers of similar size
+/// compress better this way. A remainder shorter than a word stays at the end.
 [[nodiscard]] Bytes shuffle(std::span<const std::byte> bytes, std::size_t word);
 [[nodiscard]] Bytes unshuffle(std::span<const std::byte> bytes, std::size_t word);
 

@@ -28,7 +28,7 @@ std::string hash_of_regular_file(const std::filesystem::path& path) {
         file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
         hash.add(std::as_bytes(std::span(buffer).first(static_cast<std::size_t>(file.gcount()))));
     }
-    if (file.bad()) throw IoError("cannot read " + path.filename().string() + " to its end");
+    if (file.bad()) throw IoError("cannot read " + path.filename().string() + " to the end");
     return hash.hex();
 }
 
@@ -43,7 +43,7 @@ struct ContentHash::State {
 ContentHash::ContentHash() : state_(std::make_unique<State>()) {
     if (state_->context == nullptr ||
         EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) != 1)
-        throw AlgorithmFailure("SHA-256 is not available in this system's libcrypto");
+        throw AlgorithmFailure("the system's libcrypto does not offer SHA-256");
 }
 
 ContentHash::~ContentHash() = default;

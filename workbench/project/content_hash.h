@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// SHA-256 of what is added, piece by piece.
+/// SHA-256 of data added piece by piece.
 class ContentHash {
 public:
     ContentHash();

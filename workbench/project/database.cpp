@@ -8,7 +8,7 @@ namespace vesselbench {
 
 namespace {
 
-// Another process may be writing or checkpointing for a moment.
+// Another process may briefly be writing or checkpointing.
 constexpr int kPatienceMilliseconds = 10000;
 
 [[noreturn]] void fail(sqlite3* database, const std::string& name) {
@@ -25,12 +25,13 @@ constexpr int kPatienceMilliseconds = 10000;
         case SQLITE_FORMAT:
             throw InvalidInput(name + " is damaged (" + why + "); use a copy of it");
         case SQLITE_FULL:
-            throw IoError("cannot write " + name +
-                          ": the disk is full. The project is as it was; make room, try again");
+            throw IoError(
+                "cannot write " + name +
+                ": the disk is full. The project is unchanged; free some space and try again");
         case SQLITE_IOERR:
             throw IoError("cannot read or write " + name + " (" + why +
-                          "): the disk or your quota is full, or it fails. The project is as it "
-                          "was; make room, try again");
+                          "): the disk or your quota is full, or the disk is failing. The project "
+                          "is unchanged; free some space and try again");
         case SQLITE_READONLY:
         case SQLITE_PERM:
             throw IoError("cannot write " + name + ": no permission");
@@ -53,7 +54,7 @@ int flags_of(OpenMode mode) {
     return SQLITE_OPEN_READONLY | SQLITE_OPEN_URI;
 }
 
-/// The file's name as SQLite takes it.
+/// The file's name in SQLite's form.
 std::string address_of(const std::filesystem::path& file, OpenMode mode) {
     if (mode == OpenMode::Temporary) return "";
     const std::string path = std::filesystem::absolute(file).string();
@@ -196,7 +197,7 @@ Transaction::~Transaction() {
     try {
         database_.run("ROLLBACK");
     } catch (const std::exception&) {
-        // SQLite has rolled back by itself where a write failed.
+        // SQLite has already rolled back if a write failed.
     }
 }
 

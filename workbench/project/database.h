@@ -14,8 +14,8 @@ struct sqlite3_stmt;
 
 namespace vesselbench {
 
-/// A prepared SQL statement; parameters and columns count from 0. Texts and blobs that are bound
-/// must live until the last step().
+/// A prepared SQL statement; parameters and columns count from 0. Bound texts and blobs must live
+/// until the last step().
 class Statement {
 public:
     Statement(sqlite3* database, const std::string& name, const std::string& sql);
@@ -25,7 +25,7 @@ public:
     Statement& bind(int parameter, const std::string& text);
     Statement& bind(int parameter, std::span<const std::byte> blob);
 
-    /// To the next row. \return false behind the last one
+    /// Moves to the next row. \return false after the last one
     bool step();
 
     [[nodiscard]] bool is_null(int column) const;
@@ -49,12 +49,12 @@ enum class OpenMode {
     Create,     ///< a new file
     Write,      ///< reads and writes
     Read,       ///< beside a writer
-    Frozen,     ///< a file that nobody can change, in a folder that cannot be written
-    Temporary,  ///< no name; gone when it is closed
+    Frozen,     ///< a file that cannot change, in a read-only folder
+    Temporary,  ///< no name; deleted on closing
 };
 
-/// An SQLite connection. Failures throw IoError; what is no database or is damaged, InvalidInput;
-/// both name the file without its folder.
+/// An SQLite connection. Failures throw IoError; a damaged file, or one that is no database,
+/// InvalidInput; both name the file without its folder.
 class Database {
 public:
     Database(const std::filesystem::path& file, OpenMode mode);
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] Statement prepare(const std::string& sql) const;
     void run(const std::string& sql) const;
 
-    /// The first column of the first row, a whole number.
+    /// The first column of the first row, an integer.
     [[nodiscard]] std::int64_t number(const std::string& sql) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -78,7 +78,7 @@ private:
     std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// While it lives, a long statement ends as soon as the progress is cancelled: with Cancelled.
+/// During its lifetime, a long statement ends with Cancelled as soon as the progress is cancelled.
 class Interruptible {
 public:
     Interruptible(const Database& database, Progress progress);
@@ -91,7 +91,7 @@ private:
     Progress progress_;
 };
 
-/// All or nothing: rolled back unless commit() was reached.
+/// A transaction: rolled back unless commit() was called.
 class Transaction {
 public:
     explicit Transaction(const Database& database);

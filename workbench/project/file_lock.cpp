@@ -30,7 +30,7 @@ std::string holder(int descriptor) {
 
 void write_holder(int descriptor) {
     const std::string pid = std::to_string(getpid());
-    // Only a courtesy to the next one who asks; the lock holds without it.
+    // Only for the other process's error text; the lock holds without it.
     if (ftruncate(descriptor, 0) == 0 && pwrite(descriptor, pid.data(), pid.size(), 0) < 0) return;
 }
 

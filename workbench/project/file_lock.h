@@ -6,11 +6,11 @@
 
 namespace vesselbench {
 
-/// The right to write a project: held by one process at a time, on a small file beside it. It ends
-/// with the process, however that ends.
+/// The right to write a project: held by one process at a time, by a lock on a small file beside
+/// it. It ends with the process, however that ends.
 class FileLock {
 public:
-    /// What came of trying: a lock, or the reason why there is none.
+    /// The outcome of an attempt: a lock, or the reason why there is none.
     struct Attempt {
         std::unique_ptr<FileLock> lock;
         std::string reason;

@@ -15,15 +15,15 @@ constexpr std::uint8_t kVersion = 1;
 
 enum Kind : std::uint8_t { kTopology, kPositions, kLabels, kReals, kVoxels, kVolumeMesh };
 
-/// How a kind's elements lie in memory.
+/// Memory layout of a kind's elements.
 struct Layout {
     std::size_t element;  ///< [bytes]
-    std::size_t word;     ///< [bytes] of the numbers in it
+    std::size_t word;     ///< [bytes] of its numbers
 };
 
 constexpr Layout kLayouts[] = {{12, 4}, {24, 8}, {2, 2}, {8, 8}, {4, 4}, {1, 1}};
 
-// With more than half of the elements changed, the whole part costs less than 64 bytes a moved
+// With more than half of the elements changed, the whole part takes less than 64 bytes per moved
 // vertex, and reading it needs no earlier blob.
 constexpr std::size_t kLargestDifference = 2;
 
@@ -71,7 +71,7 @@ std::vector<T> array_of(std::span<const std::byte> bytes) {
 
 template <class T>
 std::vector<T> read_array(ByteReader& reader, std::uint64_t count) {
-    if (count > reader.left()) throw InvalidInput("the stored volume mesh is cut short");
+    if (count > reader.left()) throw InvalidInput("the stored volume mesh is truncated");
     return array_of<T>(reader.get_bytes(count * sizeof(T)));
 }
 
@@ -80,13 +80,13 @@ void check_volume_mesh(const VolumeMesh& mesh) {
         for (const auto& cell : cells)
             for (const VertexId v : cell)
                 if (v >= mesh.points.size())
-                    throw InvalidInput("the stored volume mesh names a missing point");
+                    throw InvalidInput("the stored volume mesh refers to a missing point");
     };
     check(mesh.tetrahedra);
     check(mesh.boundary);
     for (const auto label : mesh.boundary_patches)
         if (label >= mesh.patches.size())
-            throw InvalidInput("the stored volume mesh names a missing patch");
+            throw InvalidInput("the stored volume mesh refers to a missing patch");
 }
 
 VolumeMesh volume_mesh_from(std::span<const std::byte> bytes) {
@@ -113,7 +113,7 @@ VolumeMesh volume_mesh_from(std::span<const std::byte> bytes) {
     return mesh;
 }
 
-/// A part's content as plain bytes; `own` holds them where they do not lie in one array.
+/// A part's content as plain bytes; `own` holds them if they are not in one array.
 struct Content {
     std::span<const std::byte> bytes;
     std::uint64_t extra = 0;
@@ -157,8 +157,8 @@ std::uint64_t get_number(ByteReader& reader) {
     throw InvalidInput("a stored number is damaged");
 }
 
-/// Indices of the elements that differ from the base or lie behind its end; empty and false if too
-/// many do.
+/// Indices of the elements that differ from the base or are beyond its end; empty and false if
+/// there are too many.
 bool find_changes(std::span<const std::byte> bytes, std::span<const std::byte> base,
                   std::size_t element, std::vector<std::uint64_t>& changed) {
     const std::size_t count = bytes.size() / element, common = base.size() / element;
@@ -171,8 +171,8 @@ bool find_changes(std::span<const std::byte> bytes, std::span<const std::byte> b
     return true;
 }
 
-/// The changed elements, combined with the old ones by exclusive or: near numbers share their
-/// leading bytes, which so become zero and compress well.
+/// The changed elements, XORed with the old ones: similar numbers share their leading bytes, which
+/// become zero and compress well.
 Bytes changed_elements(std::span<const std::byte> bytes, std::span<const std::byte> base,
                        std::size_t element, const std::vector<std::uint64_t>& changed) {
     Bytes values(changed.size() * element);
@@ -198,7 +198,7 @@ Bytes blob_of(Header header, std::span<const std::byte> payload) {
 Header read_header(ByteReader& reader) {
     const auto header = reader.get<Header>();
     if (header.magic != kMagic || header.kind > kVolumeMesh)
-        throw InvalidInput("the stored data is damaged: it is no part of a scene");
+        throw InvalidInput("the stored data is damaged: it is not a part of a scene");
     if (header.version > kVersion)
         throw InvalidInput("the stored data has version " + std::to_string(header.version) +
                            "; this program reads up to " + std::to_string(kVersion));
@@ -208,7 +208,7 @@ Header read_header(ByteReader& reader) {
 Bytes read_payload(ByteReader& reader, const Header& header) {
     const auto rest = reader.get_bytes(reader.left());
     if (header.zstd != 0) return decompress(rest, header.payload);
-    if (rest.size() != header.payload) throw InvalidInput("the stored data is cut short");
+    if (rest.size() != header.payload) throw InvalidInput("the stored data is truncated");
     return {rest.begin(), rest.end()};
 }
 
@@ -221,8 +221,8 @@ const void* identity(const ScenePart& part) {
 
 std::size_t memory_bytes(const ScenePart& part) {
     if (const auto* topology = std::get_if<kTopology>(&part)) {
-        // Triangles, and the one-rings (6 a vertex), triangles at vertices and boundary flags that
-        // are made on use.
+        // Triangles, and the one-rings (6 per vertex), triangles at vertices and boundary flags
+        // that are built on use.
         const auto& t = **topology;
         return t.triangle_count() * (12 + 12 + 12) + t.vertex_count() * (4 + 4 + 1);
     }
@@ -281,12 +281,12 @@ std::optional<Bytes> encode_difference(const ScenePart& part, const ScenePart& b
 PartDecoder::PartDecoder(std::span<const std::byte> blob) {
     ByteReader reader(blob);
     const Header header = read_header(reader);
-    if (header.difference != 0) throw InvalidInput("a stored part lacks what it is based on");
+    if (header.difference != 0) throw InvalidInput("the base of a stored part is missing");
     kind_ = header.kind;
     extra_ = header.extra;
     content_ = read_payload(reader, header);
     if (header.zstd != 0) content_ = unshuffle(content_, kLayouts[kind_].word);
-    if (content_.size() != header.size) throw InvalidInput("the stored data has a wrong size");
+    if (content_.size() != header.size) throw InvalidInput("the stored data has the wrong size");
 }
 
 PartDecoder::PartDecoder(const ScenePart& known) : kind_(static_cast<std::uint8_t>(known.index())) {
@@ -304,7 +304,7 @@ void PartDecoder::apply_difference(std::span<const std::byte> blob) {
     const Layout layout = kLayouts[kind_];
     if (header.changed > payload.size() / layout.element || header.size % layout.element != 0 ||
         header.size > content_.size() + header.changed * layout.element)
-        throw InvalidInput("the stored difference has a wrong size");
+        throw InvalidInput("the stored difference has the wrong size");
     ByteReader parts(payload);
     const Bytes values = unshuffle(parts.get_bytes(header.changed * layout.element), layout.word);
     content_.resize(header.size);
@@ -313,7 +313,7 @@ void PartDecoder::apply_difference(std::span<const std::byte> blob) {
     for (std::uint64_t k = 0; k < header.changed; ++k, ++index) {
         const std::uint64_t gap = get_number(parts);
         if (gap >= count || index + gap >= count)
-            throw InvalidInput("the stored difference names a missing element");
+            throw InvalidInput("the stored difference refers to a missing element");
         index += gap;
         for (std::size_t b = 0; b < layout.element; ++b)
             content_[index * layout.element + b] ^= values[k * layout.element + b];
@@ -323,7 +323,7 @@ void PartDecoder::apply_difference(std::span<const std::byte> blob) {
 
 ScenePart PartDecoder::finish() {
     if (content_.size() % kLayouts[kind_].element != 0)
-        throw InvalidInput("the stored data has a wrong size");
+        throw InvalidInput("the stored data has the wrong size");
     switch (kind_) {
         case kTopology:
             return std::make_shared<const Topology>(array_of<Triangle>(content_), extra_);

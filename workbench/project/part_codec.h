@@ -13,17 +13,17 @@
 
 namespace vesselbench {
 
-/// One of the shared arrays a scene consists of. Each is stored once, however many states share it.
-/// The order of the alternatives is part of the blob format.
+/// One of the shared arrays of a scene. Each is stored once, however many states share it. The
+/// order of the alternatives is part of the blob format.
 using ScenePart =
     std::variant<std::shared_ptr<const Topology>, std::shared_ptr<const Positions>,
                  std::shared_ptr<const PatchLabels>, std::shared_ptr<const std::vector<double>>,
                  std::shared_ptr<const std::vector<float>>, std::shared_ptr<const VolumeMesh>>;
 
-/// The address that two scenes sharing the part have in common.
+/// The address that is equal for two scenes sharing the part.
 [[nodiscard]] const void* identity(const ScenePart& part);
 
-/// Bytes the part holds in memory, neighbour arrays of a topology included.
+/// Bytes of the part in memory, including the neighbour arrays of a topology.
 [[nodiscard]] std::size_t memory_bytes(const ScenePart& part);
 
 /// SHA-256 of the part's content, 64 hexadecimal digits.
@@ -35,11 +35,11 @@ enum class Compression : std::uint8_t { None = 0, Zstd = 1 };
 [[nodiscard]] Bytes encode(const ScenePart& part, Compression compression);
 
 /// The part as its difference from another of the same kind: the elements that differ, bit-exact,
-/// about 27 bytes for a moved vertex. Empty if so many differ that the whole part is the better
+/// about 27 bytes per moved vertex. Empty if so many differ that the whole part makes the smaller
 /// blob.
 [[nodiscard]] std::optional<Bytes> encode_difference(const ScenePart& part, const ScenePart& base);
 
-/// Reads parts back, by a whole blob (or a known part) and then any number of differences in their
+/// Reads parts back from a whole blob (or a known part) followed by any number of differences in
 /// order.
 class PartDecoder {
 public:
@@ -47,10 +47,10 @@ public:
     explicit PartDecoder(std::span<const std::byte> blob);
     explicit PartDecoder(const ScenePart& known);
 
-    /// \throw InvalidInput if the blob is damaged or no difference of this kind of part
+    /// \throw InvalidInput if the blob is damaged or not a difference of this kind of part
     void apply_difference(std::span<const std::byte> blob);
 
-    /// \throw InvalidInput if the content contradicts itself (a triangle without its vertices...)
+    /// \throw InvalidInput if the content is inconsistent (a triangle without its vertices...)
     [[nodiscard]] ScenePart finish();
 
 private:

@@ -45,7 +45,7 @@ std::optional<ScenePart> PartStore::in_memory(BlobId id) const {
 
 std::optional<BlobId> PartStore::known(const ScenePart& part) const {
     const auto found = by_address_.find(identity(part));
-    // The address may be that of a part that is gone.
+    // The address may belong to a part that no longer exists.
     if (found == by_address_.end() || found->second.part.expired() ||
         found->second.kind != part.index())
         return std::nullopt;
@@ -83,7 +83,7 @@ BlobId PartStore::insert(const ScenePart& part, const std::string& hash,
     if (content) insert.bind(2, std::span<const std::byte>(*content));
     insert.step();
     const BlobId id = insert.integer(0);
-    insert.step();  // to its end, or the statement stays open
+    insert.step();  // to its end, else the statement stays open
     return id;
 }
 
@@ -100,14 +100,14 @@ ScenePart PartStore::load(BlobId id) {
         Statement query = database_->prepare("SELECT base, content FROM blobs WHERE id = ?");
         query.bind(0, at);
         if (!query.step() || query.is_null(1))
-            throw InvalidInput(database_->name() + " lacks a part of this state's data");
+            throw InvalidInput(database_->name() + " lacks part of this state's data");
         const auto content = query.blob(1);
         if (query.is_null(0)) {
             decoder.emplace(content);
         } else {
             differences.emplace_back(content.begin(), content.end());
             if (query.integer(0) >= at)
-                throw InvalidInput(database_->name() + " is damaged: data is based on itself");
+                throw InvalidInput(database_->name() + " is damaged: a part is based on itself");
             at = query.integer(0);
         }
     }

@@ -15,8 +15,8 @@ namespace vesselbench {
 
 using BlobId = std::int64_t;
 
-/// The scene parts of a project: each content once, near ones as differences, and shared in memory
-/// as long as somebody holds them.
+/// The scene parts of a project: each content is stored once, similar ones as differences, and
+/// shared in memory as long as it is in use.
 class PartStore {
 public:
     /// \param embed_limit [bytes] of image voxels; larger ones are referenced by their hash only
@@ -25,14 +25,14 @@ public:
 
     static void make_table(const Database& database);
 
-    /// Stores a part inside the caller's transaction, unless its content is there already.
-    /// \param base a stored part it may be the difference from
+    /// Stores a part inside the caller's transaction, unless its content is already stored.
+    /// \param base a stored part that may serve as its base
     BlobId store(const ScenePart& part, const std::optional<ScenePart>& base);
 
     /// \throw InvalidInput if it is damaged or referenced only
     [[nodiscard]] ScenePart load(BlobId id);
 
-    /// The blob of a part in memory that was stored or loaded here.
+    /// The blob of a part in memory that was stored or loaded by this object.
     [[nodiscard]] std::optional<BlobId> known(const ScenePart& part) const;
 
     [[nodiscard]] std::string hash_of(BlobId id) const;
@@ -40,10 +40,10 @@ public:
     /// True if load() would succeed on an undamaged file.
     [[nodiscard]] bool available(BlobId id) const;
 
-    /// The part serves for the stored one of the same content, while it lives.
+    /// Uses the part in place of the stored one with the same content, during its lifetime.
     void recall(const ScenePart& part);
 
-    /// After a rollback: what was stored since is not there.
+    /// After a rollback: forgets what was stored since.
     void forget_after(BlobId last);
     [[nodiscard]] BlobId last() const;
 

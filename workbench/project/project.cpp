@@ -23,7 +23,7 @@ namespace vesselbench {
 
 namespace {
 
-/// \throw IoError if that cannot be told
+/// \throw IoError if that cannot be determined
 bool missing(const std::filesystem::path& path) {
     std::error_code error;
     const bool there = std::filesystem::exists(path, error);
@@ -31,13 +31,13 @@ bool missing(const std::filesystem::path& path) {
     return !there;
 }
 
-/// Has a file written under another name, then renames it: nobody sees half of it, and a file that
-/// is there stays.
+/// Writes a file under another name, then renames it: nobody sees a partial file, and an existing
+/// file is kept.
 void write_whole(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write) {
     const std::string name = path.filename().string();
     if (!missing(path))
-        throw IoError(name + " exists already; choose another name or remove it first");
+        throw IoError(name + " already exists; choose another name or remove it first");
     PendingFiles files;
     write(files.add(path));
     files.commit(Existing::Keep);
@@ -55,7 +55,7 @@ struct ProjectFile::Parts {
     Parts(std::filesystem::path p, OpenMode mode, std::size_t embed_limit)
         : path(std::move(p)), database(path, mode), store(database, embed_limit) {}
 
-    /// The opened file, read once: an unusable file shows here.
+    /// The opened file, read once: an unusable file is detected here.
     static std::unique_ptr<Parts> open(const std::filesystem::path& path, OpenMode mode,
                                        std::size_t embed_limit) {
         auto parts = std::make_unique<Parts>(path, mode, embed_limit);
@@ -106,14 +106,14 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t emb
         try {
             parts = Parts::open(path, OpenMode::Read, embed_limit);
         } catch (const IoError&) {
-            // WAL mode needs to write beside the file even to read it; without a log of unfinished
+            // WAL mode writes beside the file even for reading; without a log of unfinished
             // changes, the file alone is complete.
             std::filesystem::path log = path;
             log += "-wal";
             if (!missing(log) && std::filesystem::file_size(log) > 0) throw;
             parts = Parts::open(path, OpenMode::Frozen, embed_limit);
         }
-        parts->read_only_reason = name + " can only be read: " + attempt.reason;
+        parts->read_only_reason = name + " is opened read-only: " + attempt.reason;
     }
     parts->lock = std::move(attempt.lock);
     return ProjectFile(std::move(parts));

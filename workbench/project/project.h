@@ -15,7 +15,7 @@
 
 namespace vesselbench {
 
-/// Image voxels up to this size are embedded; of larger ones only size and SHA-256 are kept.
+/// Image voxels up to this size are embedded; larger ones are kept as size and SHA-256 only.
 constexpr std::size_t kEmbeddedImageBytes = std::size_t{256} << 20;
 
 /// A file that an edit read.
@@ -23,31 +23,31 @@ struct SourceFile {
     std::string parameter;  ///< of the operation
     std::string name;       ///< without its folder
     std::string hash;       ///< SHA-256 of its content
-    std::string place;      ///< path relative to the project; only kept if the scene refers to it
+    std::string place;      ///< path relative to the project; kept only if the scene refers to it
 };
 
-/// A result that a transaction adds.
+/// A result added by a transaction.
 struct NewResult {
     const ResultRecord* record = nullptr;
     const Scene* scene = nullptr;  ///< null: the result is stale
     const Scene* input = nullptr;  ///< the scene it was made from
 };
 
-/// What one transaction adds to a project: the difference between two histories, and what belongs
-/// to it.
+/// The additions of one transaction to a project: the difference between two histories, with its
+/// data.
 struct ProjectChange {
     const History* before = nullptr;
     const History* after = nullptr;
     const EditRecord* edit = nullptr;  ///< of the new edit revision, if there is one
     std::vector<SourceFile> sources;   ///< of the new edit revision
-    std::vector<NewResult> results;    ///< each behind the results it runs on
+    std::vector<NewResult> results;    ///< each after the results it runs on
 };
 
 /// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
 [[nodiscard]] bool is_project_file(const std::filesystem::path& path);
 
-/// A project file: SQLite in WAL mode, one transaction a change, one writer. What was committed
-/// outlives the death of the process at any moment.
+/// A project file: SQLite in WAL mode, one transaction per change, one writer. Committed changes
+/// survive the death of the process at any moment.
 class ProjectFile {
 public:
     /// \param embed_limit [bytes] see kEmbeddedImageBytes
@@ -64,7 +64,7 @@ public:
     ProjectFile& operator=(ProjectFile&&) noexcept;
     ~ProjectFile();
 
-    /// Empty if it may be written.
+    /// Empty if it is writable.
     [[nodiscard]] const std::string& read_only_reason() const;
 
     /// The file's name without its folder; empty for a temporary project.
@@ -84,7 +84,7 @@ public:
 
     [[nodiscard]] std::vector<SourceFile> sources(EditRef edit) const;
 
-    /// One transaction. \throw IoError if it cannot be written; the project is then as before
+    /// One transaction. \throw IoError if it cannot be written; the project is then unchanged
     void commit(const ProjectChange& change);
 
     /// The scene of a result, sharing its parts with the scenes in memory.
@@ -92,21 +92,21 @@ public:
     ///        recalled
     [[nodiscard]] Scene scene(ResultId id, const Progress& progress = {}) const;
 
-    /// True if the result's scene holds an image that is referenced only and not in memory.
+    /// True if the result's scene contains an image that is only referenced and not in memory.
     [[nodiscard]] bool needs_recall(ResultId id) const;
 
-    /// Offers a scene whose parts serve where the stored ones are referenced only, as long as it
-    /// lives.
+    /// Offers a scene whose parts replace stored ones that are only referenced, during its
+    /// lifetime.
     void recall(const Scene& scene) const;
 
     /// Names of the parts in which a scene differs from the stored one, bit for bit; empty: none.
     [[nodiscard]] std::vector<std::string> differences(ResultId id, const Scene& scene) const;
 
-    /// Names of the stored parts of a result whose content does not fit their checksum.
+    /// Names of the stored parts of a result whose content does not match their checksum.
     [[nodiscard]] std::vector<std::string> damages(ResultId id,
                                                    const Progress& progress = {}) const;
 
-    /// \throw IoError if the file exists or cannot be written; Cancelled: then there is none
+    /// \throw IoError if the file exists or cannot be written; Cancelled: then there is no file
     void save_as(const std::filesystem::path& path, const Progress& progress = {}) const;
 
 private:

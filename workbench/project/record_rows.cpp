@@ -184,7 +184,8 @@ void write_states(const Database& database, const History& before, const History
 }
 
 History read_history(const Database& database) {
-    database.run("BEGIN");  // all tables as of one moment, though another process may write
+    database.run(
+        "BEGIN");  // a consistent snapshot of all tables, although another process may write
     std::map<EditRef, EditPlace> edits;
     for (auto row = database.prepare("SELECT edit, revision, step, variant FROM edits");
          row.step();)

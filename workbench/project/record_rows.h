@@ -11,7 +11,7 @@
 
 namespace vesselbench {
 
-// The rows of edits, results, sources and states; all inside the caller's transaction.
+// The rows of edits, results, sources and states; always inside the caller's transaction.
 
 void insert_edit(const Database& database, const EditRecord& edit);
 void insert_sources(const Database& database, EditRef edit, const std::vector<SourceFile>& sources);
@@ -23,8 +23,8 @@ void insert_result(const Database& database, const ResultRecord& result,
 /// Writes the difference between two histories.
 void write_states(const Database& database, const History& before, const History& after);
 
-/// Reads states, edits and results without their data, all as of one moment.
-/// \throw InvalidInput if they contradict each other
+/// Reads a consistent snapshot of states, edits and results without their data.
+/// \throw InvalidInput if they are inconsistent
 [[nodiscard]] History read_history(const Database& database);
 
 /// The records of these edits, by one query. \throw InvalidInput if one is missing or damaged

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kPartNames[] = {"triangles", "positions", "patch labels",
                                       "attribute", "voxels",    "volume mesh"};
 
-/// For each new part of a scene, in order, the part of its kind that it replaced.
+/// For each new part of a scene, in order, the part it replaced.
 std::vector<std::optional<ScenePart>> bases_of(const std::vector<ScenePart>& parts,
                                                const Scene* input) {
     std::vector<std::optional<ScenePart>> bases(parts.size());

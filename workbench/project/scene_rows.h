@@ -21,15 +21,14 @@ struct SceneRow {
 [[nodiscard]] SceneRow unpack_scene_row(std::span<const std::byte> bytes);
 
 /// Stores the parts of a scene inside the caller's transaction.
-/// \param input the scene it was made from, whose parts the new ones may be stored as differences
-/// from; null: none
+/// \param input the scene it was made from, as a base for storing differences; null: none
 [[nodiscard]] SceneRow store_scene(PartStore& store, const Scene& scene, const Scene* input);
 
 /// Names of the parts in which a scene differs from the stored one, bit for bit; empty: none.
 [[nodiscard]] std::vector<std::string> differences(const PartStore& store, const SceneRow& row,
                                                    const Scene& scene);
 
-/// Names of the stored parts whose content does not fit their checksum. \throw Cancelled
+/// Names of the stored parts whose content does not match their checksum. \throw Cancelled
 [[nodiscard]] std::vector<std::string> damages(PartStore& store, const SceneRow& row,
                                                const Progress& progress);
 

@@ -51,7 +51,7 @@ void check_version(const Database& database) {
     if (stored > kVersion)
         throw InvalidInput(database.name() + " is a project of version " + std::to_string(stored) +
                            ", written by vesselbench " + writer_of(database) +
-                           "; this vesselbench, " + version() + ", reads up to version " +
+                           "  ; this vesselbench, " + version() + ", reads up to version " +
                            std::to_string(kVersion) + ": use the newer program");
 }
 

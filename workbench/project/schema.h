@@ -4,10 +4,10 @@
 
 namespace vesselbench {
 
-/// Makes the tables of an empty project, at its start state.
+/// Creates the tables of an empty project in its start state.
 void make_tables(const Database& database);
 
-/// \throw InvalidInput if the database is no project, or one of a newer version
+/// \throw InvalidInput if the database is not a project, or of a newer version
 void check_version(const Database& database);
 
 }  // namespace vesselbench

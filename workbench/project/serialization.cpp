@@ -59,7 +59,7 @@ template <class T>
 std::shared_ptr<const T> part_at(const std::vector<ScenePart>& parts, std::uint32_t index) {
     if (index == kNone) return nullptr;
     if (index >= parts.size() || !std::holds_alternative<std::shared_ptr<const T>>(parts[index]))
-        throw InvalidInput("the stored scene names a missing part");
+        throw InvalidInput("the stored scene refers to a missing part");
     return std::get<std::shared_ptr<const T>>(parts[index]);
 }
 
@@ -80,7 +80,7 @@ void check_surface(const Surface& surface) {
                             [&](auto label) { return label < surface.patches.size(); });
     for (const auto& [name, values] : surface.attributes)
         fits = fits && values && values->size() == surface.vertex_count();
-    if (!fits) throw InvalidInput("the stored surface's arrays do not fit together");
+    if (!fits) throw InvalidInput("the stored surface's arrays are inconsistent");
 }
 
 Surface get_surface(ByteReader& reader, const std::vector<ScenePart>& parts) {
@@ -108,7 +108,7 @@ Image get_image(ByteReader& reader, const std::vector<ScenePart>& parts) {
     image.voxels = part_at<std::vector<float>>(parts, reader.get<std::uint32_t>());
     if (std::any_of(image.size.begin(), image.size.end(), [](int n) { return n < 0; }) ||
         image.voxel_count() != (image.voxels ? image.voxels->size() : 0))
-        throw InvalidInput("the stored image's size does not fit its voxels");
+        throw InvalidInput("the stored image's size does not match its voxels");
     return image;
 }
 
@@ -197,7 +197,7 @@ Scene decode_scene(std::span<const std::byte> blob, const std::vector<ScenePart>
             place = static_cast<std::uint32_t>(have.size());
             have.push_back(PartDecoder(reader.get_bytes(reader.get<std::uint64_t>())).finish());
         }
-        if (place >= have.size()) throw InvalidInput("the stored scene names a missing part");
+        if (place >= have.size()) throw InvalidInput("the stored scene refers to a missing part");
         parts.push_back(have[place]);
     }
     return put_together(manifest, parts);

@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// A scene as its parts and a few bytes that say how they belong together. A part that stands in
-/// several places is listed as often, so that the bytes do not depend on what happens to be shared.
+/// A scene as its parts and a few bytes that describe how they belong together. A part used in
+/// several places is listed as often, so that the bytes do not depend on sharing.
 struct SceneParts {
     Bytes manifest;
     std::vector<ScenePart> parts;
@@ -18,13 +18,13 @@ struct SceneParts {
 
 [[nodiscard]] SceneParts take_apart(const Scene& scene);
 
-/// The scene again, sharing the parts.
-/// \throw InvalidInput if the manifest is damaged, or parts do not fit together
+/// The scene rebuilt from its parts, sharing them.
+/// \throw InvalidInput if the manifest is damaged, or parts are inconsistent
 [[nodiscard]] Scene put_together(std::span<const std::byte> manifest,
                                  const std::vector<ScenePart>& parts);
 
-/// A whole scene in one blob, for worker processes: not compressed. Parts of `known` are not
-/// written but named; decode_scene needs the same known parts.
+/// A whole scene in one uncompressed blob, for worker processes. Parts of `known` are not written
+/// but referenced; decode_scene needs the same known parts.
 [[nodiscard]] Bytes encode_scene(const Scene& scene, const std::vector<ScenePart>& known = {});
 [[nodiscard]] Scene decode_scene(std::span<const std::byte> blob,
                                  const std::vector<ScenePart>& known = {});

@@ -41,9 +41,8 @@ std::string found_again(const SourceFile& source, const fs::path& folder) {
         if (hash_of_file(candidate) == source.hash) return candidate.string();
         other_content = true;
     }
-    throw IoError(source.name +
-                  (other_content ? " has changed since it was read" : " is not here") +
-                  "; put the file of SHA-256 " + source.hash.substr(0, 12) +
+    throw IoError(source.name + (other_content ? " has changed since it was read" : " is missing") +
+                  "; put the file with SHA-256 " + source.hash.substr(0, 12) +
                   "... beside the project, or give " + source.parameter + "=PATH");
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Below this size zstd's own frame eats what it saves.
+// Below this size zstd's own frame cancels its saving.
 constexpr std::size_t kShortText = 200;
 
 /// JSON has no infinities: they and NaN are written as {"real": "inf"}.
@@ -110,7 +110,7 @@ std::string unpack_text(std::span<const std::byte> blob) {
     const auto size = reader.get<std::uint64_t>();
     const auto rest = reader.get_bytes(reader.left());
     const Bytes bytes = zstd != 0 ? decompress(rest, size) : Bytes(rest.begin(), rest.end());
-    if (bytes.size() != size) throw InvalidInput("a stored text is cut short");
+    if (bytes.size() != size) throw InvalidInput("a stored text is truncated");
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

@@ -10,18 +10,18 @@
 
 namespace vesselbench {
 
-/// Arguments as the JSON text in which projects keep them and workers get them: every value comes
-/// back with its type and its bits, whatever operation it belongs to. Points are {"x", "y", "z"},
-/// numbers that JSON does not know {"real": "inf"}.
+/// Arguments as JSON text, for projects and workers: every value is read back with its type and its
+/// bits, for any operation. Points are {"x", "y", "z"}, numbers not representable in JSON {"real":
+/// "inf"}.
 [[nodiscard]] std::string stored_text(const Arguments& arguments);
 
-/// A report's text; what is not UTF-8 in it (a file's name) is replaced.
+/// A report's text; anything that is not UTF-8 (in a file's name) is replaced.
 [[nodiscard]] std::string stored_text(const nlohmann::ordered_json& report);
 
-/// \throw InvalidInput if the text is no such JSON
+/// \throw InvalidInput if the text is not such JSON
 [[nodiscard]] Arguments arguments_from_stored(const std::string& text);
 
-/// A text as a blob, compressed where that pays.
+/// A text as a blob, compressed if that makes it smaller.
 /// \throw InvalidInput from unpack_text if it is damaged
 [[nodiscard]] Bytes pack_text(const std::string& text);
 [[nodiscard]] std::string unpack_text(std::span<const std::byte> blob);

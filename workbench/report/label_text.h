@@ -13,7 +13,7 @@ namespace vesselbench {
 void write_text(Picture& picture, double x, double y, const std::string& text, double size,
                 const PixelColour& colour = {34, 34, 34});
 
-/// How wide that is [pixels].
+/// Width of the text [pixels].
 [[nodiscard]] double text_width(const std::string& text, double size);
 
 /// A straight stroke with round ends.

@@ -31,7 +31,7 @@ void paste(Picture& page, const Picture& picture, int left, int top) {
     }
 }
 
-/// Looks along the shortest side of the model, so that as much as possible shows.
+/// Looks along the shortest side of the model, which shows as much of it as possible.
 Vec3 sight(const Surface& surface) {
     const Bounds box = bounds(surface);
     const Vec3 size = box.max - box.min;
@@ -39,8 +39,8 @@ Vec3 sight(const Surface& surface) {
     return size.z() < 0.6 * size.y() ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
 }
 
-/// Where the surface was taken away most, within the middle of what deviates: the largest mean
-/// deviation of a vertex and its neighbours, away from open rims.
+/// The place with the largest mean deviation of a vertex and its neighbours, away from open
+/// rims.
 VertexId most_changed(const Surface& surface, const std::vector<double>& deviations) {
     const CompressedRows& rings = surface.topology->rings();
     const auto& rim = surface.topology->boundary_vertices();
@@ -70,7 +70,7 @@ VertexId nearest(const Surface& surface, const Vec3& at) {
     return best;
 }
 
-/// Camera on a vertex of the original, from outside, so near that its edges can be told apart.
+/// Camera on a vertex of the original, from outside, so close that its edges can be distinguished.
 PictureOptions magnified(const std::shared_ptr<const Surface>& frame, VertexId v) {
     const Surface& original = *frame;
     constexpr double kEdgesAcross = 22.0;
@@ -120,7 +120,7 @@ Picture quality_gallery(const Surface& original, const std::vector<GalleryModel>
     std::vector<std::vector<double>> deviations;
     for (const GalleryModel& model : models)
         deviations.push_back(distance.signed_distances(model.surface.points()));
-    // The middle one of the models decides the scale: strong changes would leave the others pale.
+    // The middle model determines the scale: strong changes would make the others pale.
     std::vector<double> fulls;
     for (const auto& one : deviations) fulls.push_back(deviation_of_full_colour(one));
     std::ranges::sort(fulls);

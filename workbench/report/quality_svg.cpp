@@ -14,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-/// How a measure is drawn; the colours stay apart for colour-blind eyes, the dashes in print.
+/// How a measure is drawn; colours are distinguishable for the colour-blind, dashes in print.
 struct Look {
     QualityMeasure measure;
     const char* name;
@@ -28,7 +28,7 @@ constexpr std::array<Look, 4> kLooks = {
      {QualityMeasure::Volume, "volume change", "#2e8b57", "2 3"},
      {QualityMeasure::Triangles, "triangles", "#7a6a00", "10 3 2 3"}}};
 
-/// Looks of the measures that change.
+/// Styles of the measures that change.
 std::vector<Look> looks_of(const QualityScale& scale) {
     const std::vector<QualityMeasure> measures = measures_of(scale);
     std::vector<Look> looks;
@@ -37,7 +37,7 @@ std::vector<Look> looks_of(const QualityScale& scale) {
     return looks;
 }
 
-constexpr double kMostShown = 2.0;  // of a graph's measures, by what 100 % is
+constexpr double kMostShown = 2.0;  // of a graph's measures, relative to 100 %
 
 constexpr const char* kInk = "#222";
 constexpr const char* kFaint = "#d9d9d9";
@@ -46,7 +46,7 @@ std::string coordinate(double value) {
     return formatted(value, "%.1f");
 }
 
-/// An SVG document that grows.
+/// An SVG document under construction.
 class Drawing {
 public:
     Drawing(double width, double height) {
@@ -66,7 +66,7 @@ public:
              << coordinate(x2) << "\" y2=\"" << coordinate(y2) << "\" " << look << "/>\n";
     }
 
-    /// \param crisp without a soft edge, for fields that touch
+    /// \param crisp without antialiasing, for adjacent fields
     void box(double x, double y, double width, double height, const std::string& look,
              bool crisp = false) {
         out_ << "<rect x=\"" << coordinate(x) << "\" y=\"" << coordinate(y) << "\" width=\""
@@ -101,7 +101,7 @@ std::string axis_title(const QualityCurve& curve) {
     return curve.name + (curve.unit.empty() ? "" : " [" + curve.unit + "]");
 }
 
-/// A step of 1, 2 or 5 times a power of ten that gives about `wanted` steps.
+/// A step of 1, 2 or 5 times a power of ten that yields about `wanted` steps.
 double round_step(double range, int wanted) {
     const double rough = range / wanted;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -121,10 +121,10 @@ std::vector<double> ticks(double from, double to, int wanted) {
 
 void add_head(Drawing& drawing, const QualityTitle& title, const std::string& what) {
     drawing.text(20, 26, what + ": " + title.source, "font-size=\"16\" font-weight=\"bold\"");
-    drawing.text(20, 46, title.change + "; one parameter changes, the others keep their values");
+    drawing.text(20, 46, title.change + "; one parameter varies, the others are fixed");
 }
 
-/// What 100 % is, of each measure.
+/// The meaning of 100 % for each measure.
 std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
     switch (measure) {
         case QualityMeasure::Curvature:
@@ -142,13 +142,13 @@ std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
                                  : 0.0) +
                    " % of the volume)";
         case QualityMeasure::Triangles:
-            return "how many, 100 % = original (" + std::to_string(std::llround(scale.triangles)) +
+            return "number, 100 % = original (" + std::to_string(std::llround(scale.triangles)) +
                    ")";
     }
     return "";
 }
 
-/// Lower edge of a legend that begins at y.
+/// Lower edge of a legend that starts at y.
 double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const QualityTitle& title,
                   double y) {
     for (const Look& look : looks_of(analysis.scale)) {
@@ -160,10 +160,10 @@ double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const Q
     drawing.line(38, y - 12, 38, y + 2, stroke(kInk, 1.4, "4 3"));
     drawing.text(64, y, "current value");
     drawing.mark(176, y - 8, false, "fill=\"#8a2be2\"");
-    drawing.text(190, y, "suggested, with the others kept (tau " + formatted(title.tau) + ")");
+    drawing.text(190, y, "suggested, others fixed (tau " + formatted(title.tau) + ")");
     drawing.text(20, y + 20,
-                 "strong change: " + analysis.scale.strong + "; what exceeds " +
-                     formatted(100.0 * kMostShown) + " % lies on the upper edge",
+                 "strong change: " + analysis.scale.strong + "; values above " +
+                     formatted(100.0 * kMostShown) + " % are drawn at the upper edge",
                  "fill=\"#666\"");
     return y + 26;
 }
@@ -235,7 +235,7 @@ double highest_share(const SensitivityAnalysis& analysis) {
                 for (const QualityMeasure measure : measures)
                     high = std::max(high, point.scaled.of(measure));
     return std::min(high * 1.04,
-                    kMostShown);  // beyond twice the strong change nobody needs figures
+                    kMostShown);  // beyond twice the strong change, figures are irrelevant
 }
 
 std::string colour_text(const Colour& linear) {
@@ -247,7 +247,7 @@ std::string colour_text(const Colour& linear) {
 
 void add_bar(Drawing& drawing, const QualityCurve& curve, const QualityBar& bar, const Panel& at) {
     const auto& points = curve.points;
-    const auto edge = [&](std::size_t i) {  // between two values; the ends reach half a step out
+    const auto edge = [&](std::size_t i) {  // between two values; the ends extend by half a step
         if (i == 0) return at.left;
         if (i == points.size()) return at.left + at.width;
         return at.x(0.5 * (points[i - 1].value + points[i].value));
@@ -291,7 +291,7 @@ double add_colour_scale(Drawing& drawing, double y, const QualityScale& scale) {
     drawing.box(22, y - 12, 8, 16, "fill=\"none\" " + stroke(kInk, 1.4, "4 2"));
     drawing.text(40, y, "current value");
     drawing.mark(144, y - 8, false, "fill=\"#8a2be2\"");
-    drawing.text(158, y, "suggested, with the others kept");
+    drawing.text(158, y, "suggested, others fixed");
     drawing.text(20, y + 20, "strong change: " + scale.strong, "fill=\"#666\"");
     return y + 30;
 }

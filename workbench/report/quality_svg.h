@@ -6,7 +6,7 @@
 
 namespace vesselbench {
 
-/// What stands above graphs and bars.
+/// The heading of graphs and bars.
 struct QualityTitle {
     std::string source;  ///< "aorta.stl, 12,345 vertices"
     std::string change;  ///< "filter laplace"

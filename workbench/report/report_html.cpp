@@ -31,7 +31,7 @@ std::string number_text(double number) {
     return formatted(number, format);
 }
 
-/// One value as a reader wants it.
+/// One value in readable form.
 std::string shown(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
@@ -136,7 +136,7 @@ std::string steps(const Json& report) {
         "<th class=n>mean / largest deviation [mm]</th></tr>\n";
     for (const Json& step : part_of(report, "steps")) html += step_row(step);
     return html +
-           "</table>\n<p class=about>Every row is an edit of the project: it can be undone, "
+           "</table>\n<p class=about>Every row is an edit of the project that can be undone, "
            "changed and replayed.</p>\n";
 }
 
@@ -219,15 +219,16 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
     html += tiles(report) + warnings(report) + gallery(pictures) + steps(report) + quality(report) +
             openings(report);
     html += plain_table(report, "distance_to_source", "Distance to the source surface",
-                        "From the wall to the surface that was loaded or extracted, away from the "
-                        "clipped and extruded ends.");
+                        "From the wall to the loaded or extracted surface, away from the clipped "
+                        "and extruded ends.");
     html += plain_table(report, "distance_to_exact", "Distance to the exact surface",
                         "From the wall to the phantom's true surface, away from the ends.");
-    html += plain_table(report, "volume_mesh", "Volume mesh",
-                        "Non-orthogonality, skewness and aspect ratio as OpenFOAM's checkMesh "
-                        "defines them.");
-    html += plain_table(report, "flow", "Flow", "What the flow parameters mean on this model.");
-    html += plain_table(report, "print", "Print", "The check of the printable model.");
+    html += plain_table(
+        report, "volume_mesh", "Volume mesh",
+        "Non-orthogonality, skewness and aspect ratio as defined by OpenFOAM's checkMesh.");
+    html += plain_table(report, "flow", "Flow",
+                        "Flow in this model, derived from the flow parameters.");
+    html += plain_table(report, "print", "Print", "Check of the printable model.");
     return html + products(report) + "</body></html>\n";
 }
 

@@ -14,7 +14,7 @@ struct ReportPicture {
     std::string png;  ///< the file's bytes
 };
 
-/// The report as one self-contained page: what report.json says, as tables, with pictures.
+/// The report as one self-contained page: the contents of report.json as tables, with pictures.
 /// \param report the document of prepare_report()
 [[nodiscard]] std::string report_html(const nlohmann::ordered_json& report,
                                       std::span<const ReportPicture> pictures);

@@ -10,16 +10,16 @@
 
 namespace vesselbench {
 
-/// The surface from three sides, and coloured by its deviation from the source (blue inside, red
-/// outside of it). Empty where there is no usable OpenGL.
+/// The surface from three sides, and coloured by its deviation from the
+/// source (blue inside, red outside of it). Empty without usable
+/// OpenGL.
 /// \param source may be null
-/// \param comparable 1 at the vertices that have a counterpart in the source, #V; the others
-/// (clipped
-///        and extruded ends) stay white
+/// \param comparable 1 at the vertices that have a counterpart in the
+/// source, #V; the others (clipped and extruded ends) are white
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
     const Surface& surface, const Surface* source, const std::vector<std::uint8_t>& comparable);
 
-/// The deviation that the full colours stand for [mm]: what 98 of 100 stay below; 1 without any.
+/// The deviation shown in full colour [mm]: 98 % are below it; 1 if there is none.
 [[nodiscard]] double deviation_of_full_colour(std::vector<double> deviations);
 
 /// Blue to red for deviations [mm] from -full_colour to it.
@@ -29,17 +29,17 @@ namespace vesselbench {
 /// Vertex colours of a surface's deviation from another one, blue inside, red outside of it.
 struct DeviationColours {
     std::vector<Colour> colours;  ///< #V
-    double full_colour = 0.0;     ///< the deviation that the full colours stand for [mm]
+    double full_colour = 0.0;     ///< the deviation shown in full colour [mm]
 };
 
 /// \param comparable as for report_pictures; empty: all vertices
-/// \param full_colour [mm]; 0: what 98 of 100 comparable vertices stay below
+/// \param full_colour [mm]; 0: 98 % of the comparable vertices are below
 /// \throw InvalidInput if the source has no triangle
 [[nodiscard]] DeviationColours deviation_colours(const Surface& surface, const Surface& source,
                                                  const std::vector<std::uint8_t>& comparable = {},
                                                  double full_colour = 0.0);
 
-/// What the colours say: "blue 0.5 mm inside, red outside".
+/// The meaning of the colours: "blue 0.5 mm inside, red outside".
 [[nodiscard]] std::string deviation_legend(double full_colour);
 
 }  // namespace vesselbench

@@ -11,8 +11,8 @@
 
 namespace vesselbench {
 
-/// The case of a session: its project file, the history as it is now, and the records and scenes
-/// in memory. Not thread-safe; the snapshots it hands out are.
+/// The case of a session: its project file, its current history, and the records and scenes in
+/// memory. Not thread-safe; the snapshots it returns are.
 class CaseStore {
 public:
     /// \param scene_bytes [bytes] of scenes held in memory
@@ -24,18 +24,18 @@ public:
 
     [[nodiscard]] bool only_reads() const { return !project_.read_only_reason().empty(); }
 
-    /// \throw IoError with the reason if the case can only be read
+    /// \throw IoError with the reason if the case is read-only
     void check_writable() const;
 
-    /// Makes `next` the history and keeps what belongs to it, by one transaction.
+    /// Makes `next` the history and stores its data, in one transaction.
     /// \param change without its histories
-    /// \throw IoError if it cannot be written; everything is then as it was
+    /// \throw IoError if it cannot be written; everything is then unchanged
     void commit(History next, ProjectChange change);
 
-    /// Enters results of pending edits. A case that can only be read keeps them in memory.
+    /// Enters results of pending edits. A read-only case keeps them in memory.
     void commit_results(History next, const std::vector<NewResult>& results);
 
-    /// True if the result is one that a case that can only be read keeps in memory.
+    /// True if the result is kept in memory because the case is read-only.
     [[nodiscard]] bool is_own(ResultId id) const { return own_scenes_.contains(id); }
 
     /// \throw InvalidInput if the project lacks it
@@ -48,7 +48,7 @@ public:
 
     void keep(ResultId id, const Scene& scene) { cache_.put(id, scene); }
 
-    /// What the case is now. What did not change since the last one is shared with it.
+    /// A snapshot of the case. Unchanged data is shared with the previous one.
     [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
 
 private:
@@ -58,7 +58,7 @@ private:
     ProjectFile project_;
     std::shared_ptr<const History> history_;
     SceneCache cache_;
-    std::map<EditRef, EditRecord> edits_;  ///< those read or made so far
+    std::map<EditRef, EditRecord> edits_;  ///< those read or created so far
     std::map<ResultId, std::shared_ptr<const ResultRecord>> records_;
     std::map<ResultId, std::optional<Scene>> own_scenes_;  ///< none: a stale result
 };

@@ -25,7 +25,7 @@ EditPlace place_of(const Operation& operation, const EditOptions& options) {
     if (!belongs_to_variant(place.step)) return place;
     if (options.variant.empty())
         throw UsageError("step " + to_string(place.step) +
-                         " belongs to a variant; name it (cfd, rp, ...)");
+                         " belongs to a variant; give its name (cfd, rp, ...)");
     place.variant = options.variant;
     return place;
 }
@@ -47,8 +47,8 @@ std::vector<HistoryEntry> entries_before(const History& history, EditId id) {
         before.erase(own, before.end());
         return before;
     }
-    throw UsageError("the current state holds no edit " + std::to_string(id) +
-                     "; the log lists its edits");
+    throw UsageError("the current state has no edit " + std::to_string(id) +
+                     "; see its edits with log");
 }
 
 }  // namespace vesselbench

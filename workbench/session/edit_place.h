@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// Where a new edit of an operation goes.
-/// \throw UsageError if the step is not allowed, or belongs to a variant and none is named
+/// The place of a new edit of an operation.
+/// \throw UsageError if the step is not allowed, or belongs to a variant and none is given
 [[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options);
 
 /// The entries that precede a new edit of this place.
@@ -16,7 +16,7 @@ namespace vesselbench {
                                                        const EditPlace& place);
 
 /// The entries of the edit's line up to it, without it.
-/// \throw UsageError if the current state does not hold it
+/// \throw UsageError if the current state does not contain it
 [[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history, EditId id);
 
 }  // namespace vesselbench

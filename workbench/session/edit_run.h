@@ -10,14 +10,14 @@
 
 namespace vesselbench {
 
-/// One edit that has run on one input and is not in the history yet.
+/// An edit that has run on an input and is not in the history yet.
 struct EditRun {
     ResultRecord record;         ///< without the ids of result, edit and input
     Scene input;                 ///< the scene it ran on
     std::optional<Scene> scene;  ///< none: the edit is stale
 };
 
-/// The edits before a new one, evaluated in memory: nothing of it is in the history yet.
+/// The edits before a new one, evaluated in memory; not in the history yet.
 struct EvaluatedLine {
     struct Link {
         EditRef edit;
@@ -25,13 +25,13 @@ struct EvaluatedLine {
     };
 
     std::vector<Link> links;
-    /// The known result behind them; none: it is made by their runs.
+    /// The known result after them; none: it is produced by their runs.
     std::optional<ResultId> end = 0;
     Scene scene;  ///< of that result
 };
 
-/// What came of an operation as the record of a result.
-/// \param outcome whose report and arguments the record gets, files without their folders
+/// The outcome of an operation as the record of a result.
+/// \param outcome source of the record's report and arguments, with files without their folders
 /// \param duration [s]
 [[nodiscard]] EditRun edit_run(const Operation& operation, Scene input, Outcome outcome,
                                double duration, const Progress& progress);
@@ -39,10 +39,10 @@ struct EvaluatedLine {
 /// Why a pending edit no longer applies to its input.
 [[nodiscard]] EditRun stale_run(Scene input, const std::string& reason);
 
-/// Time of this moment, UTC, 2024-05-17T09:30:00Z.
+/// The current time, UTC, 2024-05-17T09:30:00Z.
 [[nodiscard]] std::string utc_now();
 
-/// Seconds since it was made.
+/// Seconds since construction.
 class Stopwatch {
 public:
     [[nodiscard]] double seconds() const {

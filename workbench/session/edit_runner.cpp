@@ -126,7 +126,7 @@ Scene EditRunner::load(ResultId id, const Progress& progress) {
     return scene;
 }
 
-/// Makes again what is referenced only: runs the first edit of the chain that lacks something.
+/// Recreates data that is only referenced: runs the first edit of the chain that lacks something.
 /// \return scenes that must live until the result is loaded
 std::vector<Scene> EditRunner::recall(ResultId id, const Progress& progress) {
     const ProjectFile& project = store_->project();
@@ -139,7 +139,7 @@ std::vector<Scene> EditRunner::recall(ResultId id, const Progress& progress) {
         const HistoryResult& result = store_->history().results().at(first);
         if (first == last)
             throw InvalidInput("the image that edit " + std::to_string(result.edit.id) +
-                               " made cannot be made again: its source has changed");
+                               " made cannot be recreated: its source has changed");
         last = first;
         recalled.push_back(rerun(result, progress.silent()).scene);
         project.recall(recalled.back());

@@ -20,19 +20,19 @@ public:
     [[nodiscard]] EditRun run(const Operation& operation, Scene input, const Arguments& located,
                               const Progress& progress) const;
 
-    /// Runs what is pending among the entries, from the first on, and enters each result as it
-    /// comes: after a cancel or an error, what ran before it stays.
+    /// Runs the pending ones among the entries, from the first on, and enters each result as it
+    /// arrives: after a cancel or an error, earlier results are kept.
     /// \return the result behind them
     ResultId evaluate(const std::vector<HistoryEntry>& entries, const Progress& progress);
 
-    /// The same in memory: nothing is entered.
+    /// The same in memory, without entering anything.
     [[nodiscard]] EvaluatedLine evaluated(const std::vector<HistoryEntry>& entries,
                                           const Progress& progress);
 
-    /// The scene of a result: from memory, read, or, where only its source is known, made again.
+    /// The scene of a result: from memory, read, or recreated if only its source is known.
     [[nodiscard]] Scene load(ResultId id, const Progress& progress = {});
 
-    /// Runs a stored edit again on its stored input, with what it had decided.
+    /// Runs a stored edit again on its stored input, with its decisions.
     [[nodiscard]] Outcome rerun(const HistoryResult& result, const Progress& progress);
 
 private:
@@ -43,11 +43,11 @@ private:
     const SessionOptions* options_;
 };
 
-/// Adds the results of the line's runs to a history that holds its edits, and fills in their ids.
-/// Runs whose result the history knows by now are dropped.
-/// \param results gets what is to be stored with `next`
+/// Adds the results of the line's runs to a history that contains its edits, and fills in their
+/// ids. Runs whose result the history already has are dropped.
+/// \param results receives the results to be stored with `next`
 /// \param start the result before it
-/// \return the result behind the line
+/// \return the result after the line
 ResultId enter(EvaluatedLine& line, History& next, std::vector<NewResult>& results,
                ResultId start = 0);
 

@@ -17,13 +17,13 @@ namespace vesselbench {
 
 enum class JobState { Waiting, Running, Done, Failed, Cancelled };
 
-/// How far a job is.
+/// Progress of a job.
 struct JobProgress {
-    double fraction = 0.0;  ///< [0, 1], never goes back
+    double fraction = 0.0;  ///< [0, 1], never decreases
     std::string what;
 };
 
-/// What a request's owner and the thread that runs it share; from any thread.
+/// State shared by a request's owner and the thread that runs it; accessible from any thread.
 class JobCore {
 public:
     [[nodiscard]] JobState state() const;
@@ -33,8 +33,8 @@ public:
     /// The text of the error; empty unless it failed.
     [[nodiscard]] std::string error() const;
 
-    /// A job that waits is never run; one that runs ends soon, by Cancelled, unless it is being
-    /// entered into the project just now: then it is done.
+    /// A waiting job is never run; a running one ends soon with Cancelled, unless it is just being
+    /// entered into the project: then it completes.
     void cancel();
 
     void wait() const;
@@ -60,8 +60,8 @@ private:
     std::stop_source stop_;
 };
 
-/// The result of a request that runs in the background: a value that may be copied, asked each
-/// frame, waited for, cancelled or forgotten, from any thread. To forget it does not cancel it.
+/// The result of a request that runs in the background: a value that may be copied, polled each
+/// frame, waited for, cancelled or dropped, from any thread. Dropping it does not cancel it.
 template <class Result>
 class Job {
 public:
@@ -96,7 +96,7 @@ private:
     std::shared_ptr<std::optional<Result>> result_ = std::make_shared<std::optional<Result>>();
 };
 
-/// The result of requests that have none.
+/// The result of requests without one.
 struct Nothing {};
 
 }  // namespace vesselbench

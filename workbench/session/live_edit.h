@@ -8,14 +8,14 @@
 namespace vesselbench {
 
 /// An operation that is driven live, made by Session::start_live(): a brush stroke, a sliding
-/// plane. What is added shows in scene() at once; Session::preview() and commit() make one edit of
-/// it, whose arguments are the sum of what was given. Not thread-safe: one thread drives it, which
-/// need not be the session's; it may outlive the session.
+/// plane. Additions are visible in scene() at once; Session::preview() and commit() turn it into
+/// one edit, whose arguments are the sum of those given. Not thread-safe: one thread drives it,
+/// which need not be the session's; it may outlive the session.
 class LiveEdit {
 public:
     /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \throw UsageError if they do not fit the operation; what the operation throws. The scene
-    /// then stays as it was
+    /// \throw UsageError if they do not fit the operation; what the operation throws. The scene is
+    /// then unchanged
     void add(const Arguments& more, Progress progress = {});
 
     /// The scene after everything added so far.
@@ -30,16 +30,16 @@ private:
     /// What the batch form returns for everything added so far, every checked argument filled in.
     [[nodiscard]] Outcome outcome(Progress& progress);
 
-    /// The arguments that were given, with the values that everything added made of them.
+    /// The given arguments, with the values resulting from everything added.
     [[nodiscard]] Arguments given(const Arguments& resolved) const;
 
     const Operation* operation_;
     EditRecord edit_;
     EvaluatedLine before_;
-    Arguments given_;    ///< with the paths of files; what was added replaces what was there
+    Arguments given_;    ///< with the paths of files; additions replace earlier values
     Arguments checked_;  ///< the same with defaults
     std::unique_ptr<Stepper> stepper_;
-    double seconds_ = 0.0;  ///< that the stepper has worked
+    double seconds_ = 0.0;  ///< of the stepper's work
 };
 
 }  // namespace vesselbench

@@ -4,8 +4,8 @@
 
 namespace vesselbench {
 
-/// A receiver whose fraction never goes back, whatever the parts of a computation report: what is
-/// lower than before is passed on as what was reached. Thread-safe if `receiver` is.
+/// A receiver whose fraction never decreases, whatever the parts of a computation report: a lower
+/// value is passed on as the largest one so far. Thread-safe if `receiver` is.
 [[nodiscard]] Progress::Receiver monotone(Progress::Receiver receiver);
 
 }  // namespace vesselbench

@@ -10,11 +10,11 @@
 
 namespace vesselbench {
 
-/// An edit that has run and may be entered by Session::commit(), without running again: a value
-/// that any thread may hold. It holds its scenes in memory as long as it lives.
+/// An edit that has run and may be entered by Session::commit() without running again: a value that
+/// any thread may hold. It keeps its scenes in memory during its lifetime.
 class Preview {
 public:
-    /// What the edit would be. Of a new edit the id is 0; it gets one when it is committed.
+    /// The edit to be entered. The id of a new edit is 0; it gets one on commit.
     [[nodiscard]] const EditRecord& edit() const { return data_->edit; }
 
     /// The scene after the edit.
@@ -27,7 +27,7 @@ public:
     /// committed with it.
     [[nodiscard]] std::optional<ResultId> input_id() const { return data_->before.end; }
 
-    /// Figures, warnings and resolved arguments; the ids in it come with the commit.
+    /// Figures, warnings and resolved arguments; its ids are set on commit.
     [[nodiscard]] const ResultRecord& result() const { return data_->run.record; }
 
 private:

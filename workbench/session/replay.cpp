@@ -7,7 +7,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Bit for bit; what a GPU computed by tolerance, as no two devices round alike.
+/// Bit for bit; results of a GPU by tolerance, because devices round differently.
 void compare(const ResultRecord& stored, const Scene& replayed_scene, CaseStore& store,
              EditRunner& runner, ReplayEntry& replayed) {
     const std::vector<std::string> names = store.project().differences(stored.id, replayed_scene);
@@ -27,7 +27,7 @@ ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry&
     replayed.operation = store.edit(entry.edit).operation;
     replayed.variant = entry.place.variant;
     if (entry.status != EditStatus::Done || store.is_own(entry.result)) {
-        replayed.note = to_string(entry.status) + ": it has no stored result";
+        replayed.note = to_string(entry.status) + ": there is no stored result";
         return replayed;
     }
     replayed.differences = store.project().damages(entry.result, progress);
@@ -39,10 +39,10 @@ ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry&
     } catch (const Cancelled&) {
         throw;
     } catch (const IoError& error) {
-        // The source file is not here any more; what was made of it is, and its checksums fit.
+        // The source file is missing, but its result is stored, and the checksums match.
         replayed.note = error.what();
     } catch (const std::exception& error) {
-        replayed.differences.push_back(std::string("it fails now: ") + error.what());
+        replayed.differences.push_back(std::string("it now fails: ") + error.what());
     }
     return replayed;
 }

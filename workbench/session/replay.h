@@ -8,15 +8,15 @@
 
 namespace vesselbench {
 
-/// What replaying one edit showed.
+/// Result of replaying one edit.
 struct ReplayEntry {
     EditRef edit;
     std::string operation;
     std::string variant;
-    bool replayed = false;  ///< false: only the stored result's checksums were tested
+    bool replayed = false;  ///< false: only the stored result's checksums were verified
     std::vector<std::string> differences;  ///< empty: same bits, or as `distance` says
-    std::optional<double> distance;  ///< largest between vertices [mm], of what a GPU computed
-    std::string note;                ///< why it was not run again
+    std::optional<double> distance;        ///< largest between vertices [mm], for results of a GPU
+    std::string note;                      ///< the reason if it was not run again
 };
 
 /// Runs each done edit of the current state again on its stored input, with its resolved arguments,

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Adds up parts, each once.
+/// Sums the sizes of parts, each counted once.
 class PartSum {
 public:
     std::size_t add(const Scene& scene) {

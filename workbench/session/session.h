@@ -14,24 +14,24 @@
 namespace vesselbench {
 
 /// A case being worked on: history, project file and running operations in one. Command line,
-/// recipes, tests and the window go through this door. Every change is in the project file, by one
-/// transaction, before the call returns. A call that throws or is cancelled leaves everything as it
-/// was, but for scene(), scene_after() and replay(): pending edits that have run by then stay done.
-/// Used by one thread at a time; a window's session belongs to a SessionRunner.
+/// recipes, tests and the window all use it. Every change is in the project file, by one
+/// transaction, before the call returns. A call that throws or is cancelled leaves everything
+/// unchanged, except in scene(), scene_after() and replay(): pending edits that have run by then
+/// stay done. Not thread-safe; a window's session belongs to a SessionRunner.
 class Session {
 public:
-    /// Makes a new project file. \throw IoError if it exists or cannot be written
+    /// Creates a new project file. \throw IoError if it exists or cannot be written
     [[nodiscard]] static Session create(const std::filesystem::path& project,
                                         SessionOptions options = {});
 
     /// Opens a project. If another process has it open for writing, or it cannot be written, this
     /// session only reads; read_only_reason() says why.
-    /// \throw IoError if it cannot be read, InvalidInput if it is no project, damaged, or of a
+    /// \throw IoError if it cannot be read, InvalidInput if it is not a project, damaged, or of a
     ///        newer version
     [[nodiscard]] static Session open(const std::filesystem::path& project,
                                       SessionOptions options = {});
 
-    /// A session without a file; save_as() makes one of it.
+    /// A session without a file; save_as() writes one.
     [[nodiscard]] static Session unsaved(SessionOptions options = {});
 
     Session(Session&&) noexcept;
@@ -41,9 +41,8 @@ public:
     /// Empty if this session may write.
     [[nodiscard]] const std::string& read_only_reason() const;
 
-    /// Runs an operation and enters it into the history: preview() and commit() in one. Edits
-    /// before it that are pending run first and are entered with it; those behind it become
-    /// pending.
+    /// Runs an operation and enters it into the history: preview() and commit() in one. Pending
+    /// edits before it run first and are entered with it; later ones become pending.
     /// \throw UsageError on wrong arguments, step or variant; what the operation throws; IoError if
     /// the session only reads or the project cannot be written
     LogEntry apply(const std::string& operation, const Arguments& given,
@@ -51,20 +50,20 @@ public:
 
     /// Runs an edit of the current state with other arguments: its next revision. The edits behind
     /// it become pending.
-    /// \param given all its arguments; of files that it read before, the names suffice
+    /// \param given all its arguments; for files read before, the names suffice
     /// \throw as apply()
     LogEntry change_edit(EditId id, const Arguments& given, const EditOptions& options = {},
                          Progress progress = {});
 
-    /// Runs what apply() and change_edit() run, without entering anything. A session that only
-    /// reads may preview, too.
+    /// Runs the same as apply() and change_edit() without entering anything. A read-only session
+    /// may preview, too.
     /// \throw UsageError; what the operation throws
     [[nodiscard]] Preview preview(const std::string& operation, const Arguments& given,
                                   const EditOptions& options = {}, Progress progress = {});
     [[nodiscard]] Preview preview_change(EditId id, const Arguments& given,
                                          const EditOptions& options = {}, Progress progress = {});
 
-    /// Enters what was previewed, without running it again.
+    /// Enters a previewed edit without running it again.
     /// \throw UsageError if other edits precede it by now than those it ran on; IoError if the
     /// session only reads or the project cannot be written
     LogEntry commit(const Preview& preview);
@@ -74,7 +73,7 @@ public:
     [[nodiscard]] LiveEdit start_live(const std::string& operation, const Arguments& given,
                                       const EditOptions& options = {}, Progress progress = {});
 
-    /// What everything added to a live edit comes to, with its figures; the live edit may go on.
+    /// The result of everything added to a live edit, with its figures; the live edit may continue.
     [[nodiscard]] Preview preview(LiveEdit& live, Progress progress = {});
 
     /// Leaves an edit out; the edits behind it become pending.
@@ -100,7 +99,7 @@ public:
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 
-    /// What the session is now, for any thread to hold.
+    /// A snapshot of the session, for any thread to hold.
     [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
 
     /// Runs each done edit of the current state again on its stored input, with its resolved
@@ -112,8 +111,8 @@ public:
     /// \throw IoError if the file exists or cannot be written
     void save_as(const std::filesystem::path& project, Progress progress = {}) const;
 
-    /// From now on every operation runs in a worker process, not only those that are `isolated`:
-    /// a cancel then ends it at once. See WorkerOptions::every_operation.
+    /// From now on every operation runs in a worker process, not only the `isolated` ones: a cancel
+    /// then ends it at once. See WorkerOptions::every_operation.
     void run_in_workers();
 
 private:

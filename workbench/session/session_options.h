@@ -11,7 +11,7 @@ namespace vesselbench {
 
 struct SessionOptions {
     std::string author;                             ///< of the edits; empty: the user's login name
-    OperationLookup find;                           ///< required: how operations are found by name
+    OperationLookup find;                           ///< required: finds operations by name
     WorkerOptions worker;                           ///< how operations run in worker processes
     std::size_t embed_limit = kEmbeddedImageBytes;  ///< [bytes] see there
     std::size_t scene_bytes = std::size_t{768}

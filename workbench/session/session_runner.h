@@ -16,28 +16,28 @@
 
 namespace vesselbench {
 
-/// The background thread that owns a session (DESIGN 1, "Jobs"): requests go in from any thread and
-/// run one after the other, in their order; results come back as jobs. No call blocks, but those of
+/// The background thread that owns a session (DESIGN 1, "Jobs"): requests come from any thread and
+/// run one after the other, in order; results are returned as jobs. No call blocks, except those of
 /// a job that say so. Operations run in worker processes, so that a cancel ends them at once; live
 /// edits run on this thread.
 class SessionRunner {
 public:
     /// \param notify called by the background thread whenever a job has ended, so that a window
-    /// wakes up and asks its jobs; it must not throw
+    /// wakes up and polls its jobs; it must not throw
     explicit SessionRunner(Session session, std::function<void()> notify = {});
 
-    /// Cancels what waits and what runs, and waits for the end of it.
+    /// Cancels waiting and running requests, and waits for their end.
     ~SessionRunner();
 
     SessionRunner(const SessionRunner&) = delete;
     SessionRunner& operator=(const SessionRunner&) = delete;
 
-    /// What the session is now; a job that has ended shows in it.
+    /// A snapshot of the session; it includes every ended job.
     [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
 
-    /// Runs `call(Session&, Progress) -> Result` on the background thread; the ordinary requests
-    /// below are made of it.
-    /// \param supersede not empty: cancels the requests of the same word that still wait
+    /// Runs `call(Session&, Progress) -> Result` on the background thread; the requests below are
+    /// built on it.
+    /// \param supersede not empty: cancels waiting requests with the same word
     template <class Call>
     auto submit(Call call, std::string supersede = {})
         -> Job<std::invoke_result_t<Call&, Session&, Progress>> {
@@ -70,17 +70,16 @@ public:
     Job<Nothing> with_scene(std::string variant,
                             std::function<void(const Scene&, const Progress&)> call);
 
-    // A live edit: started, added to, shown, entered. Only requests touch what the pointer holds.
+    // A live edit: started, extended, shown, entered. Only requests access the pointed-to object.
 
     using Live = std::shared_ptr<LiveEdit>;
     Job<Live> start_live(std::string operation, Arguments given, EditOptions options = {});
-    /// \param supersede not empty for operations whose arguments are replaced: those that still
-    /// wait are skipped. A brush's dabs add up: none of them may be left out \return the scene
-    /// after it
+    /// \param supersede not empty for operations whose arguments are replaced: waiting ones are
+    /// skipped. A brush's dabs add up: none may be skipped \return the scene after it
     Job<Scene> add(Live live, Arguments more, std::string supersede = {});
     Job<LogEntry> commit(Live live);
 
-    /// Cancels what waits and what runs.
+    /// Cancels waiting and running requests.
     void cancel_all();
 
     /// True if nothing waits and nothing runs.

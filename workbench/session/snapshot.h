@@ -19,13 +19,13 @@ struct LogEntry {
     std::shared_ptr<const ResultRecord> result;  ///< of a done edit; else null
 };
 
-/// What a session is at one moment: an immutable value that any thread may hold and read while the
-/// session goes on.
+/// The state of a session at one moment: an immutable value that any thread may hold and read while
+/// the session continues.
 struct Snapshot {
     std::shared_ptr<const History> history;  ///< the tree of states, without data; never null
     std::vector<LogEntry> log;               ///< the current state's edits, by step, then time
-    /// The scenes that are in memory, by variant, "" being the trunk. Absent: an edit before it is
-    /// pending, or it has to be read: ask the session.
+    /// The scenes in memory, by variant, "" for the trunk. Absent: an edit before it is pending, or
+    /// it has to be read through the session.
     std::map<std::string, Scene> scenes;
     std::string project;           ///< the file's name without its folder; empty: unsaved
     std::string read_only_reason;  ///< empty if the session may write

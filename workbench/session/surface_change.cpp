@@ -14,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-// Of larger differences every n-th vertex is measured: the log must not cost more than the edit.
+// In larger differences every n-th vertex is measured: the log must not cost more than the edit.
 constexpr std::size_t kLargestSample = 50000;
 
 struct Deviations {
@@ -43,7 +43,7 @@ Deviations deviations_in_place(const Positions& before, const Positions& after) 
     return found;
 }
 
-/// Distances of the vertices to another surface. Those that stand on one of its vertices need no
+/// Distances of the vertices to another surface. Those coinciding with one of its vertices need no
 /// search.
 Deviations deviations_from(const Positions& points, const Surface& other,
                            const Progress& progress) {

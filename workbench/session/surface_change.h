@@ -6,10 +6,11 @@
 
 namespace vesselbench {
 
-/// What an edit did to the scene's surface. Where the connectivity stayed, deviations go from each
-/// vertex to its old place, their mean over the vertices that moved. Else they go from the vertices
-/// of either surface to the other surface, their mean over all vertices of both; of more than
-/// 50,000 that stand on no vertex of the other, every n-th is measured.
+/// The effect of an edit on the scene's surface. If the connectivity was kept, deviations are
+/// measured from each vertex to its old place, with their mean over the vertices that moved. Else
+/// they are measured from the vertices of either surface to the other surface, with their mean over
+/// all vertices of both; of more than 50,000 that coincide with no vertex of the other, every n-th
+/// is measured.
 /// \throw Cancelled
 [[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
                                            const Progress& progress = {});

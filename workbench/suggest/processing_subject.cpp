@@ -18,8 +18,7 @@ namespace {
 const OperationSearch& searched(const Operation& operation) {
     if (operation.search.by == OperationSearch::By::Runs) return operation.search;
     throw UsageError("--operation: the parameters of " + operation.name +
-                     " cannot be searched; of " + joined(searched_operations(), ", ") +
-                     " they can");
+                     " cannot be searched; of " + joined(searched_operations(), ", ") + " can");
 }
 
 SearchParameter search_parameter(const Operation& operation, SearchedParameter parameter) {
@@ -31,7 +30,7 @@ SearchParameter search_parameter(const Operation& operation, SearchedParameter p
             .idle = parameter.idle};
 }
 
-/// The change that graphs measure by: the first parameter's extreme value, the others' own.
+/// The change that scales graphs: the first parameter's extreme value, the others unchanged.
 StrongChange strong_change(const Operation& operation, const Arguments& arguments,
                            const SearchSpace& space) {
     const SearchParameter& first = space.parameters.front();
@@ -75,7 +74,7 @@ SearchSpace processing_space(const Operation& operation, const Surface& surface,
         space.parameters.push_back(search_parameter(operation, std::move(parameter)));
     for (const std::string& rival : how.rivals)
         if (given.has(rival))
-            throw UsageError(operation.name + ": " + rival + " cannot be given here, where " +
+            throw UsageError(operation.name + ": " + rival + " cannot be given here, because " +
                              space.parameters.front().name + " is searched");
     return space;
 }
@@ -131,7 +130,7 @@ ParameterSet processing_set(const Operation& operation, const Scene& scene,
             if (!outcome) outcome = run_bare(operation, scene, arguments, progress);
             value = outcome->resolved.optional_real(parameter.name);
         }
-        // Only decimate leaves its share open, where max_error alone decides.
+        // Only decimate leaves its share open, if max_error alone decides.
         set.push_back(value ? *value : share_of_triangles(outcome->scene, scene));
     }
     return set;

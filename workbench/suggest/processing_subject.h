@@ -14,29 +14,29 @@ namespace vesselbench {
 /// Operations whose parameters can be searched, by name.
 [[nodiscard]] std::vector<std::string> searched_operations();
 
-/// Compact where the number of triangles is what the operation is for; else default.
+/// Compact if the operation is meant to change the number of triangles; else default.
 /// \throw UsageError that lists the operations that can be searched, if it cannot
 [[nodiscard]] ScoreForm usual_score_of(const Operation& operation);
 
 /// The grid of an operation's parameters on a surface.
 /// \param all_parameters for graphs
-/// \throw UsageError if a given argument stands against what is searched
+/// \throw UsageError if a given argument conflicts with a searched one
 [[nodiscard]] SearchSpace processing_space(const Operation& operation, const Surface& surface,
                                            const Arguments& given, bool all_parameters);
 
-/// What the operation makes of a scene's surface with a set; the other arguments stay.
+/// The operation's result on a scene's surface with a set; the other arguments are kept.
 /// \throw AlgorithmFailure, InvalidInput as the operation; Cancelled
 [[nodiscard]] Surface processed_with(const Operation& operation, const Scene& scene,
                                      const Arguments& arguments, const SearchSpace& space,
                                      const ParameterSet& set, const Progress& progress);
 
-/// The measures of that. Sets with which the operation fails are left out.
+/// The measures of these results. Sets with which the operation fails are left out.
 [[nodiscard]] std::shared_ptr<MeasureSource> processing_table(const Operation& operation,
                                                               const Scene& scene,
                                                               const Arguments& arguments,
                                                               const SearchSpace& space);
 
-/// The arguments as a set of that space; what is absent is what the operation decides.
+/// The arguments as a set of that space; absent values are those the operation decides.
 [[nodiscard]] ParameterSet processing_set(const Operation& operation, const Scene& scene,
                                           const Arguments& arguments, const SearchSpace& space,
                                           const Progress& progress);

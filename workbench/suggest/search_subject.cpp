@@ -30,12 +30,11 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
             continue;
         last = &entry;
         if (entry.edit.operation == operation.name)
-            subject.notes.push_back("edit " + std::to_string(entry.edit.edit.id) + " is a " +
-                                    operation.name +
-                                    " already: the suggestion is for what to do on top of it "
-                                    "(undo goes back to before it)");
+            subject.notes.push_back(
+                "edit " + std::to_string(entry.edit.edit.id) + " is a " + operation.name +
+                " already: the suggestion applies on top of it (use undo to return to before it)");
     }
-    if (last == nullptr) throw InvalidInput(subject.name + " holds no edit that made a surface");
+    if (last == nullptr) throw InvalidInput(subject.name + " has no edit that makes a surface");
     subject.is_project = true;
     if (belongs_to_variant(operation.usual_step)) subject.variant = options.variant;
     subject.state = "after edit " + std::to_string(last->edit.edit.id) + " " + last->edit.operation;

@@ -41,11 +41,11 @@ StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
     return ground;
 }
 
-/// Weights of `smooth` for other thresholds. What does not depend on them is found once; the last
-/// distances and weights are kept.
+/// Weights of `smooth` for other thresholds. Everything independent of them is computed once; the
+/// last distances and weights are kept.
 class WeightsOfThresholds {
 public:
-    /// \param cap_weight of the caps' vertices, whatever else weighs them
+    /// \param cap_weight of the caps' vertices, whatever their other weights
     WeightsOfThresholds(const Surface& surface, StaircaseGround ground, double cap_weight)
         : surface_(surface),
           ground_(std::move(ground)),
@@ -111,7 +111,7 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
     if (arguments.flag("staircase")) {
         const bool round = arguments.text("caps") == "round";
         StaircaseGround ground = staircase_ground_of(scene, *finder, arguments, context.caps);
-        if (!round) subject.staircase_ground = ground;  // a GPU would look at the rounded surface
+        if (!round) subject.staircase_ground = ground;  // a GPU would use the rounded surface
         const auto weights =
             std::make_shared<WeightsOfThresholds>(surface, std::move(ground), round ? 1.0 : 0.0);
         subject.staircase = [weights](double tau_theta, double tau_max, double beta_min) {

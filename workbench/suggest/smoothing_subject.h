@@ -11,13 +11,13 @@
 
 namespace vesselbench {
 
-/// What `smooth` would do with a scene, as a search of its parameters needs it.
+/// The inputs of `smooth` on a scene, for a search of its parameters.
 struct SmoothingSubject {
     FilterParameters filter;
     FilterGround ground;
     std::shared_ptr<const std::vector<double>> weights;  ///< at the given arguments; null: all 1
     StaircaseWeights staircase;                          ///< null without staircase=true
-    std::optional<StaircaseGround> staircase_ground;     ///< what a GPU makes the same from
+    std::optional<StaircaseGround> staircase_ground;     ///< the GPU's inputs for the same
     bool mu_stays = false;                               ///< the user gave it
     double slice = 1.0;                                  ///< distance of the image's slices [mm]
 };
@@ -26,13 +26,13 @@ struct SmoothingSubject {
 /// \throw UsageError, InvalidInput, AlgorithmFailure as `smooth`
 [[nodiscard]] SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments);
 
-/// What measures parameter sets, on the device that the argument `device` of `smooth` names: auto
-/// takes a GPU where there is one. Used on this thread only, if it is a GPU's. \param planes
-/// measures the error as Eq. 6.2 prints it, too
+/// The engine that measures parameter sets, on the device named by the argument `device` of
+/// `smooth`: auto takes a GPU if there is one. A GPU's engine must be used on this thread only.
+/// \param planes also measures the error as printed in Eq. 6.2
 [[nodiscard]] ChosenEngine smoothing_engine(const SmoothingSubject& subject,
                                             const Arguments& arguments, bool planes);
 
-/// \param engine that goes through the space
+/// \param engine that searches the space
 /// \param all_parameters for graphs
 [[nodiscard]] SearchSpace smoothing_space_for(const SmoothingSubject& subject,
                                               const SmoothingEngine& engine, bool all_parameters);
@@ -41,7 +41,7 @@ struct SmoothingSubject {
 [[nodiscard]] ParameterSet smoothing_set(const SmoothingSubject& subject,
                                          const Arguments& arguments, const SearchSpace& space);
 
-/// The surface smoothed with a set, as `smooth` does it but for walls that would cross.
+/// The surface smoothed with a set, as in `smooth`, but without the check for crossing walls.
 /// \throw InvalidInput if the space leaves the set out; Cancelled
 [[nodiscard]] Surface smoothed_with(const SmoothingSubject& subject, const Surface& surface,
                                     const SearchSpace& space, const ParameterSet& set,

@@ -5,14 +5,14 @@
 
 namespace vesselbench {
 
-/// What the command line says about a search of an operation's parameters.
+/// The command line's options of a search for an operation's parameters.
 struct SubjectOptions {
     std::string source;                  ///< a project or a surface file
     std::string units;                   ///< of a surface file; empty: mm
     std::string operation = "smooth";    ///< smooth, remesh, decimate or subdivide
     std::string variant = "cfd";         ///< of a project, for operations of steps 6-8
-    std::string filter;                  ///< of smooth; empty: as `smooth` decides
-    std::vector<std::string> arguments;  ///< "parameter=value" of the operation, which stay
+    std::string filter;                  ///< for smooth; empty: as `smooth` decides
+    std::vector<std::string> arguments;  ///< "parameter=value" of the operation, which are kept
 };
 
 }  // namespace vesselbench

@@ -9,7 +9,8 @@ SearchWay search_way_from(const std::string& name) {
     if (name == "coarse") return SearchWay::Coarse;
     if (name == "exhaustive") return SearchWay::Exhaustive;
     if (name == "pattern") return SearchWay::Pattern;
-    throw UsageError("--search: '" + name + "' is none of automatic, coarse, exhaustive, pattern");
+    throw UsageError("--search: '" + name +
+                     "' is unknown: use automatic, coarse, exhaustive or pattern");
 }
 
 SuggestionSearch::SuggestionSearch(const SearchSubject& subject, ScoreForm form, SearchWay way,

@@ -13,7 +13,7 @@ namespace vesselbench {
 /// Little, medium and strong smoothing (thesis 6.5.6).
 constexpr std::array<double, 3> kPresetTaus = {0.3, 0.6, 1.0};
 
-/// How parameter sets are gone through.
+/// How parameter sets are searched.
 enum class SearchWay {
     Automatic,   ///< coarse, then refined; of four parameters or more: pattern
     Coarse,      ///< all coarse values
@@ -24,10 +24,10 @@ enum class SearchWay {
 /// \throw UsageError unless "automatic", "coarse", "exhaustive" or "pattern"
 [[nodiscard]] SearchWay search_way_from(const std::string& name);
 
-/// Suggestions for one surface; what was measured serves for every target smoothness.
+/// Suggestions for one surface; its measurements serve every target smoothness.
 class SuggestionSearch {
 public:
-    /// \param planes measures the error as Eq. 6.2 prints it, too
+    /// \param planes also measures the error as printed in Eq. 6.2
     SuggestionSearch(const SearchSubject& subject, ScoreForm form, SearchWay way,
                      bool planes = false);
 
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] std::optional<QualityMeasures> measures(const ParameterSet& set,
                                                           const Progress& progress = {});
 
-    /// What the operation makes of the surface.
+    /// The operation's result on the surface.
     [[nodiscard]] Surface changed(const ParameterSet& set, const Progress& progress = {}) const;
 
     [[nodiscard]] const SearchSpace& space() const { return search_.space(); }
@@ -51,7 +51,7 @@ public:
 
     [[nodiscard]] ScoreForm form() const { return search_.settings().form; }
 
-    /// Who smooths and measures; of other operations the CPU.
+    /// The device that smooths and measures; for other operations the CPU.
     [[nodiscard]] const ChosenEngine& chosen() const { return chosen_; }
 
     [[nodiscard]] MeasureSource::Work work() const { return search_.work(); }
@@ -61,7 +61,7 @@ private:
     SearchWay way_;
     ChosenEngine chosen_;
     ParameterSearch search_;
-    std::optional<Suggestion> last_;  ///< with many parameters, where another tau begins
+    std::optional<Suggestion> last_;  ///< with many parameters: the start for another tau
 };
 
 }  // namespace vesselbench

@@ -37,7 +37,7 @@ constexpr int kFirstFree = 10;
 constexpr int kPollMilliseconds = 20;
 constexpr auto kProgressInterval = std::chrono::milliseconds(20);
 
-// The sanitizers' shadow memory takes more address space than any limit.
+// The sanitizers' shadow memory needs more address space than any limit.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;
 #else
@@ -80,13 +80,13 @@ private:
     int number_;
 };
 
-/// Away from the low numbers that the worker's ends get.
+/// Away from the low numbers used for the worker's ends.
 Descriptor moved_up(int number) {
     const Descriptor low(number);
     return Descriptor(fcntl(number, F_DUPFD_CLOEXEC, kFirstFree));
 }
 
-/// A file in memory that only the two processes know.
+/// A file in memory shared only by the two processes.
 Descriptor memory_file(const char* name) {
     return moved_up(memfd_create(name, MFD_CLOEXEC));
 }
@@ -95,7 +95,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const auto done = write(descriptor, bytes.data(), bytes.size());
         if (done < 0 && errno == EINTR) continue;
-        if (done <= 0) throw IoError("cannot hand a scene to a worker process: no memory left");
+        if (done <= 0) throw IoError("cannot pass a scene to a worker process: out of memory");
         bytes = bytes.subspan(static_cast<std::size_t>(done));
     }
 }
@@ -184,7 +184,7 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Waits for its end. \return its status as waitpid() tells it
+    /// Waits for its end. \return its status from waitpid()
     int wait() {
         int status = 0;
         while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
@@ -220,7 +220,7 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
     return false;
 }
 
-/// The name of the foreign file that the operation reads, if it reads one.
+/// The name of the foreign file read by the operation, if any.
 std::optional<std::string> file_of(const Operation& operation, const Arguments& arguments) {
     for (const Parameter& parameter : operation.parameters)
         if (parameter.type == ParameterType::File && arguments.has(parameter.name)) {
@@ -234,9 +234,9 @@ std::optional<std::string> file_of(const Operation& operation, const Arguments& 
                                const std::string& what) {
     if (const auto file = file_of(operation, arguments))
         throw InvalidInput(operation.name + " " + what + " while reading " + *file +
-                           ": the file is probably damaged; the project is as it was");
+                           ": the file is probably damaged; the project is unchanged");
     throw AlgorithmFailure(operation.name + " " + what +
-                           "; the project is as it was. Try other parameters, or repair first");
+                           "; the project is unchanged. Try other parameters, or repair first");
 }
 
 [[noreturn]] void throw_ending(Ending ending, const std::string& text) {
@@ -265,7 +265,7 @@ std::string gigabytes(std::size_t bytes) {
     return std::to_string((bytes + (std::size_t{1} << 29)) >> 30) + " GiB";
 }
 
-/// What the worker says of an error that the operation threw.
+/// The worker's report of an error thrown by the operation.
 template <class Run>
 Bytes outcome_or_error(Run run) {
     const auto error = [](Ending ending, const char* text) {
@@ -291,7 +291,8 @@ Bytes outcome_or_error(Run run) {
     } catch (const AlgorithmFailure& e) {
         return error(Ending::Algorithm, e.what());
     } catch (const std::exception& e) {
-        return error(Ending::Broken, e.what());  // of a library: it names neither place nor remedy
+        return error(Ending::Broken,
+                     e.what());  // from a library: it names neither place nor remedy
     }
 }
 
@@ -300,7 +301,7 @@ void limit(int resource, std::size_t bytes) {
     setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-/// Writes "fraction text" lines, not more often than a reader can follow.
+/// Writes "fraction text" lines, at a readable rate.
 Progress::Receiver progress_lines() {
     return [last = Clock::time_point{}](double fraction, std::string_view what) mutable {
         if (Clock::now() - last < kProgressInterval) return;
@@ -361,7 +362,7 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene, const Argu
 
 int worker_main(const OperationLookup& find) {
     if (fcntl(kOutcome, F_GETFD) < 0 || fcntl(kProgress, F_GETFD) < 0) return 2;
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no worker outlives the session that waits for it
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // no worker outlives its session
     limit(RLIMIT_CORE, 0);
     const Bytes answer = outcome_or_error([&] { return run_request(find); });
     try {

@@ -45,7 +45,7 @@ Vec3 chord_direction(const CenterlineBranch& branch, const SegmentPlace& at) {
 }
 
 /// Slope at `centre` of the least-squares quadratic through the points within the window; weights
-/// fall off to the window's ends.
+/// decrease towards the window's ends.
 std::optional<Vec3> quadratic_slope(const CenterlineBranch& branch, const std::vector<double>& s,
                                     double centre, double window) {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();

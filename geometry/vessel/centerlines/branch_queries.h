@@ -14,7 +14,7 @@ struct BranchPlace {
     double abscissa = 0.0;  ///< [mm]
 };
 
-/// The place of the graph that is closest to a position, and how far away it is.
+/// The place of the graph that is closest to a position, and its distance.
 struct NearestPlace {
     BranchPlace place;
     double distance = 0.0;  ///< [mm] from the position to the line
@@ -32,12 +32,12 @@ struct NearestPlace {
 /// Radius of the maximal inscribed sphere [mm], linear between the branch's points; clamped.
 [[nodiscard]] double radius_at(const CenterlineBranch& branch, double abscissa);
 
-/// Unit direction of the branch from its start towards its end: the slope of a quadratic that is
-/// fitted to the points within `window` [mm] of arc length to each side. One-sided at the ends.
-/// \param window 0 takes one local radius
+/// Unit direction of the branch from its start towards its end: the slope of a quadratic fitted to
+/// the points within `window` [mm] of arc length on each side. One-sided at the ends.
+/// \param window 0 uses one local radius
 [[nodiscard]] Vec3 tangent_at(const CenterlineBranch& branch, double abscissa, double window = 0.0);
 
-/// The closest place of all branches, exact on the polyline's segments; empty for a graph without
+/// The closest place on all branches, exact on the polyline's segments; empty for a graph without
 /// branches. Of equal distances the lowest branch, then the lowest abscissa wins.
 [[nodiscard]] std::optional<NearestPlace> nearest_place(const CenterlineGraph& graph,
                                                         const Vec3& position);
@@ -57,12 +57,12 @@ struct NearestPlace {
 /// The branch that ends at a tip. \throw InvalidInput if the node is not a tip
 [[nodiscard]] std::size_t branch_of_tip(const CenterlineGraph& graph, std::size_t tip);
 
-/// The place that lies `distance` [mm] of arc length inward from the tip, on the tip's own branch;
-/// empty if the branch is shorter.
+/// The place `distance` [mm] of arc length inward from the tip, on the tip's own branch; empty if
+/// the branch is shorter.
 [[nodiscard]] std::optional<BranchPlace> inward_from_tip(const CenterlineGraph& graph,
                                                          std::size_t tip, double distance);
 
-/// Unit direction out of the vessel, along the tip's branch, `distance` [mm] inward of the tip.
+/// Unit direction out of the vessel, along the tip's branch, `distance` [mm] inward from the tip.
 /// \param window as for tangent_at
 [[nodiscard]] Vec3 outward_direction(const CenterlineGraph& graph, std::size_t tip, double distance,
                                      double window = 0.0);
@@ -81,9 +81,9 @@ struct NearestPlace {
 [[nodiscard]] BranchPlace place_from_node(const CenterlineGraph& graph, std::size_t branch,
                                           std::size_t node, double distance);
 
-/// Arc length [mm] from the furcation at which the branch has become a vessel of its own: from here
-/// on its inscribed spheres overlap none of the other branches at this node. The whole length if it
-/// never does; 0 at a tip.
+/// Arc length [mm] from the furcation at which the branch becomes a separate vessel: beyond it, its
+/// inscribed spheres overlap none of the other branches at this node. The whole length if it never
+/// does; 0 at a tip.
 [[nodiscard]] double furcation_zone_end(const CenterlineGraph& graph, std::size_t branch,
                                         std::size_t node);
 

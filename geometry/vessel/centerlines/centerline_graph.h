@@ -25,7 +25,7 @@ struct CenterlineBranch {
     std::vector<double> radii;  ///< [mm], radius of the maximal inscribed sphere at each point
 };
 
-/// The vessel tree's centerlines as a graph; loops happen (Circle of Willis).
+/// The vessel tree's centerlines as a graph; loops occur (circle of Willis).
 struct CenterlineGraph {
     std::vector<CenterlineNode> nodes;
     std::vector<CenterlineBranch> branches;

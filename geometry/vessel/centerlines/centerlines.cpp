@@ -18,10 +18,11 @@
 namespace vesselbench {
 namespace {
 
-constexpr double kThinFraction = 0.02;    ///< of the wall's area may be thinner than the grid's aim
-constexpr double kVoxelsPerRadius = 3.5;  ///< of the thin vessels
+constexpr double kThinFraction =
+    0.02;  ///< fraction of the wall's area that may be thinner than the grid resolves
+constexpr double kVoxelsPerRadius = 3.5;  ///< of thin vessels
 constexpr double kMostLumen = 1.5e6;      ///< voxels
-constexpr double kMostGrid = 4.0e7;       ///< voxels with the empty ones around
+constexpr double kMostGrid = 4.0e7;       ///< voxels including the empty ones around
 constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels need, for good lines
 constexpr double kSmallestComponent = 0.01;
 constexpr int kAttempts = 3;
@@ -59,7 +60,7 @@ struct Anchors {
     std::vector<VoxelId> blind;
 };
 
-/// A hole in the wall of a much larger lumen is a defect, not the end of a vessel.
+/// A hole in the wall of a much larger lumen is a defect, not a vessel's end.
 bool is_stray_hole(const LumenGrid& grid, const VesselEnd& end) {
     VoxelId v = 0;
     const double r = end.radius;
@@ -112,7 +113,7 @@ bool near_opening(const Anchors& anchors, const Vec3& p) {
 }
 
 /// Candidates for blind ends, one component after the other. A component without any known end
-/// starts from one of its two farthest places.
+/// starts from one of its two farthest points.
 void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors) {
     std::vector<float> all(grid.lumen.size(), std::numeric_limits<float>::infinity());
     for (const VoxelId seed : grid.voxels) {
@@ -178,7 +179,7 @@ RoughGraph rough_graph(const LumenGrid& grid, const Skeleton& skeleton, const An
     return rough;
 }
 
-/// What one grid gives.
+/// The result of one grid.
 struct Attempt {
     RoughGraph rough;
     std::size_t components = 0;
@@ -192,7 +193,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
     attempt.components = keep_large_components(grid, kSmallestComponent);
     if (grid.voxels.empty()) return attempt;
     measure_depth(grid);
-    progress.report(0.4, "looking for ends");
+    progress.report(0.4, "finding ends");
     Anchors anchors;
     anchor_openings(wall, grid, anchors);
     anchor_points(parameters.ends, grid, anchors);
@@ -217,7 +218,7 @@ CenterlineGraph compute_centerlines(const Surface& surface, const CenterlinePara
     check(parameters);
     const VesselWall wall = vessel_wall_of(surface);
     if (!(wall.volume > 0.0)) {
-        throw InvalidInput("the surface encloses no lumen; check units and orientation");
+        throw InvalidInput("the surface encloses no lumen: check units and orientation");
     }
     const double thin = thin_radius(wall, kThinFraction);
     double spacing = first_spacing(wall, thin);
@@ -231,7 +232,7 @@ CenterlineGraph compute_centerlines(const Surface& surface, const CenterlinePara
     }
     if (attempt.rough.graph.branches.empty()) {
         throw AlgorithmFailure(
-            "no centerline found: the lumen is thinner than the search grid or not closed; repair "
+            "no centerline found: the lumen is thinner than the search grid, or not closed; repair "
             "the surface, or crop it to the vessels of interest");
     }
     const WallSections sections(wall, 0.5 * thin);

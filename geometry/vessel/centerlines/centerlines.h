@@ -11,41 +11,41 @@
 namespace vesselbench {
 
 struct CenterlineParameters {
-    /// Ends of vessels [mm] instead of the automatic search. Boundary loops and flat patches stay
-    /// ends in any case. A point may lie on the wall or inside; it must be within one local radius
-    /// of the lumen.
+    /// Vessel ends [mm] instead of the automatic search. Boundary loops and flat patches are ends
+    /// in any case. A point may lie on the wall or inside; it must be within one local radius of
+    /// the lumen.
     Positions ends;
-    /// Look for blind ends (of closed surfaces, and of stubs of open ones). Without it only loops,
+    /// Search for blind ends (of closed surfaces, and of stubs of open ones). Otherwise only loops,
     /// flat patches and `ends` are ends.
     bool find_blind_ends = true;
-    /// A blind branch is kept if it sticks out of its parent's wall by more than this many times
+    /// A blind branch is kept if it protrudes from its parent's wall by more than this many times
     /// the parent's radius [-] ...
     double blind_beyond_parent = 1.0;
-    /// ... and by more than this many times its own largest radius [-]: a round sac (length 2
-    /// radii and a neck) is no branch, a stub is.
+    /// ... and by more than this many times its own largest radius [-]: a round sac (length 2 radii
+    /// and a neck) is not a branch, a stub is.
     double blind_slenderness = 2.5;
     double spacing = 0.2;  ///< distance of the line's points in local radii [-], in [0.02, 0.5]
 };
 
-/// The vessel tree inside a surface: one tip per boundary loop (at the loop's centroid), per flat
-/// inlet/outlet/cut patch (at its centroid; of a closed surface without labels also per flat disc
-/// that closes a vessel) and per blind end; furcations where lines meet; loops
-/// where the lumen has handles. Every component that encloses at least 1 % of the largest one's
-/// volume gets its lines. Boundary loops that are much smaller than the lumen at their place (a
-/// stray hole in a wall) are no ends.
+/// The vessel tree inside a surface: one tip per boundary loop (at the loop's
+/// centroid), per flat inlet/outlet/cut patch (at its centroid; in a closed surface
+/// without labels also per flat disc that closes a vessel) and per blind end;
+/// furcations where lines meet; loops where the lumen has handles. Every component that
+/// encloses at least 1 % of the largest one's volume gets lines. Boundary loops that
+/// are much smaller than the lumen there (a stray hole in a wall) are not ends.
 ///
-/// Topology: distance-ordered homotopic thinning of the voxelised lumen between the ends (Pudney,
-/// "Distance-ordered homotopic thinning", CVIU 72, 1998), so every loop is one of the lumen's.
-/// Position and radius: the largest circle inscribed in the wall that lies in a slab around the
-/// perpendicular section, iterated; noise is averaged over sectors of that slab. In a furcation the
-/// true distance to the wall limits the radius. Near an end the closure (missing, or flat) is
-/// ignored, so radii do not shrink towards an opening.
-/// Lines that pass straight through a furcation are smooth there; blind ends reach as far as the
-/// section keeps half of the vessel's radius.
-/// Deterministic for any number of threads. Works on open, closed, inside-out and mildly defective
-/// surfaces.
-/// \throw InvalidInput if the surface is empty, not finite, or encloses no lumen, if a parameter is
-/// out of range, or if one of `ends` is not near the lumen
+/// Topology: distance-ordered homotopic thinning of the voxelised lumen between the
+/// ends (Pudney, "Distance-ordered homotopic thinning", CVIU 72, 1998), so every loop
+/// is a loop of the lumen. Position and radius: the largest circle inscribed in the
+/// wall within a slab around the perpendicular section, iterated; noise is averaged
+/// over sectors of that slab. In a furcation the true distance to the wall limits the
+/// radius. Near an end the closure (missing, or flat) is ignored, so radii do not
+/// shrink towards an opening. Lines that pass straight through a furcation are smooth
+/// there; blind ends extend as far as the section keeps half of the vessel's radius.
+/// Deterministic for any number of threads. Works on open, closed, inside-out and
+/// mildly defective surfaces.
+/// \throw InvalidInput if the surface is empty, not finite, or encloses no lumen, if a
+/// parameter is out of range, or if one of `ends` is not near the lumen
 /// \throw AlgorithmFailure if no line can be found; the text says what to try
 /// \throw Cancelled
 [[nodiscard]] CenterlineGraph compute_centerlines(const Surface& surface,

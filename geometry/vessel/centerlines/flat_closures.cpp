@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kPlane = 0.9994;     ///< cosine of 2 degrees: normals of one plane
 constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns away by more
-constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be so
+constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be sharp
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
 constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind it, in radii
-constexpr double kMostFlat = 0.3;     ///< of the area; with more the surface is no vessel
+constexpr double kMostFlat = 0.3;  ///< fraction of the area; with more, the surface is not a vessel
 
 constexpr TriangleId kNone = static_cast<TriangleId>(-1);
 
-/// Across each of a triangle's edges the other triangle; kNone unless there is exactly one.
+/// The triangle across each of a triangle's edges; kNone unless there is exactly one.
 std::vector<std::array<TriangleId, 3>> neighbours_of(std::span<const Triangle> triangles) {
     struct Side {
         VertexId a, b;
@@ -53,7 +53,7 @@ std::vector<std::array<TriangleId, 3>> neighbours_of(std::span<const Triangle> t
     return near;
 }
 
-/// Finds plane regions and judges them.
+/// Finds planar regions and classifies them.
 class Search {
 public:
     Search(const Positions& points, std::span<const Triangle> triangles)
@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// The plane region around a triangle; its triangles are taken.
+    /// The planar region around a triangle; its triangles are marked as used.
     std::vector<TriangleId> grow(TriangleId seed, std::vector<bool>& taken) const {
         std::vector<TriangleId> region{seed};
         taken[seed] = true;
@@ -147,7 +147,7 @@ std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
     for (TriangleId t = 0; t < triangles.size(); ++t) {
         if (taken[t]) continue;
         auto region = search.grow(t, taken);
-        // A disc has at least as many triangles as a hexagon, and is no speck.
+        // A disc has at least as many triangles as a hexagon, and is not tiny.
         if (region.size() < 4 || search.area(region) < 1e-5 * whole) continue;
         if (!search.closes_vessel(region, surface)) continue;
         flat += search.area(region);

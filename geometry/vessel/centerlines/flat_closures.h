@@ -11,8 +11,8 @@ namespace vesselbench {
 class SurfaceDistance;
 
 /// Flat discs that close the ends of vessels in a surface without labels (a capped model, a vessel
-/// cut at an image's border): plane, round, bounded by a sharp rim, and as wide as the lumen behind
-/// them.
+/// cut at an image's border): planar, round, bounded by a sharp rim, and as wide as the lumen
+/// behind them.
 /// \param points [mm]
 /// \param triangles outward, closed
 /// \param surface the same triangles, for distances

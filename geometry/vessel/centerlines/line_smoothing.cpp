@@ -8,11 +8,11 @@
 namespace vesselbench {
 namespace {
 
-/// The line with arc lengths; a closed one with a piece of itself at both ends.
+/// The line with arc lengths; a closed one is extended by a part of itself at both ends.
 struct Unrolled {
     std::vector<double> s;
     std::vector<std::size_t> source;  ///< index of the line's point
-    std::size_t first = 0;            ///< place of the line's point 0
+    std::size_t first = 0;            ///< position of the line's point 0
 };
 
 Unrolled unroll(const Line& line) {
@@ -107,7 +107,7 @@ Line resampled(const Line& line, double spacing, std::size_t fewest) {
         open.points.push_back(line.points.front());
         open.radii.push_back(line.radii.front());
     }
-    // The measure in which the new points are equally far apart: arc length over local radius.
+    // The measure in which new points are equidistant: arc length over local radius.
     const double smallest = 1e-3 * *std::max_element(open.radii.begin(), open.radii.end());
     std::vector<double> measure{0.0};
     for (std::size_t i = 1; i < open.points.size(); ++i) {

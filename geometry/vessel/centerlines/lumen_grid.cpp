@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kBorder = 2;  ///< outer voxels around the lumen's box
 
-/// Two voxels that are 26-neighbours are at most sqrt(3) voxels apart; with both this far from the
-/// wall the segment between them cannot cross two walls.
+/// Two voxels that are 26-neighbours are at most sqrt(3) voxels apart; if both are this far from
+/// the wall, the segment between them cannot cross two walls.
 constexpr double kClearance = 0.87;
 
-/// Scan lines are shifted by these fractions of a voxel, so that they do not run through the
-/// vertices of surfaces that lie on a grid themselves.
+/// Scan lines are shifted by these fractions of a voxel, so that they do not pass through the
+/// vertices of surfaces that are aligned with a grid themselves.
 constexpr double kShift[3] = {0.00137, 0.00213, 0.00171};
 
 struct Crossing {
@@ -62,7 +62,7 @@ public:
         }
     }
 
-    /// Adds 1 to the votes of all voxels that this axis sees inside.
+    /// Adds 1 to the votes of all voxels inside along this axis.
     void vote(InsideRule rule, std::vector<std::uint8_t>& votes) {
         std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
             if (a.line != b.line) return a.line < b.line;
@@ -144,7 +144,7 @@ LumenGrid empty_grid(const Positions& points, std::span<const Triangle> triangle
     return grid;
 }
 
-/// Takes away the voxels that come closer than the clearance to one triangle.
+/// Removes the voxels that are closer than the clearance to one triangle.
 void clear_wall(const Positions& points, const Triangle& t, LumenGrid& grid) {
     const double reach = kClearance * grid.spacing;
     const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
@@ -313,7 +313,7 @@ void measure_depth(LumenGrid& grid) {
         grid.depth[v] = grid.lumen[v] ? kFar : 0.0F;
     }
     for (int axis = 0; axis < 3; ++axis) transform_axis(grid.depth, grid.size, axis);
-    // The nearest outer voxel lies in the clearance band, on average in its middle.
+    // The nearest outer voxel is in the clearance band, on average in its middle.
     const auto spacing = static_cast<float>(grid.spacing);
     const auto clearance = static_cast<float>(0.5 * kClearance * grid.spacing);
     for (const VoxelId v : grid.voxels)

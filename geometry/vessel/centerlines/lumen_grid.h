@@ -15,7 +15,7 @@ namespace vesselbench {
 using VoxelId = std::uint32_t;
 
 /// The lumen of a surface on a cubic grid. A border of outer voxels makes every 26-neighbour of a
-/// lumen voxel valid.
+/// lumen voxel a valid index.
 struct LumenGrid {
     std::array<int, 3> size = {0, 0, 0};
     Vec3 origin = Vec3::Zero();       ///< centre of voxel 0 [mm]
@@ -43,22 +43,22 @@ struct LumenGrid {
     /// \return false if there is none
     bool nearest(const Vec3& p, double reach, VoxelId& found) const;
 
-    /// Offsets of the 26 neighbours in the voxel arrays, x fastest, the centre left out.
+    /// Offsets of the 26 neighbours in the voxel arrays, x fastest, without the centre.
     [[nodiscard]] std::array<int, 26> neighbour_offsets() const;
 
     /// Lengths of these steps [mm].
     [[nodiscard]] std::array<float, 26> neighbour_lengths() const;
 };
 
-/// Which crossings of a scan line make its inside.
+/// How the crossings of a scan line define its inside.
 enum class InsideRule : std::uint8_t {
     Winding,  ///< the winding number is not 0: for consistently oriented triangles
     Parity    ///< an odd number of crossings: for any orientation
 };
 
-/// Voxels whose centre is inside the closed triangles (majority of three axes' scan lines, so that
-/// small defects do no harm) and at least 0.87 voxels away from them: vessels that nearly touch
-/// never become neighbours.
+/// Voxels with their centre inside the closed triangles (majority of the scan lines of three axes,
+/// so that small defects do no harm) and at least 0.87 voxels away from them: vessels that nearly
+/// touch never become neighbours.
 /// \param spacing voxel edge [mm]
 [[nodiscard]] LumenGrid voxelise(const Positions& points, std::span<const Triangle> triangles,
                                  double spacing, InsideRule rule, const Progress& progress);
@@ -73,7 +73,7 @@ void measure_depth(LumenGrid& grid);
 std::size_t keep_large_components(LumenGrid& grid, double fraction);
 
 /// Shortest path length [mm] through the lumen from a voxel to every lumen voxel, #voxels; infinite
-/// where there is no way.
+/// if there is no path.
 [[nodiscard]] std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from);
 
 }  // namespace vesselbench

@@ -11,26 +11,27 @@
 namespace vesselbench {
 namespace {
 
-constexpr double kTangentWindow = 1.5;  ///< half width of the fits that give directions, in radii
+constexpr double kTangentWindow = 1.5;  ///< half width of the fits that yield directions, in radii
 constexpr double kPointWindow = 1.2;    ///< half width of the fits that smooth points, in radii
 constexpr int kRounds = 8;
-constexpr int kCoarseRounds = 4;  ///< with a softer fit, to come near
-constexpr int kExtendAfter = 7;   ///< round after which blind ends are followed
-constexpr double kCovered = 0.9;  ///< a point is in another vessel within this much of its sphere
-constexpr double kEnoughWall = 0.5;  ///< fraction of directions with wall that makes a section
-constexpr double kMostNoise = 1.08;  ///< the section's radius may exceed the wall's nearest point
-                                     ///< by this factor at most
+constexpr int kCoarseRounds = 4;  ///< with a softer fit, to get close
+constexpr int kExtendAfter = 7;   ///< round after which blind ends are extended
+constexpr double kCovered =
+    0.9;  ///< a point is in another vessel if it is within this fraction of its sphere
+constexpr double kEnoughWall = 0.5;  ///< fraction of directions with wall that a section needs
+constexpr double kMostNoise = 1.08;  ///< largest ratio of the section's radius to the distance of
+                                     ///< the nearest wall point
 
-constexpr double kClosureDepth = 1.5;  ///< depths within so many radii of an end are not trusted
+constexpr double kClosureDepth = 1.5;  ///< depths within this many radii of an end are unreliable
 
 enum class Hold : std::uint8_t {
     Free,
     Fixed,    ///< an opening's centre
-    Covered,  ///< within another vessel at a furcation
+    Covered,  ///< inside another vessel at a furcation
     Extended  ///< the last stretch to a blind end
 };
 
-/// A strand on its way from voxels to the middle of its vessel.
+/// A strand being moved from voxels to the middle of its vessel.
 struct Work {
     Strand strand;
     Line line;
@@ -48,8 +49,8 @@ std::size_t last_node(const RoughGraph& rough, const StrandPiece& piece) {
     return first_node(rough, {piece.branch, !piece.reversed});
 }
 
-/// Index of the first point whose way to the start is longer than its radius: the depths before it
-/// are those of the closure.
+/// Index of the first point whose path to the start is longer than its radius: depths before it are
+/// those of the closure.
 std::size_t behind_closure(const Line& line) {
     double way = 0.0;
     const std::size_t most = line.points.size() / 2;
@@ -66,7 +67,7 @@ void reverse(Line& line) {
     std::reverse(line.weights.begin(), line.weights.end());
 }
 
-/// Mends the start of a piece that begins at a tip: an opening gets a straight way to its centre
+/// Repairs the start of a piece that begins at a tip: an opening gets a straight line to its centre
 /// and the vessel's radius, a blind end is cut back to its last full sphere.
 void mend_tip(Line& piece, NodeKind kind) {
     const std::size_t k = behind_closure(piece);
@@ -84,7 +85,7 @@ void mend_tip(Line& piece, NodeKind kind) {
     }
 }
 
-/// One branch of the rough graph in the strand's direction, tips mended.
+/// One branch of the rough graph in the strand's direction, with repaired tips.
 Line rough_piece(const RoughGraph& rough, const StrandPiece& piece, bool first, bool last) {
     const CenterlineBranch& b = rough.graph.branches[piece.branch];
     Line line{b.points, b.radii, std::vector<double>(b.points.size(), 1.0), false};
@@ -116,7 +117,7 @@ Line part_of(const Line& line, std::size_t begin, std::size_t end) {
     return part;
 }
 
-/// Smooths the voxel steps away, the ends of an open line staying where they are.
+/// Smooths the voxel steps, keeping the ends of an open line in place.
 void smooth_steps(Line& line, double voxel) {
     const Vec3 front = line.points.front();
     const Vec3 back = line.points.back();
@@ -171,7 +172,7 @@ bool contains(const Strand& strand, std::size_t branch) {
                        [&](const StrandPiece& p) { return p.branch == branch; });
 }
 
-/// True if p lies in a sphere of a branch at the node that is not in the strand.
+/// True if p lies in a sphere of a branch at the node that does not belong to the strand.
 bool in_other_vessel(const RoughGraph& rough, const Strand& strand, std::size_t node,
                      const Vec3& p) {
     for (const std::size_t b : rough.graph.nodes[node].branches) {
@@ -184,8 +185,8 @@ bool in_other_vessel(const RoughGraph& rough, const Strand& strand, std::size_t 
     return false;
 }
 
-/// Holds an end of the strand: an opening's centre is fixed; of a furcation, what lies within the
-/// other vessels is not moved by the wall.
+/// Constrains an end of the strand: an opening's centre is fixed; at a furcation, the wall does not
+/// move the points inside the other vessels.
 void hold_end(const RoughGraph& rough, Work& work, bool at_front) {
     const std::size_t n = work.line.points.size();
     const std::size_t node = at_front ? work.nodes.front() : work.nodes.back();
@@ -233,7 +234,8 @@ void smooth_points(Work& work) {
     }
 }
 
-/// Spreads the points of every branch of a strand evenly again, in local radii; their number stays.
+/// Redistributes the points of every branch of a strand evenly in local radii; their number is
+/// kept.
 void space_evenly(Work& work) {
     const Line before = work.line;
     for (std::size_t m = 0; m + 1 < work.marks.size(); ++m) {
@@ -247,7 +249,7 @@ void space_evenly(Work& work) {
     }
 }
 
-/// Follows a blind end along its direction as long as the section keeps half of its radius and the
+/// Extends a blind end along its direction as long as the section keeps half of its radius and the
 /// end wall is not near.
 void extend_back(Work& work, const WallSections& wall, double spacing) {
     Line& line = work.line;
@@ -288,8 +290,8 @@ void extend_blind_ends(const RoughGraph& rough, Work& work, const WallSections& 
     reverse(work);
 }
 
-/// Leads the covered stretch at the front of a strand from its node to where the strand leaves the
-/// other vessels, in the direction it has there.
+/// Leads the covered stretch at the front of a strand from its node to the point where the strand
+/// leaves the other vessels, in the direction it has there.
 void lead_from_node(Work& work, const Vec3& node) {
     std::size_t exit = 0;
     while (exit + 1 < work.hold.size() && work.hold[exit] == Hold::Covered) ++exit;
@@ -306,7 +308,7 @@ void lead_from_node(Work& work, const Vec3& node) {
     }
 }
 
-/// Radii from the sections, limited by the nearest wall; within other vessels from that alone.
+/// Radii from the sections, limited by the nearest wall; inside other vessels from the wall alone.
 void limit_radii(std::vector<Work>& works, const WallSections& wall) {
     std::vector<std::vector<double>> nearest(works.size());
     std::vector<double> ratios;
@@ -351,7 +353,7 @@ CenterlineGraph assemble(const RoughGraph& rough, const std::vector<Work>& works
     return graph;
 }
 
-/// Moves one point to a place, and its neighbours along, less the farther they are.
+/// Moves one point to a place, and its neighbours along with it, less the farther away they are.
 void pull(Line& line, std::size_t at, const Vec3& to) {
     const Vec3 shift = to - line.points[at];
     const double reach = 2.0 * line.radii[at];
@@ -364,8 +366,8 @@ void pull(Line& line, std::size_t at, const Vec3& to) {
     line.points[at] = to;
 }
 
-/// Gives nodes the place of the strand that passes through them, else of the strand that ends
-/// there, and makes all branches meet it.
+/// Moves each node to the strand that passes through it, else to the strand that ends there, and
+/// makes all branches meet it.
 void place_nodes(std::vector<Work>& works, CenterlineGraph& nodes) {
     std::vector<int> rank(nodes.nodes.size(), 0);
     for (const Work& work : works) {

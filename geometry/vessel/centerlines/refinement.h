@@ -8,22 +8,22 @@
 
 namespace vesselbench {
 
-/// What a node of a rough graph is.
+/// The kind of a node in a rough graph.
 enum class NodeKind : std::uint8_t {
     Furcation,  ///< also the node of a ring
-    Opening,    ///< a tip at a known place
+    Opening,    ///< a tip at a known position
     Blind       ///< a tip somewhere in a closed end
 };
 
 /// A centerline graph to voxel accuracy.
 struct RoughGraph {
     std::vector<NodeKind> kinds;  ///< #nodes
-    CenterlineGraph graph;        ///< openings stand at their centre; radii are depths
+    CenterlineGraph graph;        ///< openings are at their centre; radii are depths
     double voxel = 0.0;           ///< [mm]
 };
 
 /// Moves the points of a rough graph to the middle of the vessel and smooths the lines; blind ends
-/// are followed to where the vessel ends.
+/// are extended to the end of the vessel.
 /// \param spacing of the points in local radii [-]
 [[nodiscard]] CenterlineGraph refine(const RoughGraph& rough, const WallSections& wall,
                                      double spacing, const Progress& progress);

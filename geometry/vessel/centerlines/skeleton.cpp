@@ -11,7 +11,7 @@
 namespace vesselbench {
 namespace {
 
-/// A loop of so few voxels is no handle of the lumen: the wall around a handle takes more.
+/// A loop of so few voxels is not a handle of the lumen: the wall around a handle needs more.
 constexpr std::size_t kShortestLoop = 6;
 
 /// The curve's voxels with their neighbours in the curve.
@@ -40,7 +40,7 @@ Curve connect(const LumenGrid& grid, std::span<const VoxelId> voxels) {
     return curve;
 }
 
-/// Gives every cluster of furcation voxels and every end voxel its node.
+/// Assigns a node to every cluster of furcation voxels and to every end voxel.
 void find_nodes(const LumenGrid& grid, Curve& curve, Skeleton& skeleton) {
     for (std::uint32_t i = 0; i < curve.voxels.size(); ++i) {
         if (curve.node[i] >= 0 || curve.near[i].size() == 2) continue;
@@ -64,7 +64,7 @@ void find_nodes(const LumenGrid& grid, Curve& curve, Skeleton& skeleton) {
     }
 }
 
-/// Follows a branch from a node's voxel over `first` to the next node.
+/// Follows a branch from a node's voxel via `first` to the next node.
 SkeletonBranch follow(const Curve& curve, const Skeleton& skeleton, std::uint32_t from,
                       std::uint32_t first, std::vector<std::uint8_t>& visited) {
     SkeletonBranch branch;
@@ -91,13 +91,13 @@ void trace_branches(Curve& curve, Skeleton& skeleton) {
         if (curve.node[i] < 0) continue;
         for (const std::uint32_t next : curve.near[i]) {
             if (curve.node[next] == curve.node[i] || visited[next]) continue;
-            if (curve.node[next] >= 0 && next < i) continue;  // seen from the other end
+            if (curve.node[next] >= 0 && next < i) continue;  // already found from the other end
             SkeletonBranch branch = follow(curve, skeleton, i, next, visited);
             if (branch.from == branch.to && branch.path.size() < kShortestLoop) continue;
             skeleton.branches.push_back(std::move(branch));
         }
     }
-    // Rings without any furcation: any voxel serves as their node.
+    // Rings without any furcation: any voxel can be their node.
     for (std::uint32_t i = 0; i < curve.voxels.size(); ++i) {
         if (curve.node[i] >= 0 || visited[i]) continue;
         curve.node[i] = static_cast<int>(skeleton.nodes.size());

@@ -7,14 +7,14 @@
 
 namespace vesselbench {
 
-/// A stretch of a voxel curve between two nodes; the path begins and ends with the nodes' voxels.
+/// A stretch of a voxel curve between two nodes; the path starts and ends with the nodes' voxels.
 struct SkeletonBranch {
     std::size_t from = 0;
     std::size_t to = 0;
     std::vector<VoxelId> path;
 };
 
-/// A voxel curve as a graph. Furcation voxels that touch make one node, at the deepest of them.
+/// A voxel curve as a graph. Adjacent furcation voxels form one node, at the deepest of them.
 struct Skeleton {
     std::vector<VoxelId> nodes;
     std::vector<SkeletonBranch> branches;
@@ -26,28 +26,28 @@ struct Skeleton {
 /// \param curve voxels of a thinned lumen, ascending
 [[nodiscard]] Skeleton skeleton_of(const LumenGrid& grid, std::span<const VoxelId> curve);
 
-/// How much longer a blind branch is than it must be to count [-]: its length outside of the
-/// parent's inscribed spheres, divided by the larger of two sizes.
+/// Minimum length of a blind branch [-]: its length outside the parent's inscribed spheres must
+/// exceed the larger of two sizes.
 struct BlindBranchRule {
     double beyond_parent = 1.0;  ///< times the parent's radius [-]
     double slenderness = 2.5;    ///< times the branch's own largest radius out there [-]
 };
 
-/// Ratio of the length beyond the parent to the least one; below 1 it is a bump or a sac.
+/// Ratio of the length beyond the parent to that minimum; below 1 the branch is a bump or a sac.
 /// \param tip index of the branch's end node; the other end is a furcation
 [[nodiscard]] double significance(const LumenGrid& grid, const Skeleton& skeleton,
                                   std::size_t branch, std::size_t tip, const BlindBranchRule& rule);
 
-/// The curve without the blind branches that do not count, the least significant one taken first.
-/// \param fixed anchors that stay whatever their branch is like
-/// \param blind anchors that stay only if their branch counts; what is left of them is returned
+/// The curve without insignificant blind branches, removed in ascending order of significance.
+/// \param fixed anchors that are kept whatever their branch
+/// \param blind anchors that are kept if their branch is significant; on return the remaining ones
 [[nodiscard]] std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
                                          std::span<const VoxelId> fixed,
                                          std::vector<VoxelId>& blind, const BlindBranchRule& rule);
 
-/// Voxels in which the geodesic distance has a summit that rises at least `height` [mm] above the
+/// Voxels at which the geodesic distance has a maximum that rises at least `height` [mm] above the
 /// highest pass to a higher one: candidates for the ends of blind branches, by voxel index. The
-/// highest summit of every component is one of them.
+/// highest maximum of every component is one of them.
 [[nodiscard]] std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic,
                                            double height);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// A further pair at one furcation is joined only if it bends less than this [rad].
+/// A further pair at one furcation is joined only if it bends by less than this [rad].
 constexpr double kNearlyStraight = 0.7;
 
 /// End 0 of branch b is half 2 b (its start), end 1 is half 2 b + 1.

@@ -13,7 +13,7 @@
 namespace vesselbench {
 namespace {
 
-/// Of all directed edges, the fraction that may occur twice before the orientation counts as
+/// Fraction of the directed edges that may occur twice before the orientation counts as
 /// unknown.
 constexpr double kOrientationDefects = 0.01;
 
@@ -26,7 +26,7 @@ Vec3 middle(const Positions& points, const Triangle& t) {
 }
 
 /// Centroid, normal and size of a nearly flat set of triangles; triangles that fold over count
-/// negative.
+/// negatively.
 VesselEnd end_of(const Positions& points, std::span<const Triangle> triangles) {
     Vec3 sum = Vec3::Zero();
     for (const Triangle& t : triangles) sum += area_vector(points, t);
@@ -98,7 +98,7 @@ std::size_t component_count(std::size_t vertex_count, std::span<const Triangle> 
     return roots.size();
 }
 
-/// Sets the inside rule, and the number of handles where the closed triangles form a manifold.
+/// Determines the inside rule, and the number of handles if the closed triangles form a manifold.
 void judge_connectivity(VesselWall& wall) {
     const auto edges = directed_edges(wall.closed);
     std::size_t repeated = 0;
@@ -163,7 +163,7 @@ VesselWall vessel_wall_of(const Surface& surface) {
     for (std::size_t v = 0; v < wall.points.size(); ++v) {
         if (!wall.points[v].allFinite()) {
             throw InvalidInput("vertex " + std::to_string(v) +
-                               " of the surface has a coordinate that is no number; repair it");
+                               " of the surface has a coordinate that is not finite; repair it");
         }
     }
     for (const auto& loop : surface.topology->boundary_loops()) close_loop(loop, wall);

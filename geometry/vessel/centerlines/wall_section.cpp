@@ -11,12 +11,12 @@ namespace vesselbench {
 namespace {
 
 constexpr std::size_t kSectors = 24;
-constexpr double kReach = 2.2;      ///< samples farther away than this many radii are left out
-constexpr double kSlab = 0.45;      ///< half thickness of the slab in radii, widened at need;
-                                    ///< samples count less towards its faces
-constexpr double kSameWall = 1.35;  ///< of a sector's samples those up to this many times its
+constexpr double kReach = 2.2;      ///< samples farther away than this many radii are ignored
+constexpr double kSlab = 0.45;      ///< half thickness of the slab in radii, widened if needed;
+                                    ///< samples have less weight towards its faces
+constexpr double kSameWall = 1.35;  ///< samples of a sector up to this many times as far as its
                                     ///< nearest one belong to the same wall
-constexpr double kNoWall = 1.3;     ///< where there is no wall, one is assumed at so many radii
+constexpr double kNoWall = 1.3;     ///< without a wall, one is assumed at this many radii
 
 using Vec2 = Eigen::Vector2d;
 
@@ -32,7 +32,7 @@ struct PlaneSample {
     std::size_t sector = 0;
 };
 
-/// Axes of the perpendicular plane; the same for the same tangent.
+/// Axes of the perpendicular plane; equal for equal tangents.
 struct Frame {
     Vec3 u, v;
 
@@ -55,7 +55,7 @@ Vec2 sector_direction(std::size_t sector) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-/// Sectors without samples between ones with samples: a coarse mesh, not an opening.
+/// Sectors without samples between sectors with samples: a coarse mesh, not an opening.
 void bridge_gaps(std::array<Sector, kSectors>& sectors) {
     constexpr std::size_t kWidest = 2;
     const auto given = sectors;
@@ -115,7 +115,7 @@ Vec2 circle_centre(const std::array<Vec2, kSectors>& contour, double tau, double
     return centre;
 }
 
-/// Least distance from the centre to the wall, each averaged with its neighbours.
+/// Least distance from the centre to the wall points, each averaged with its neighbours.
 double circle_radius(const std::array<Sector, kSectors>& sectors, const Vec2& centre) {
     constexpr std::array<double, 5> kWeights = {1.0, 2.0, 3.0, 2.0, 1.0};
     double least = std::numeric_limits<double>::infinity();

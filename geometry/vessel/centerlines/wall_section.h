@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// A place of a line that is being moved to the middle of its vessel.
+/// A point of a line being moved to the middle of its vessel.
 struct LinePlace {
     Vec3 point = Vec3::Zero();      ///< [mm]
     Vec3 tangent = Vec3::UnitZ();   ///< unit
@@ -16,31 +16,31 @@ struct LinePlace {
     double radius = 0.0;            ///< estimate of the vessel's radius here [mm]
 };
 
-/// The largest circle in the vessel's section at a place.
+/// The largest circle in the vessel's section at a point.
 struct WallSection {
-    Vec3 centre = Vec3::Zero();  ///< [mm], in the plane through the place
+    Vec3 centre = Vec3::Zero();  ///< [mm], in the plane through the point
     double radius = 0.0;         ///< [mm]
     double covered = 0.0;        ///< fraction of the directions in which there is wall [-]
 };
 
-/// The wall as points with normals, to ask for sections.
+/// The wall as points with normals, for section queries.
 class WallSections {
 public:
-    /// \param finest no two samples on a triangle are farther apart than this [mm], within reason
+    /// \param finest upper bound of the sample distance on a triangle [mm], within reason
     WallSections(const VesselWall& wall, double finest);
 
-    /// The section at a place: wall samples in a slab around the perpendicular plane are projected
-    /// along the (curved) line, averaged over 24 sectors, and the largest circle is fitted to
-    /// those, with a soft minimum so that noise is averaged too.
+    /// The section at a point: wall samples in a slab around the perpendicular plane are projected
+    /// along the (curved) line and averaged over 24 sectors; the largest circle is fitted to the
+    /// result with a soft minimum, which averages noise, too.
     /// \param softness [-] of the minimum in radii: large averages, small is exact
     [[nodiscard]] WallSection at(const LinePlace& place, double softness) const;
 
-    /// True distance [mm] from p to the wall's triangles (closures left out).
+    /// True distance [mm] from p to the wall's triangles (without closures).
     [[nodiscard]] double distance(const Vec3& p) const {
         return distance_.closest_point(p).distance;
     }
 
-    /// Distance [mm] to wall or closure along a ray; infinite if it leaves.
+    /// Distance [mm] to wall or closure along a ray; infinite if it leaves the vessel.
     [[nodiscard]] double free_way(const Vec3& from, const Vec3& direction) const;
 
 private:

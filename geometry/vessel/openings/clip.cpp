@@ -18,8 +18,8 @@ OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
             "ends one by one (tip=x,y,z)");
     if (!curve->closed)
         throw AlgorithmFailure("the clipping plane at " + place_text(plane.point) +
-                               " meets an open border: clip further away from the tip");
-    // Moving vertices may pinch the rim where the mesh is bad; cutting without it never does.
+                               " meets an open border: clip farther away from the tip");
+    // Moving vertices may pinch the rim on a bad mesh; cutting without moving never does.
     bool separates = true;
     for (const NearVertices near : {NearVertices::MoveOntoPlane, NearVertices::Stay}) {
         OpenedSurface opened{EditableSurface(surface), {}};
@@ -43,7 +43,7 @@ OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
 }
 
 void cap_rim(OpenedSurface& opened, const Plane& plane, const Patch& patch) {
-    // The cap runs against the wall's half-edges.
+    // The cap's half-edges are opposite to the wall's.
     const std::vector<VertexId> rim(opened.rim.rbegin(), opened.rim.rend());
     for (const VertexId v : rim) opened.surface.move(v, plane.projected(opened.surface.point(v)));
     const std::uint16_t label = opened.surface.add_patch(patch);

@@ -14,21 +14,21 @@ struct OpenedSurface {
     std::vector<VertexId> rim;
 };
 
-/// Cuts off everything that lies behind the one curve in which the plane meets the vessel at its
-/// point; other vessels that the plane happens to meet stay whole. Vertices near the plane are
-/// moved onto it along their edges, and short rim edges are collapsed, so that no slivers arise.
-/// \param plane its normal points to the part that goes
+/// Cuts off everything behind the one curve in which the plane meets the vessel at the plane's
+/// point; other vessels that happen to cross the plane stay whole. Vertices near the plane are
+/// moved onto it along their edges, and short rim edges are collapsed, to avoid slivers.
+/// \param plane its normal points to the part to be removed
 /// \throw AlgorithmFailure if there is no closed section at the plane's point, or if it does not
-///        separate a part from the rest (a loop of vessels): the text names the point
+/// separate a part from the rest (a loop of vessels): the text names the point
 [[nodiscard]] OpenedSurface cut_branch(const Surface& surface, const Plane& plane);
 
-/// Closes a planar border loop by a flat cap of its own patch; triangles of the rim's edge length.
-/// Corners are projected onto the plane.
-/// \param rim as cut_branch returns it
+/// Closes a planar border loop with a flat cap as a separate patch; triangles of the rim's edge
+/// length. Corners are projected onto the plane.
+/// \param rim as from cut_branch
 /// \throw AlgorithmFailure if the rim crosses itself
 void cap_rim(OpenedSurface& opened, const Plane& plane, const Patch& patch);
 
-/// Both: cut, then cap.
+/// Cuts, then caps.
 [[nodiscard]] Surface clip_branch(const Surface& surface, const Plane& plane, const Patch& patch);
 
 }  // namespace vesselbench

@@ -16,14 +16,14 @@ namespace vesselbench {
 
 namespace {
 
-/// One limit of the region: how far outside a point is (negative inside) [mm], and where an edge
-/// from inside to outside crosses it, in (0, 1).
+/// One boundary of the region: the distance of a point outside (negative inside) [mm], and the
+/// crossing with an edge from inside to outside, in (0, 1).
 struct Limit {
     std::function<double(const Vec3&)> outside;
     std::function<double(const Vec3& from, const Vec3& to)> crossing;
 };
 
-/// Closer to the limit than this [mm], a vertex counts as lying on it: no sliver is cut off.
+/// Within this distance of the boundary [mm], a vertex counts as on it: no sliver is cut off.
 constexpr double kOn = 1e-9;
 
 Limit plane_limit(Eigen::Index axis, double sign, double at) {
@@ -44,7 +44,7 @@ Limit sphere_limit(const Vec3& centre, double radius) {
     return {[=](const Vec3& p) { return (p - centre).norm() - radius; }, crossing};
 }
 
-/// Cuts all triangles at one limit and keeps what is inside.
+/// Cuts all triangles at one boundary and keeps the part inside.
 class Cutter {
 public:
     Cutter(TriangleSoup& soup, const Limit& limit) : soup_(soup), limit_(limit) {
@@ -111,8 +111,8 @@ Surface cropped(const Surface& surface, const std::vector<Limit>& limits) {
     for (const Limit& limit : limits) Cutter(soup, limit).cut();
     if (soup.triangles.empty())
         throw AlgorithmFailure(
-            "nothing of the surface lies in the region to crop; give it in mm "
-            "in patient coordinates (LPS)");
+            "the crop region contains nothing of the surface; give it in mm in patient coordinates "
+            "(LPS)");
     return without_unused(std::move(soup));
 }
 
@@ -120,8 +120,7 @@ Surface cropped(const Surface& surface, const std::vector<Limit>& limits) {
 
 Surface crop_to_box(const Surface& surface, const Vec3& low, const Vec3& high) {
     if (!((high - low).minCoeff() > 0.0))
-        throw InvalidInput(
-            "the box to crop is empty: its upper corner must lie above its lower one");
+        throw InvalidInput("the crop box is empty: its upper corner must be above its lower one");
     std::vector<Limit> limits;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         limits.push_back(plane_limit(axis, -1.0, low[axis]));
@@ -131,7 +130,7 @@ Surface crop_to_box(const Surface& surface, const Vec3& low, const Vec3& high) {
 }
 
 Surface crop_to_sphere(const Surface& surface, const Vec3& centre, double radius) {
-    if (!(radius > 0.0)) throw InvalidInput("the radius to crop must be above 0 mm");
+    if (!(radius > 0.0)) throw InvalidInput("the crop radius must be above 0 mm");
     return cropped(surface, {sphere_limit(centre, radius)});
 }
 

@@ -20,7 +20,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Free space that is kept, as shares of the diameter in front and of the radius to the sides.
+/// Free space to keep, as fractions of the diameter in front and of the radius at the sides.
 constexpr double kFreeInFront = 0.25;
 constexpr double kFreeAtSides = 0.1;
 constexpr double kLeastDiameters = 0.5;
@@ -28,7 +28,7 @@ constexpr double kLargestFlatness = 0.01;  // of the diameter
 constexpr std::size_t kFewestCorners = 12;
 constexpr double kLayersPerEdge = 2.0 / std::numbers::sqrt3;  // near-equilateral triangles
 
-/// The tube that is added: rings of equally many points, each ring turned by half a step.
+/// The tube to be added: rings with equal numbers of points, each ring turned by half a step.
 class Tube {
 public:
     Tube(const ClosedProfile& profile, const Plane& plane, const ExtrusionParameters& parameters)
@@ -50,7 +50,7 @@ public:
         return std::max(1, static_cast<int>(std::lround(length / edge_ * kLayersPerEdge)));
     }
 
-    /// Shares of the perimeter of the k-th ring's points; ring 0 is the rim itself.
+    /// Fractions of the perimeter of the k-th ring's points; ring 0 is the rim itself.
     std::vector<double> shares(int ring) const {
         if (ring == 0) return profile_.shares();
         std::vector<double> result;
@@ -114,7 +114,7 @@ Probes probes_of(const Tube& tube, int layers, double layer_height, double margi
         if (!lower.empty())
             for (const Triangle& t : band)
                 probes.triangles.push_back({at(t[0]), at(t[1]), at(t[2])});
-        // A fan across finds what would lie inside the tube.
+        // A fan across the opening finds anything that would be inside the tube.
         const Vec3 middle = tube.centre(z);
         for (std::size_t i = 0; i < upper.size(); ++i)
             probes.triangles.push_back({middle, upper[i], upper[(i + 1) % upper.size()]});
@@ -215,7 +215,7 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
         throw AlgorithmFailure("the opening '" + surface.patches[patch].name + "' at " +
                                place_text(shape.plane.point) +
                                " cannot be extruded: another part of the surface is in its way; "
-                               "clip it at another place, or leave it out");
+                               "clip it elsewhere, or leave it out");
     return {extruder.with_tube(tube, profile, shape.plane, used.length), used.length,
             used.length < parameters.length};
 }

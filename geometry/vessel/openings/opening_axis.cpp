@@ -62,7 +62,7 @@ Vec3 line_through(const Positions& points, const Vec3& outward) {
     return direction.dot(outward) < 0.0 ? Vec3(-direction) : direction;
 }
 
-/// Turn over one diameter: the angle between the chords of both halves, which lie half the sampled
+/// Turn over one diameter: the angle between the chords of both halves, which are half the sampled
 /// depth apart.
 double bend(const Positions& centroids, double diameter) {
     const Vec3& first = centroids.front();

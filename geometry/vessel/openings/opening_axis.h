@@ -7,17 +7,17 @@
 namespace vesselbench {
 
 /// The vessel's direction just inside an opening: the line through the centroids of the sections
-/// that are parallel to the opening's plane, 0.25 to 1 diameter inward.
+/// parallel to the opening's plane, 0.25 to 1 diameter inward.
 struct OpeningAxis {
     Vec3 direction = Vec3::UnitZ();  ///< of length 1, out of the vessel
     double tilt_deg = 0.0;           ///< between the plane's normal and the axis
     double bend_deg = 0.0;  ///< turn of the vessel over one diameter, from the same centroids
     double diameter = 0.0;  ///< of the circle with the opening's area [mm]
-    int sections = 0;       ///< that were used, at most 7: fewer where a furcation comes first
+    int sections = 0;  ///< number of sections used, at most 7: fewer if a furcation comes first
 };
 
-/// Measured at a plane whose normal points out of the vessel and whose point lies inside of it.
-/// Empty if there are fewer than 3 sections: they end where the area changes by more than a factor
+/// Measured at a plane whose normal points out of the vessel and whose point lies inside it. Empty
+/// if there are fewer than 3 sections: they end where the area changes by more than a factor of
 /// 1.6, or where the curve is not closed.
 /// \param diameter of the opening [mm]
 [[nodiscard]] std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane,
@@ -26,8 +26,8 @@ struct OpeningAxis {
 /// The axis at a flat cap. \throw InvalidInput if the surface has no such patch
 [[nodiscard]] std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch);
 
-/// Angle [deg] between a cap's normal and the vessel's axis just inside of it (axis_inward); 90 if
-/// the axis cannot be measured.
+/// Angle [deg] between a cap's normal and the vessel's axis just inside it (axis_inward); 90 if the
+/// axis cannot be measured.
 /// \throw InvalidInput if the surface has no such patch
 [[nodiscard]] double opening_tilt_deg(const Surface& surface, std::size_t patch);
 
@@ -43,8 +43,8 @@ struct PatchShape {
 /// \throw InvalidInput if the surface has no such patch, or it has no triangles
 [[nodiscard]] PatchShape patch_shape(const Surface& surface, std::size_t patch);
 
-/// The triangles with a corner within a distance of a point, as a surface of their own: measuring
-/// on it is fast.
+/// The triangles with a corner within a distance of a point, as a separate surface: measuring on it
+/// is fast.
 [[nodiscard]] Surface part_near(const Surface& surface, const Vec3& centre, double radius);
 
 }  // namespace vesselbench

@@ -13,24 +13,24 @@ namespace vesselbench {
 
 namespace {
 
-/// Steps along the branch in tip radii: searching the first whole section, then straight places.
+/// Steps along the branch in tip radii: for the first whole section, then for straight places.
 constexpr double kSearchStep = 0.15;
 constexpr double kCandidateStep = 0.4;
 constexpr int kCandidates = 9;
-/// Left between the first whole section and the first place [tip radii].
+/// Distance from the first whole section to the first candidate place [tip radii].
 constexpr double kMargin = 0.25;
 constexpr double kBlindMargin = 0.5;
-/// The line's last stretch may turn: directions are taken at least this far inward [tip radii].
+/// The line's last stretch may turn: directions are measured at least this far inward [tip radii].
 constexpr double kSteady = 1.0;
-/// At most this share of a branch is given up; of a vessel without furcations, at each end.
+/// Largest fraction of a branch that may be given up; in a vessel without furcations, at each end.
 constexpr double kMostOfBranch = 0.6;
 constexpr double kMostOfVessel = 0.2;
-constexpr double kMostOfObliqueVessel = 0.65;  // where its end is cut very obliquely
-/// A place whose axis cannot be measured counts as this much bent [deg].
+constexpr double kMostOfObliqueVessel = 0.65;  // if its end is cut very obliquely
+/// Bend assumed where the axis cannot be measured [deg].
 constexpr double kUnmeasuredCost = 60.0;
-/// One radius of vessel given up weighs as much as this much of bend [deg].
+/// Bend that weighs as much as one radius of vessel given up [deg].
 constexpr double kCostPerRadius = 5.0;
-/// A section is whole when half a radius further inward is hardly larger.
+/// A section is whole if it is hardly larger half a radius farther inward.
 constexpr double kWholeShare = 0.85;
 constexpr int kMostTurns = 12;
 constexpr double kConvergedTilt = 0.02;  // [deg]
@@ -56,8 +56,8 @@ public:
         return outward_direction(graph_, tip_, std::min(steady, length), radius);
     }
 
-    /// Arc length from the tip up to which a cut may be chosen: where the branch is a vessel of its
-    /// own, or in the outer part of a stub that never becomes one.
+    /// Largest arc length from the tip at which a cut may be placed: up to where the branch becomes
+    /// a separate vessel, or in the outer part of a stub that never does.
     double reach_of_cut() const {
         const auto& branch = graph_.branches[branch_];
         const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
@@ -67,7 +67,7 @@ public:
     }
 
     /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
-    /// middle. Too far and it meets the cut at the other end, which then says so.
+    /// middle. If it is too far, it meets the cut at the other end, which then reports it.
     double utmost_cut() const {
         const auto& branch = graph_.branches[branch_];
         const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
@@ -75,7 +75,7 @@ public:
         return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
     }
 
-    /// Neither an open border nor a known cap is at the tip: the end may be rounded.
+    /// True if there is neither an open border nor a known cap at the tip: the end may be rounded.
     bool is_blind() const {
         const Vec3 tip = graph_.nodes[tip_].position;
         const auto& border = near_.topology->boundary_vertices();
@@ -87,7 +87,7 @@ public:
         return true;
     }
 
-    /// The closed curve round the plane's point that lies wholly on the wall.
+    /// The closed curve around the plane's point that lies entirely on the wall.
     std::optional<SectionCurve> section(const Plane& plane) const {
         auto curve = cross_section_at(near_, plane);
         if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) return std::nullopt;
@@ -96,7 +96,7 @@ public:
         return curve;
     }
 
-    /// The section is closed and, at an end that may be rounded, has its full area.
+    /// True if the section is closed and, at an end that may be rounded, has its full area.
     bool is_whole(double s, bool blind) const {
         const Vec3 normal = outward(s);
         const auto here = section({position(s), normal});
@@ -105,7 +105,7 @@ public:
         return here && inward && std::abs(here->area) >= kWholeShare * std::abs(inward->area);
     }
 
-    /// The plane at s whose normal is the axis measured from it; empty without a closed section.
+    /// The plane at s whose normal is the axis measured from there; empty without a closed section.
     std::optional<OpeningPlace> place(double s) const {
         OpeningPlace found{
             .tip = graph_.nodes[tip_].position, .plane = {position(s), outward(s)}, .distance = s};

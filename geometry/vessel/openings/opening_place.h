@@ -13,25 +13,26 @@ struct OpeningPlace {
     Vec3 tip = Vec3::Zero();  ///< the branch's tip on the centerline [mm]
     Plane plane;              ///< through the section's centroid; normal out of the vessel
     double distance = 0.0;    ///< from the tip along the centerline [mm]
-    double share = 0.0;       ///< of the branch's length given up where the distance was chosen
-    double diameter = 0.0;    ///< of the circle with the section's area [mm]
-    double tilt_deg = 0.0;    ///< left between the plane's normal and the vessel's axis
-    double bend_deg = 0.0;    ///< turn of the vessel over one diameter inward
-    bool measured = false;    ///< there is an axis inside: tilt and bend are known; otherwise the
-                              ///< normal is the centerline's direction
+    double share = 0.0;  ///< fraction of the branch's length given up, if the distance was chosen
+                         ///< automatically
+    double diameter = 0.0;  ///< of the circle with the section's area [mm]
+    double tilt_deg = 0.0;  ///< remaining angle between the plane's normal and the vessel's axis
+    double bend_deg = 0.0;  ///< turn of the vessel over one diameter inward
+    bool measured = false;  ///< an axis was found inside: tilt and bend are known; otherwise the
+                            ///< normal is the centerline's direction
 };
 
-/// A vessel that turns by more than this over one diameter is called a bend [deg].
+/// A vessel that turns by more than this over one diameter counts as a bend [deg].
 inline constexpr double kBendDeg = 15.0;
 
 /// Chooses the plane at which a branch is opened, perpendicular to the vessel's axis just inside
-/// (axis_inward, repeated until the normal is that axis). Without a distance: as near to the tip as
-/// the section is whole and the vessel straight, never beyond the furcation; where no stretch is
+/// (axis_inward, iterated until the normal is that axis). Without a distance: as close to the tip
+/// as the section is whole and the vessel straight, never beyond the furcation; if no stretch is
 /// straight, the least bent one.
 /// \param tip node of the graph with one branch
 /// \param distance from the tip along the centerline [mm]
 /// \throw AlgorithmFailure if there is no closed section there, or the branch is too short; the
-///        text names the tip
+/// text names the tip
 [[nodiscard]] OpeningPlace choose_opening_place(const Surface& surface,
                                                 const CenterlineGraph& graph, std::size_t tip,
                                                 std::optional<double> distance = std::nullopt);

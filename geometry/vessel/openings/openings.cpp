@@ -20,19 +20,19 @@ namespace vesselbench {
 
 namespace {
 
-/// A cap of a file is kept when it is flat to this share of its diameter and perpendicular to this
-/// angle.
+/// A cap of a file is kept if it is flat to this fraction of its diameter and perpendicular to
+/// within this angle.
 constexpr double kKeptFlatness = 1e-5;
 constexpr double kKeptTiltDeg = 2.0;
-/// A larger share of a branch that is given up is told.
+/// If a larger fraction of a branch is given up, a warning says so.
 constexpr double kNoticedShare = 0.4;
 /// A border or a cap belongs to a tip within this many of its diameters.
 constexpr double kTipReach = 1.5;
-/// A sac: wider than its neck or its neighbours by this factor, and no longer than this many radii.
+/// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
 constexpr double kSacToNeck = 1.4;
 constexpr double kSacLength = 2.5;
 
-/// An end of a vessel that the surface itself shows.
+/// A vessel end visible in the surface itself.
 struct End {
     Vec3 centre = Vec3::Zero();
     double diameter = 0.0;
@@ -59,7 +59,7 @@ std::vector<End> visible_ends(const Surface& surface) {
     return ends;
 }
 
-/// Gives each end its tip, the closest pairs first.
+/// Assigns a tip to each end, the closest pairs first.
 void match_tips(std::vector<End>& ends, const CenterlineGraph& graph) {
     struct Pair {
         double distance;
@@ -80,16 +80,16 @@ void match_tips(std::vector<End>& ends, const CenterlineGraph& graph) {
         if (!ends[pair.end].tip && taken.insert(pair.tip).second) ends[pair.end].tip = pair.tip;
 }
 
-/// A branch beyond the wall of the vessel it leaves.
+/// The part of a branch beyond the wall of the vessel it leaves.
 struct BlindBranch {
     double length = 0.0;  ///< [mm]
     double widest = 0.0;  ///< largest radius [mm]
-    bool bulges = false;  ///< wider than its neck, or than every vessel it meets: a sac
+    bool bulges = false;  ///< wider than its neck, or than every vessel it joins: a sac
 
     [[nodiscard]] bool is_short() const { return length < kSacLength * widest; }
 };
 
-/// Radius of a branch where it has left the furcation at `node` [mm].
+/// Radius of a branch beyond the furcation at `node` [mm].
 double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
     const double zone = furcation_zone_end(graph, branch, node);
     return radius_at(graph.branches[branch], place_from_node(graph, branch, node, zone).abscissa);
@@ -151,7 +151,7 @@ public:
         }
         if (plan_.openings.empty())
             throw AlgorithmFailure(
-                "no vessel end was found that could be opened: name one by tip=x,y,z");
+                "no vessel end that could be opened was found: give one with tip=x,y,z");
         return std::move(plan_);
     }
 
@@ -173,15 +173,15 @@ private:
             else if (end.patch)
                 plan_.warnings.push_back("the patch '" + surface_.patches[*end.patch].name +
                                          "' at " + place_text(end.centre) +
-                                         " lies at no vessel's tip and was left as it is");
+                                         " is not at a vessel's tip and was left unchanged");
             else
                 plan_.warnings.push_back("the open border at " + place_text(end.centre) +
-                                         " lies at no vessel's tip: close it by fill-hole");
+                                         " is not at a vessel's tip: close it with fill-hole");
         }
     }
 
-    /// Open rims and named caps say where the vessels end. Cuts at an image's border do not: other
-    /// vessels may end inside the image. Nor does a single end: blood comes and goes.
+    /// Open rims and named caps determine the vessel ends. Cuts at an image's border do not: other
+    /// vessels may end inside the image. Nor does a single end: blood has to enter and leave.
     bool all_ends_are_cuts() const {
         return std::all_of(ends_.begin(), ends_.end(), [&](const End& end) {
             return end.patch && surface_.patches[*end.patch].kind == PatchKind::Cut;
@@ -197,8 +197,8 @@ private:
         }
     }
 
-    /// An aneurysm stays closed, and so does what is too short to be opened. Where cuts already
-    /// show how the blood comes and goes, a short blind stub is no opening either.
+    /// An aneurysm stays closed, as does a branch too short to be opened. If cuts already provide
+    /// inflow and outflow, a short blind stub is not an opening either.
     void plan_blind_tip(std::size_t tip) {
         const std::size_t index = branch_of_tip(graph_, tip);
         const auto& branch = graph_.branches[index];
@@ -326,8 +326,8 @@ double distance_to_vertices(const Surface& surface, const Vec3& point) {
     return std::sqrt(squared);
 }
 
-/// True if the cut for opening i removed the surface at another opening's place, and that is not
-/// just another tip of the same ragged end.
+/// True if the cut for opening i removed the surface at another opening's place that is not merely
+/// another tip of the same ragged end.
 bool takes_another_end(const Surface& before, const Surface& after, const OpeningPlan& plan,
                        std::size_t i) {
     constexpr double kSameEnd = 2.0;  // diameters of the cut
@@ -336,7 +336,7 @@ bool takes_another_end(const Surface& before, const Surface& after, const Openin
     for (std::size_t j = 0; j < plan.openings.size(); ++j) {
         const OpeningPlace &own = plan.openings[i].place, &other = plan.openings[j].place;
         if (j == i || (own.tip - other.tip).norm() < kSameEnd * diameter) continue;
-        // an opening made before is looked for at its cap, one to come at its tip
+        // an existing opening is searched at its cap, a future one at its tip
         const Vec3& at = j < i ? other.plane.point : other.tip;
         const double was = distance_to_vertices(before, at);
         if (distance_to_vertices(after, at) > 1.5 * was + 0.1 * diameter) return true;
@@ -361,7 +361,7 @@ Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
             const auto patch = nearest_opening(result, opening.place.plane.point);
             if (!patch)
                 throw AlgorithmFailure("there is no cap at " +
-                                       place_text(opening.place.plane.point) + " any more");
+                                       place_text(opening.place.plane.point) + " any longer");
             if (opening.patch) {
                 auto patches = result.patches;
                 patches[*patch] = *opening.patch;

@@ -10,9 +10,9 @@ namespace vesselbench {
 namespace {
 
 [[noreturn]] void fail(const Surface& surface, std::size_t patch) {
-    throw AlgorithmFailure("the cap '" + surface.patches.at(patch).name +
-                           "' is not one disc with one rim: clip the vessel there anew "
-                           "(clip-opening)");
+    throw AlgorithmFailure(
+        "the cap '" + surface.patches.at(patch).name +
+        "' is not a single disc with one rim: clip the vessel there again (clip-opening)");
 }
 
 }  // namespace

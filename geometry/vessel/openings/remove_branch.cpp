@@ -20,15 +20,15 @@ namespace vesselbench {
 
 namespace {
 
-/// The parent's tube serves as a chart where the rim of the hole lies this near to its wall [radii]
-/// and leaves this much of its back free [rad].
+/// The parent's tube serves as a chart if the rim of the hole is this close to its wall [radii] and
+/// leaves this much of its back free [rad].
 constexpr double kLargestHeight = 0.5;
 constexpr double kLargestAngle = 0.9 * std::numbers::pi;
-/// A fillet stands out of the parent's wall by more than this [parent radii], and is at most this
+/// A fillet protrudes from the parent's wall by more than this [parent radii], and is at most this
 /// wide [branch radii].
 constexpr double kFilletHeight = 0.02;
 constexpr double kWidestFillet = 1.2;
-/// The renewed wall reaches at most this far beyond the foot [parent radii].
+/// The renewed wall extends at most this far beyond the foot [parent radii].
 constexpr double kWidestMargin = 0.4;
 
 /// Distance from the tubes' walls [mm], negative inside.
@@ -38,12 +38,13 @@ double height_over(const std::vector<VesselTube>& tubes, const Vec3& x) {
     return least;
 }
 
-/// What goes: vertices of the branch, and how far the others are from it along the edges.
+/// The part to remove: vertices of the branch, and the distance of all others from it along the
+/// edges.
 class Foot {
 public:
     Foot(const Surface& surface, const BranchRoot& root) : surface_(surface), root_(root) {}
 
-    /// The connected vertices round the tip that belong to the branch's tube.
+    /// The connected vertices around the tip that belong to the branch's tube.
     std::vector<VertexId> branch_vertices(const Vec3& tip) const {
         const Positions& x = surface_.points();
         std::vector<std::int8_t> known(x.size(), -1);
@@ -74,8 +75,8 @@ public:
         return found;
     }
 
-    /// The vertices and those of the fillet around them: from there on the wall descends to the
-    /// parent's, at most over `reach` [mm].
+    /// The vertices and those of the fillet around them: the wall descends from there to the
+    /// parent's, over at most `reach` [mm].
     std::vector<VertexId> with_fillet(std::vector<VertexId> vertices, double reach) const {
         const Positions& x = surface_.points();
         const double lowest = kFilletHeight * root_.parent_radius;
@@ -117,7 +118,7 @@ private:
     const BranchRoot& root_;
 };
 
-/// Half-edges that the removal lays bare, by their start; more than one where the rim pinches.
+/// Half-edges exposed by the removal, by their start; more than one where the rim pinches.
 std::map<VertexId, std::vector<VertexId>> bare_edges(const Surface& surface,
                                                      const std::vector<std::uint8_t>& removed) {
     std::map<VertexId, std::vector<VertexId>> next;
@@ -137,7 +138,7 @@ std::map<VertexId, std::vector<VertexId>> bare_edges(const Surface& surface,
     return next;
 }
 
-/// The rims of the hole, each as a loop of the staying surface's half-edges; triangles at places
+/// The rims of the hole, each as a loop of the remaining surface's half-edges; triangles at places
 /// where a rim pinches are removed, too.
 std::vector<std::vector<VertexId>> simple_rims(const Surface& surface,
                                                std::vector<std::uint8_t>& removed) {
@@ -191,7 +192,8 @@ std::optional<std::vector<TriangleId>> island_at(const Surface& surface,
     return island;
 }
 
-/// Removes what hangs on the smaller rims only: islands in the hole. The one rim that is left.
+/// Removes the parts attached to the smaller rims only: islands in the hole.
+/// \return the remaining rim
 std::vector<VertexId> single_rim(const Surface& surface, std::vector<std::uint8_t>& removed) {
     for (int round = 0; round < 8; ++round) {
         const auto rims = simple_rims(surface, removed);
@@ -211,7 +213,7 @@ std::vector<VertexId> single_rim(const Surface& surface, std::vector<std::uint8_
     return {};
 }
 
-/// The tube as a chart if the rim lies round its side; coordinates (out, round, along).
+/// The tube as a chart if the rim is on its side; coordinates (out, around, along).
 std::optional<HoleChart> chart_on(const VesselTube& tube, const Positions& rim, const Vec3& mouth) {
     const double radius = tube.radius(tube.coordinates(mouth).along);
     for (const Vec3& x : rim) {
@@ -244,7 +246,7 @@ std::vector<std::uint8_t> triangles_to_remove(const Surface& surface, const Bran
     auto vertices = foot.branch_vertices(tip);
     if (vertices.empty())
         throw AlgorithmFailure("the branch with its tip at " + place_text(tip) +
-                               " does not stand out of its parent: there is nothing to remove");
+                               " does not protrude from its parent: there is nothing to remove");
     vertices = foot.with_fillet(std::move(vertices),
                                 kWidestFillet * std::min(root.branch_radius, root.parent_radius));
     const auto chosen = foot.widened(
@@ -266,9 +268,9 @@ BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph
     auto removed = triangles_to_remove(surface, root, at, parameters.margin);
     const auto rim = single_rim(surface, removed);
     if (rim.size() < 3)
-        throw AlgorithmFailure("the branch with its tip at " + place_text(at) +
-                               " is as wide as the vessel it stands on: cut it there by "
-                               "clip-opening instead");
+        throw AlgorithmFailure(
+            "the branch with its tip at " + place_text(at) +
+            " is as wide as its parent vessel: cut it there with clip-opening instead");
     BranchRemoval result{.mouth = root.mouth, .removed_area = area_of(surface, removed)};
     EditableSurface edited(surface);
     edited.remove(removed);

@@ -8,25 +8,26 @@ namespace vesselbench {
 struct BranchRemoval {
     Surface surface;
     Vec3 mouth = Vec3::Zero();  ///< where the branch left its parent [mm]
-    double removed_area = 0.0;  ///< of the wall that went [mm^2]
+    double removed_area = 0.0;  ///< of the removed wall [mm^2]
     std::size_t new_triangles = 0;
     bool follows_parent = false;  ///< the new wall continues the parent's tube; false: it only
                                   ///< continues the wall around the hole
 };
 
 struct BranchRemovalParameters {
-    /// How far beyond the branch's foot its parent's wall is renewed, in radii of the branch [-].
+    /// Width of the parent's wall to renew beyond the branch's foot, in radii of the branch [-].
     double margin = 0.4;
     int continuity = 1;  ///< at the new wall's rim: 1 tangent, 2 curvature
 };
 
 /// Removes a branch (or an aneurysm's sac) with everything at its end and renews the parent's wall.
-/// The cut follows the parent's wall: what is nearer to the branch's tube than to those of the
-/// other vessels goes. On a single parent the hole is filled in the coordinates of the parent's
-/// tube (out, round, along), in which a tube is flat: so neither a bump nor a flat disc remains.
+/// The cut follows the parent's wall: what is closer to the branch's tube than to those of the
+/// other vessels is removed. On a single parent the hole is filled in the coordinates of the
+/// parent's tube (out, around, along), in which a tube is flat: neither a bump nor a flat disc
+/// remains.
 /// \param tip node of the graph with one branch, on the centerline of `surface`
-/// \throw AlgorithmFailure if the branch stands on no other vessel, or is as wide as its parent;
-///        the text names the tip
+/// \throw AlgorithmFailure if the branch has no parent vessel, or is as wide as its parent; the
+/// text names the tip
 [[nodiscard]] BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph,
                                           std::size_t tip,
                                           const BranchRemovalParameters& parameters = {});

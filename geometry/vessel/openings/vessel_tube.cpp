@@ -15,7 +15,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Points of an interpolated stretch lie this share of the radius apart.
+/// Points of an interpolated stretch are this fraction of the radius apart.
 constexpr double kSpacing = 0.1;
 
 struct Line {
@@ -29,7 +29,7 @@ struct Line {
     }
 };
 
-/// The branch's points from one of its nodes on.
+/// The branch's points starting at one of its nodes.
 Line from_node(const CenterlineBranch& branch, std::size_t node) {
     Line line;
     for (std::size_t i = 0; i < branch.points.size(); ++i)
@@ -67,7 +67,7 @@ Line beyond(const Line& line, double cut) {
     return rest;
 }
 
-/// Direction and slope of the radius over the first `window` mm of a line, by a fit.
+/// Direction and slope of the radius over the first `window` mm of a line, fitted.
 struct Start {
     Vec3 direction;
     double radius, radius_slope;
@@ -93,7 +93,7 @@ Start start_of(const Line& line, double window) {
             (sum_r - slope * sum_s) / sum_w, slope};
 }
 
-/// Two lines that leave a furcation, joined over the gaps that are cut from each by a cubic.
+/// Two lines that leave a furcation, joined by a cubic over the gaps cut from each.
 Line joined(const Line& a, double gap_a, const Line& b, double gap_b) {
     const Line before = beyond(a, gap_a), after = beyond(b, gap_b);
     const double ra = before.radii.front(), rb = after.radii.front();
@@ -138,14 +138,14 @@ Line from_point(const Line& line, std::size_t first) {
             {line.radii.begin() + skipped, line.radii.end()}};
 }
 
-/// Where a branch's line leaves the spheres of the other vessels.
+/// The point where a branch's line leaves the spheres of the other vessels.
 struct Mouth {
     std::size_t at = 0;          ///< point of the branch's line
     double branch_radius = 0.0;  ///< [mm], the smallest within one parent's radius behind it
     double parent_radius = 0.0;  ///< [mm]
 };
 
-/// Radius of the last of the vessels' spheres that holds x, or nothing.
+/// Radius of the last of the vessels' spheres that contains x, or nothing.
 std::optional<double> radius_around(const std::vector<Line>& vessels, const Vec3& x) {
     std::optional<double> radius;
     for (const Line& vessel : vessels)
@@ -170,8 +170,8 @@ Mouth mouth_of(const Line& own, const std::vector<Line>& others, double node_rad
     return mouth;
 }
 
-/// Length [mm] of another vessel's line that is drawn towards the branch: as far as its mouth
-/// reaches.
+/// Length [mm] of another vessel's line that is drawn towards the branch: as far as the branch's
+/// mouth extends.
 double gap_at_mouth(const Line& line, const BranchRoot& root) {
     double s = 0.0, nearest = (line.points[0] - root.mouth).norm(), at_s = 0.0;
     for (std::size_t i = 1; i < line.points.size(); ++i) {
@@ -270,7 +270,7 @@ BranchRoot branch_root(const CenterlineGraph& graph, std::size_t tip) {
     if (others.size() < 2)
         throw AlgorithmFailure("the vessel with its tip at " +
                                place_text(graph.nodes[tip].position) +
-                               " stands on no other one: there is nothing that would stay");
+                               " has no parent vessel: nothing would remain");
     const Line own = from_node(branch, node);
     const Mouth mouth = mouth_of(own, others, graph.nodes[node].radius);
     BranchRoot root{.branch = index,

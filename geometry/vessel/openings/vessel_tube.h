@@ -7,18 +7,18 @@
 
 namespace vesselbench {
 
-/// Coordinates of a point in a tube's surroundings.
+/// Coordinates of a point relative to a tube.
 struct TubeCoordinates {
     double along = 0.0;   ///< arc length of the nearest point of the line [mm]
-    double angle = 0.0;   ///< round the line, from the frame's first axis [rad], (-pi, pi]
+    double angle = 0.0;   ///< around the line, from the frame's first axis [rad], (-pi, pi]
     double height = 0.0;  ///< distance from the tube's wall [mm], negative inside
-    double radius = 0.0;  ///< of the tube there [mm]
+    double radius = 0.0;  ///< of the tube at this point [mm]
 };
 
-/// A line with radii and a frame that turns as little as possible along it.
+/// A line with radii and a frame with minimal rotation along it.
 class VesselTube {
 public:
-    /// \param points at least 2, no two in a row equal [mm]
+    /// \param points at least 2, consecutive ones different [mm]
     /// \param first_axis direction in which the angle is 0 at the start; made perpendicular
     VesselTube(Positions points, std::vector<double> radii, const Vec3& first_axis);
 
@@ -29,7 +29,7 @@ public:
 
     [[nodiscard]] double radius(double along) const;
 
-    /// The same line, whose angle 0 points to x.
+    /// The same line, with angle 0 pointing to x.
     [[nodiscard]] VesselTube turned_to(const Vec3& x) const;
 
     [[nodiscard]] const Positions& points() const { return points_; }
@@ -52,7 +52,7 @@ private:
     Positions axes_;      ///< first axis of the frame at each point
 };
 
-/// A branch that is to be removed and the vessels it stands on.
+/// A branch to be removed and its parent vessels.
 struct BranchRoot {
     std::size_t branch = 0;
     std::size_t node = 0;             ///< the furcation
@@ -60,8 +60,8 @@ struct BranchRoot {
     double branch_radius = 0.0;       ///< of the branch just behind its mouth [mm]
     double parent_radius = 0.0;       ///< of the parent at the mouth [mm]
     std::vector<VesselTube> parents;  ///< one for each pair of the other vessels at the furcation:
-                                      ///< as if the branch had never been, the line and the radius
-                                      ///< go on smoothly
+                                      ///< line and radius continue smoothly, as if the branch had
+                                      ///< never existed
     std::vector<VesselTube> others;   ///< the vessels elsewhere
     VesselTube own;                   ///< the branch from its mouth on
 };

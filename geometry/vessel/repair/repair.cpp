@@ -17,9 +17,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex lets others appear
+constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex may reveal others
 
-/// Untangling may cost this part of the area [-] before it counts as damage.
+/// Fraction of the area [-] that untangling may cost before it counts as damage.
 constexpr double kMostLost = 0.05;
 
 void check_input(const Surface& surface) {
@@ -63,7 +63,7 @@ void note_intersections(const TriangleSoup& mesh, const std::vector<TrianglePair
         "image");
 }
 
-/// Bodies that pass through each other fall apart when the place is cut out: never silently.
+/// Bodies that pass through each other fall apart when the intersection is cut out: never silently.
 void check_nothing_lost(const TriangleSoup& mesh, double area_before, const Vec3& place) {
     const double lost = 1.0 - area_of(mesh) / area_before;
     if (lost > kMostLost)

@@ -6,11 +6,11 @@
 namespace vesselbench {
 
 struct RepairParameters {
-    /// Open loops up to this radius [mm] are closed; none: those that are no vessel ends are.
+    /// Open loops up to this radius [mm] are closed; none: those that are not vessel ends.
     std::optional<double> close_holes_up_to;
-    std::size_t keep_components = 1;  ///< this many, largest area first
+    std::size_t keep_components = 1;  ///< number to keep, largest area first
     bool remove_self_intersections = true;
-    /// Edges and triangle heights below this part of the mean edge length [-] are removed.
+    /// Edges and triangle heights below this fraction of the mean edge length [-] are removed.
     double smallest_feature = 1e-3;
 };
 

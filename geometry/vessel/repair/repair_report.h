@@ -22,7 +22,7 @@ enum class RepairKind {
 
 [[nodiscard]] std::string to_string(RepairKind kind);
 
-/// Where something was repaired.
+/// A repaired place.
 struct RepairPlace {
     RepairKind kind = RepairKind::Weld;
     Vec3 position = Vec3::Zero();  ///< [mm]
@@ -36,7 +36,7 @@ struct KeptOpening {
     std::size_t edges = 0;
 };
 
-/// What repair did; all zero for a clean surface.
+/// The actions of repair; all zero for a clean surface.
 struct RepairReport {
     std::size_t welded_vertices = 0;
     std::size_t unused_vertices = 0;
@@ -47,16 +47,16 @@ struct RepairReport {
     std::size_t non_manifold_edges = 0;
     std::size_t non_manifold_vertices = 0;
     std::size_t turned_triangles = 0;    ///< to make the orientation consistent
-    bool turned_inside_out = false;      ///< then the whole surface was turned over
-    std::size_t self_intersections = 0;  ///< pairs found at the beginning
+    bool turned_inside_out = false;      ///< the whole surface was reversed
+    std::size_t self_intersections = 0;  ///< pairs found at the start
     std::size_t refilled_triangles = 0;  ///< cut out around them
-    std::size_t smoothed_vertices = 0;   ///< moved to part them
+    std::size_t smoothed_vertices = 0;   ///< moved to separate them
     std::size_t closed_holes = 0;
     std::size_t collapsed_edges = 0;
     std::size_t flipped_edges = 0;
     std::vector<KeptOpening> openings;
     std::vector<RepairPlace> places;
-    /// Radius that parts the closed holes from the kept openings [mm], if one does.
+    /// Radius that separates the closed holes from the kept openings [mm], if there is one.
     std::optional<double> closed_up_to;
 
     [[nodiscard]] bool changed() const;

@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// If turning triangles leaves contradictions at more than this part of the triangles [-], the
-/// surface is one-sided; fewer are mended by cutting them out.
+/// If reversing triangles leaves contradictions at more than this fraction of the triangles [-],
+/// the surface is one-sided; fewer are cut out.
 constexpr double kMostContradictions = 0.005;
 
-/// Half-edge 3 t + k joined with the half-edge of the neighbour on the same sheet, or kNone.
+/// Half-edge 3 t + k paired with that of the neighbour on the same sheet, or kNone.
 using Mates = std::vector<std::uint32_t>;
 
 struct Around {
@@ -55,7 +55,7 @@ std::vector<Around> sorted_around(const TriangleSoup& mesh, const std::array<Ver
 }
 
 /// Joins neighbours around the edge that enclose a wedge of the solid, narrowest wedges first. With
-/// outward normals the solid lies before a forward triangle, in the sense of growing angles.
+/// outward normals the solid is before a forward triangle, in the direction of increasing angles.
 void pair_around(std::vector<Around> around, Mates& mates) {
     while (around.size() > 1) {
         std::size_t best = around.size();
@@ -108,12 +108,12 @@ Sheets sheets_of(const TriangleSoup& mesh, RepairReport& report) {
     return sheets;
 }
 
-/// True if both triangles run the shared edge the same way.
+/// True if both triangles traverse the shared edge in the same direction.
 bool disagree(const TriangleSoup& mesh, std::uint32_t h, std::uint32_t mate) {
     return mesh.triangles[h / 3][h % 3] == mesh.triangles[mate / 3][mate % 3];
 }
 
-/// Which triangles to turn so that neighbours agree; each connected sheet turns as few as it can.
+/// The triangles to reverse so that neighbours agree; as few as possible per connected sheet.
 std::vector<std::uint8_t> turns(const TriangleSoup& mesh, const Mates& mates) {
     constexpr std::uint8_t kUnseen = 2;
     std::vector<std::uint8_t> turn(mesh.triangles.size(), kUnseen);
@@ -137,7 +137,7 @@ std::vector<std::uint8_t> turns(const TriangleSoup& mesh, const Mates& mates) {
     return turn;
 }
 
-/// Triangles at edges that still disagree after all turns: the sheet is one-sided there.
+/// Triangles at edges that still disagree after all reversals: the sheet is one-sided there.
 std::vector<std::uint8_t> contradictions(const TriangleSoup& mesh, const Mates& mates,
                                          const std::vector<std::uint8_t>& turn) {
     std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
@@ -195,10 +195,10 @@ private:
     DisjointSets sets_;
 };
 
-/// Gives every fan but the first its own copy of the vertex.
+/// Gives every fan except the first its own copy of the vertex.
 void part_fans(TriangleSoup& mesh, const Sheets& sheets, bool part_rims, RepairReport& report) {
     Fans fans(mesh, sheets.mates);
-    // A fan is open if one of its corners stands at an unmated half-edge.
+    // A fan is open if one of its corners is at an unpaired half-edge.
     std::vector<std::uint8_t> open(3 * mesh.triangles.size(), 0);
     for (std::uint32_t h = 0; h < sheets.mates.size(); ++h)
         if (sheets.mates[h] == kNone) {
@@ -206,7 +206,7 @@ void part_fans(TriangleSoup& mesh, const Sheets& sheets, bool part_rims, RepairR
             open[fans.root(h / 3 * 3 + (h % 3 + 1) % 3)] = 1;
         }
     std::vector<std::uint32_t> first(mesh.points.size(), kNone);
-    std::map<std::uint32_t, VertexId> copies;  // of the few fans that are parted
+    std::map<std::uint32_t, VertexId> copies;  // of the few fans that are split
     std::vector<VertexId> parted;
     const std::vector<Triangle> before = mesh.triangles;
     for (std::uint32_t c = 0; c < open.size(); ++c) {
@@ -229,8 +229,8 @@ void part_fans(TriangleSoup& mesh, const Sheets& sheets, bool part_rims, RepairR
         report.places.push_back({RepairKind::NonManifold, mesh.points[v], 0.0});
 }
 
-/// Sheets that are joined elsewhere at both ends of an edge cannot be parted there: their triangles
-/// at that edge are cut out. \return true if there were any
+/// Sheets joined elsewhere at both ends of an edge cannot be split there: their triangles at that
+/// edge are cut out. \return true if there were any
 bool cut_remaining_crossings(TriangleSoup& mesh) {
     const EdgeTable table = edge_table(Topology(mesh.triangles, mesh.points.size()));
     std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);

@@ -13,8 +13,8 @@ namespace {
 constexpr int kMostPasses = 20;
 constexpr int kMostRounds = 5;  ///< the mean edge grows a little each time
 
-/// A turned normal beyond this cosine [-] spoils the surface; triangles that are slivers themselves
-/// have no say.
+/// A normal turned beyond this cosine [-] spoils the surface; triangles that are slivers themselves
+/// are ignored.
 constexpr double kLeastCosine = 0.2;
 
 struct Shape {
@@ -87,7 +87,7 @@ private:
         return flip(t, shape.long_side);
     }
 
-    /// 0: inside of a patch; 1: between two patches; 2: where three meet; 3: on an open rim.
+    /// 0: inside a patch; 1: between two patches; 2: where three meet; 3: on an open rim.
     [[nodiscard]] int rank(VertexId v) const {
         if (surface_.on_rim(v)) return 3;
         std::vector<std::uint16_t> labels;
@@ -97,7 +97,7 @@ private:
         return std::min<int>(static_cast<int>(labels.size()) - 1, 2);
     }
 
-    /// Moves the vertex of lower rank into the other one.
+    /// Merges the vertex of lower rank into the other one.
     bool collapse(VertexId a, VertexId b) {
         const int rank_a = rank(a), rank_b = rank(b);
         const bool keep_a = rank_a > rank_b || (rank_a == rank_b && a < b);
@@ -126,7 +126,7 @@ private:
         return !(n.dot(m) > kLeastCosine * n.norm() * m.norm());
     }
 
-    /// Swaps the longest side of a cap; on an open rim the cap itself goes.
+    /// Swaps the longest side of a cap; on an open rim the cap itself is removed.
     bool flip(TriangleId t, int long_side) {
         const Triangle cap = surface_.triangle(t);
         const VertexId a = cap[long_side], b = cap[(long_side + 1) % 3],

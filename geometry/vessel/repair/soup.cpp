@@ -15,7 +15,7 @@ namespace vesselbench {
 
 namespace {
 
-/// A surface whose largest piece has less than this part of the whole area [-] is a heap of scraps.
+/// A surface whose largest piece has less than this fraction of the area [-] is scattered.
 constexpr double kSmallestMainPart = 0.1;
 
 bool names_vertex_twice(const Triangle& t) {
@@ -38,7 +38,7 @@ std::size_t weld_equal_points(TriangleSoup& mesh) {
     return welded;
 }
 
-/// Rim points near each other, found by sorting along x: rims are small.
+/// Rim points close to each other, found by sorting along x: rims are small.
 std::size_t weld_rims(TriangleSoup& mesh, double tolerance) {
     const Topology topology(mesh.triangles, mesh.points.size());
     const auto& boundary = topology.boundary_vertices();

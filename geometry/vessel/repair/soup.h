@@ -5,7 +5,7 @@
 
 namespace vesselbench {
 
-// The soup's marks: 1 at the rim of what repair itself cut out.
+// The soup's marks: 1 at rims cut by repair itself.
 
 /// Mean edge length over all triangle sides [mm].
 [[nodiscard]] double mean_side(const TriangleSoup& mesh);
@@ -14,15 +14,15 @@ namespace vesselbench {
 
 [[nodiscard]] Vec3 centroid(const TriangleSoup& mesh, const Triangle& triangle);
 
-/// Makes equal points one, and rim points that lie within `tolerance` [mm] of each other.
+/// Merges equal points, and rim points within `tolerance` [mm] of each other.
 void weld(TriangleSoup& mesh, double tolerance, RepairReport& report);
 
-/// Removes triangles that name a vertex twice, and all but the first of those with the same three
+/// Removes triangles that use a vertex twice, and all but the first of those with the same three
 /// vertices.
 void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report);
 
 /// Keeps the `count` components of largest area.
-/// \throw AlgorithmFailure if the largest one is only a small part of everything: scattered
+/// \throw AlgorithmFailure if the largest one is only a small part of the surface: scattered
 ///        triangles are no surface
 void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report);
 

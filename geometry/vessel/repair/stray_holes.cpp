@@ -14,18 +14,18 @@ namespace vesselbench {
 
 namespace {
 
-/// A vessel end is at least this wide against the lumen behind it [-]; holes in a wall see the
-/// whole lumen behind them and stay below it.
+/// Smallest width of a vessel end relative to the lumen behind it [-]; holes in a wall face the
+/// whole lumen and are below it.
 constexpr double kWideAsLumen = 0.4;
-constexpr double kLeastRound = 0.25;     ///< slits and zigzags are no ends [-]
+constexpr double kLeastRound = 0.25;     ///< slits and zigzags are not ends [-]
 constexpr std::size_t kFewestEdges = 6;  ///< loops of fewer edges are always stray
 
-/// A cut that somebody made: many edges, flat, round.
+/// A deliberate cut: many edges, flat, round.
 constexpr std::size_t kCutEdges = 16;
 constexpr double kCutFlat = 0.02;
 constexpr double kCutRound = 0.85;
 
-/// Rings of triangles around a hole that lead the bending of its patch.
+/// Rings of triangles around a hole that determine the bending of its patch.
 constexpr int kRings = 3;
 
 double cut_part(const TriangleSoup& mesh, const std::vector<VertexId>& loop) {
@@ -60,7 +60,7 @@ OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     return loop;
 }
 
-/// Half the distance from the inner side of the wall beside the rim to what lies opposite.
+/// Half the distance from the inner side of the wall beside the rim to the opposite wall.
 double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
                     const std::vector<TriangleId>& rim_triangles) {
     std::vector<double> widths;
@@ -79,7 +79,7 @@ double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
     return 0.5 * *middle;
 }
 
-/// The patch label that most rim triangles have.
+/// The most frequent patch label of the rim triangles.
 std::uint16_t label_around(const TriangleSoup& mesh, const Topology& topology,
                            const std::vector<VertexId>& loop) {
     std::map<std::uint16_t, int> votes;

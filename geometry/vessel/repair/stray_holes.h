@@ -6,13 +6,13 @@
 
 namespace vesselbench {
 
-/// What is known of an open loop.
+/// The properties of an open loop.
 struct OpenLoop {
     std::vector<VertexId> vertices;
     Vec3 centre = Vec3::Zero();  ///< [mm]
     double radius = 0.0;         ///< of the circle of the same area [mm]
     double roundness = 0.0;      ///< 4 pi area / length^2 [-]; 1: a circle
-    double flatness = 0.0;       ///< largest distance from the best plane by the radius [-]
+    double flatness = 0.0;       ///< largest distance from the best-fit plane over the radius [-]
     double lumen_radius = 0.0;   ///< half the free width behind the rim, median [mm]
     bool from_cut = false;       ///< its rim was cut by repair itself
 };
@@ -20,7 +20,7 @@ struct OpenLoop {
 /// The loops of a manifold surface. Loops cut by repair get no lumen radius.
 [[nodiscard]] std::vector<OpenLoop> open_loops(const TriangleSoup& mesh);
 
-/// True for a vessel's end: about as wide as the lumen behind it, or a flat round cut.
+/// True for a vessel's end: about as wide as the lumen behind it, or a flat, round cut.
 [[nodiscard]] bool is_vessel_end(const OpenLoop& loop);
 
 /// Closes the stray holes, and all loops that repair cut itself. Fills `report.openings`.

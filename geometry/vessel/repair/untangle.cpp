@@ -7,10 +7,10 @@ namespace vesselbench {
 
 namespace {
 
-/// Attempts that only smooth: they keep the connectivity and change least.
+/// Attempts that only smooth: they preserve the connectivity and change least.
 constexpr int kSmoothingAttempts = 2;
 constexpr int kSmoothingSteps = 5;
-constexpr double kStep = 0.5;  ///< of the way to the mean of the neighbours [-]
+constexpr double kStep = 0.5;  ///< fraction of the way to the neighbours' mean [-]
 
 /// Marks the triangles of the pairs and `rings` rings of triangles around them.
 std::vector<std::uint8_t> marked_around(const TriangleSoup& mesh, const Topology& topology,

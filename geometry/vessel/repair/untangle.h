@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// Boxes around what was changed: only there new self-intersections can arise.
+/// Boxes around the changes: only there can new self-intersections arise.
 using Regions = std::vector<BoxTree::Box>;
 
 /// Self-intersecting pairs among the triangles that touch one of the regions.
@@ -17,13 +17,13 @@ using Regions = std::vector<BoxTree::Box>;
                                                               const Progress& progress);
 
 /// One attempt at removing self-intersections; `attempt` counts from 0. The first attempts smooth
-/// the vertices around, later ones cut the triangles out, each time a ring more; the rims are
+/// the vertices around, later ones cut the triangles out, each time one ring more; the rims are
 /// marked as cut, to be closed again.
 /// \return the regions changed
 [[nodiscard]] Regions untangle(TriangleSoup& mesh, const std::vector<TrianglePair>& pairs,
                                int attempt, RepairReport& report);
 
-/// The attempts that are worth making.
+/// The number of useful attempts.
 inline constexpr int kUntangleAttempts = 9;
 
 }  // namespace vesselbench

@@ -77,7 +77,7 @@ SCENARIO("Answers come coarsely first, then finer", "[quality][live]") {
     CHECK(answers[3].complete);
 }
 
-SCENARIO("A new value stops what is under way, and nothing old comes after it", "[quality][live]") {
+SCENARIO("A new value stops the running analysis, and no old answer follows", "[quality][live]") {
     const Surface ball = with_noise(icosphere(10.0, 3), 0.2);
     std::vector<LiveAnswer> answers;
     LiveAnalysis live({engine_of(ball), laplace_space(), {}},
@@ -101,7 +101,7 @@ SCENARIO("A new value stops what is under way, and nothing old comes after it", 
     }
 }
 
-SCENARIO("What never ends is stopped by the next value, and by the end", "[quality][live]") {
+SCENARIO("An endless analysis is stopped by the next value and on destruction", "[quality][live]") {
     int answers = 0;
     {
         LiveAnalysis live({std::make_shared<EndlessEngine>(), laplace_space(), {}},

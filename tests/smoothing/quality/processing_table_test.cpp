@@ -37,7 +37,7 @@ ProcessingTable growing_ball(int& runs) {
 
 }  // namespace
 
-SCENARIO("Surfaces of other triangles are measured by distances both ways", "[quality]") {
+SCENARIO("Surfaces with other triangles are measured by distances both ways", "[quality]") {
     const Surface ball = icosphere(10.0, 4);
     const ComparisonMeter meter(ball);
     THEN("the original is at no distance from itself") {
@@ -84,7 +84,7 @@ SCENARIO("Surfaces of other triangles are measured by distances both ways", "[qu
     }
 }
 
-SCENARIO("What an operation makes of a surface is found once", "[quality]") {
+SCENARIO("An operation's result on a surface is computed once", "[quality]") {
     int runs = 0;
     ProcessingTable table = growing_ball(runs);
     const std::vector<ParameterSet> sets = {{1.0}, {1.1}, {1.2}, {3.0}};

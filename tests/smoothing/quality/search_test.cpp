@@ -88,7 +88,7 @@ SCENARIO("Table 6.2: more target smoothness never smooths less", "[quality][sear
     }
 }
 
-SCENARIO("The pattern search finds what the exhaustive search finds", "[quality][search]") {
+SCENARIO("The pattern search finds the result of the exhaustive search", "[quality][search]") {
     std::vector<Surface> surfaces;
     for (const double noise : {0.03, 0.1, 0.2}) {
         surfaces.push_back(elongated(noise));
@@ -111,7 +111,7 @@ SCENARIO("The pattern search finds what the exhaustive search finds", "[quality]
     CHECK(good >= 9);
 }
 
-SCENARIO("What is known is not computed again", "[quality][search]") {
+SCENARIO("Known results are not computed again", "[quality][search]") {
     ParameterSearch search = search_on(compact(0.2));
     const Suggestion first = search.exhaustive(true);
     const auto work = search.table().work();
@@ -128,7 +128,7 @@ SCENARIO("What is known is not computed again", "[quality][search]") {
     CHECK(search.table().work().evaluations == work.evaluations + 40);
 }
 
-SCENARIO("A run measured at every iteration gives the measures of runs of their own",
+SCENARIO("A run measured at every iteration gives the measures of separate runs",
          "[quality][search]") {
     const Surface surface = elongated(0.08);
     for (const FilterParameters& filter :
@@ -222,7 +222,7 @@ SCENARIO("Sets that roughen are left out", "[quality][search]") {
     CHECK(taubin.chooser(ParameterSet{0.5}).has_value());
 }
 
-SCENARIO("A search ends at once when it is told to", "[quality][search]") {
+SCENARIO("A search ends at once when cancelled", "[quality][search]") {
     std::stop_source stop;
     stop.request_stop();
     ParameterSearch search = search_on(compact(0.2));

@@ -143,7 +143,7 @@ SCENARIO("Drifting along the surface is no error", "[quality][meter]") {
     CHECK(references != meter.own_references());
 }
 
-SCENARIO("Estimates of all states err the same little way", "[quality][meter]") {
+SCENARIO("Estimates of all states have the same small error", "[quality][meter]") {
     const Surface surface = with_noise(icosphere(20.0, 6), 0.1);  // 40,962 vertices
     const SurfaceMeter meter(surface.topology, surface.positions);
     auto references = meter.own_references(), sampled = references;

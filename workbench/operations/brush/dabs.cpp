@@ -17,7 +17,7 @@ constexpr std::size_t kNumbers = 10;
 /// Of the parameters below.
 constexpr std::array kNames = {"dabs", "at", "radius", "strength", "falloff"};
 
-/// Of a dab by `at`, where they are left out.
+/// Defaults of a dab given by `at`.
 constexpr double kStrength = 0.5, kFalloff = 1.0;
 
 Dab dab_from(std::span<const double> n) {
@@ -44,8 +44,8 @@ void check(const std::string& name, double weakest, const Dab& dab) {
 std::vector<Dab> listed_dabs(const DabUse& use, const std::vector<double>& numbers) {
     if (numbers.empty() || numbers.size() % kNumbers != 0)
         throw UsageError(use.operation +
-                         ": dabs needs 10 numbers a dab (point x,y,z, outward normal x,y,z, local "
-                         "radius, radius, strength, falloff), not " +
+                         ": dabs needs 10 numbers per dab (point x,y,z, outward normal x,y,z, "
+                         "local radius, radius, strength, falloff), not " +
                          std::to_string(numbers.size()));
     std::vector<Dab> dabs;
     for (std::size_t i = 0; i < numbers.size(); i += kNumbers) {
@@ -55,8 +55,8 @@ std::vector<Dab> listed_dabs(const DabUse& use, const std::vector<double>& numbe
     return dabs;
 }
 
-/// `at` and what belongs to it may stand beside dabs only as resolved_dabs leaves them: saying the
-/// same.
+/// `at` and its companions may be given with dabs only as resolved_dabs leaves them: with the same
+/// meaning.
 bool contradict(const Arguments& arguments, const std::vector<Dab>& dabs) {
     const auto other = [&](const char* name, double value) {
         return arguments.has(name) && arguments.real(name) != value;
@@ -80,8 +80,8 @@ Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance&
                   .falloff = arguments.optional_real("falloff").value_or(kFalloff)};
     if (const double off = (dab.anchor.point - at).norm(); off > radius) {
         std::ostringstream text;
-        text << "at=" << to_text(at) << " is " << off << " mm off the surface; brushed at the "
-             << "nearest place, " << place_text(dab.anchor.point);
+        text << "at=" << to_text(at) << " is " << off << " mm away from the surface; brushed at "
+             << "the nearest point, " << place_text(dab.anchor.point);
         outcome.warnings.push_back(text.str());
     }
     return dab;
@@ -102,7 +102,7 @@ void append_dabs(Arguments& stroke, const Arguments& more) {
 }
 
 void throw_without_dabs(const DabUse& use) {
-    throw UsageError(use.operation + ": give dabs, or at=x,y,z and radius= of one dab");
+    throw UsageError(use.operation + ": give dabs, or at=x,y,z and radius= for one dab");
 }
 
 std::string dab_name(const std::string& operation, std::size_t index, const Dab& dab) {
@@ -111,33 +111,32 @@ std::string dab_name(const std::string& operation, std::size_t index, const Dab&
 
 std::vector<Parameter> dab_parameters(double weakest, const std::string& strength) {
     using enum ParameterType;
-    return {
-        {.name = "dabs",
-         .type = List,
-         .unit = "mm",
-         .help = "the stroke, 10 numbers a dab: point x,y,z on the surface, outward normal x,y,z, "
-                 "local radius of the vessel, radius of the brush along the surface, strength and "
-                 "falloff as below; or use at"},
-        {.name = "at",
-         .type = Point,
-         .unit = "mm",
-         .help = "instead of dabs: one dab at the nearest point of the surface"},
-        {.name = "radius",
-         .unit = "mm",
-         .help = "with at: radius of the brush along the surface",
-         .minimum = 0.0,
-         .above_minimum = true},
-        {.name = "strength",
-         .unit = "-",
-         .help = "with at: " + strength + "; 0.5 when left out",
-         .minimum = weakest,
-         .maximum = 1.0},
-        {.name = "falloff",
-         .unit = "-",
-         .help = "with at: part of the radius over which the brush fades towards its "
-                 "edge: 1 from its middle on, 0 not at all; 1 when left out",
-         .minimum = 0.0,
-         .maximum = 1.0}};
+    return {{.name = "dabs",
+             .type = List,
+             .unit = "mm",
+             .help = "the stroke, 10 numbers per dab: point x,y,z on the surface, outward normal "
+                     "x,y,z, local radius of the vessel, radius of the brush along the surface, "
+                     "strength and falloff as below; or use at"},
+            {.name = "at",
+             .type = Point,
+             .unit = "mm",
+             .help = "instead of dabs: one dab at the nearest point of the surface"},
+            {.name = "radius",
+             .unit = "mm",
+             .help = "with at: radius of the brush along the surface",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "strength",
+             .unit = "-",
+             .help = "with at: " + strength + "; default 0.5",
+             .minimum = weakest,
+             .maximum = 1.0},
+            {.name = "falloff",
+             .unit = "-",
+             .help = "with at: fraction of the radius over which the brush fades towards its edge: "
+                     "1 fades from the centre, 0 not at all; default 1",
+             .minimum = 0.0,
+             .maximum = 1.0}};
 }
 
 std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,

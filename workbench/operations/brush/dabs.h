@@ -8,23 +8,23 @@
 
 namespace vesselbench {
 
-/// Parameters that say where a brush goes: `dabs`, or one dab by `at`, `radius`, `strength`,
+/// Parameters that place a brush: `dabs`, or one dab by `at`, `radius`, `strength`,
 /// `falloff`.
-/// \param weakest of the strengths, 0 or -1
-/// \param strength what a strength does
+/// \param weakest smallest strength, 0 or -1
+/// \param strength effect of the strength
 [[nodiscard]] std::vector<Parameter> dab_parameters(double weakest, const std::string& strength);
 
-/// What a brush's dabs are for: its name for error texts, and its weakest strength.
+/// Context of a brush's dabs: its name for error texts, and its smallest strength.
 struct DabUse {
     std::string operation;
     double weakest = 0.0;  ///< 0 or -1 [-]
 };
 
 /// The dabs that are given or that an earlier run resolved; else the one at `at`, which is written
-/// into the arguments, so that a replay needs no decision.
+/// into the arguments, so that a replay repeats it.
 /// \param places of the surface
-/// \param outcome its resolved arguments are read and completed; warned where `at` is off the
-/// surface
+/// \param outcome its resolved arguments are read and completed; receives a warning if `at` is away
+/// from the surface
 /// \throw UsageError that names the dab and the value if the arguments make no sense
 [[nodiscard]] std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);

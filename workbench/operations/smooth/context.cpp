@@ -28,12 +28,12 @@ std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments&
     if (arguments.has("cell")) constraint.size = arguments.point("cell");
     if (!scene.sampling && !arguments.has("cell"))
         throw UsageError("smooth: constraint=" + cell +
-                         " needs the voxels' size: give cell=x,y,z in mm, each above 0");
+                         " needs the voxel size: give cell=x,y,z in mm, each above 0");
     arguments.set("cell", constraint.size);
     return constraint;
 }
 
-/// Caps as far as the arguments ask for them.
+/// The caps that the arguments ask for.
 std::vector<Cap> caps_of(ContextFinder& finder, const Arguments& arguments) {
     if (arguments.text("caps") == "smooth") return {};
     std::vector<Cap> caps = finder.caps();
@@ -51,30 +51,30 @@ std::vector<Parameter> context_parameter_table() {
         {.name = "constraint",
          .type = Choice,
          .default_value = std::string("none"),
-         .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, around "
-                 "its place at the start",
+         .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, centred on "
+                 "its start position",
          .choices = {"none", "voxel", "diamond"}},
         {.name = "cell",
          .type = Point,
          .unit = "mm",
-         .help = "size of the voxels of constraint along the image's axes; the image's own "
-                 "when left out",
+         .help = "voxel size of constraint along the image's axes; default: the image's own",
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = Condition{"constraint", {"voxel", "diamond"}}}};
     const WeighedAction action{
         .doing = "smoothing",
-        .staircase_help = "smooth staircases of the image's slices only, and fade out around them",
+        .staircase_help =
+            "smooth only the staircases of the image's slices, fading out around them",
         .kept = "do not move",
-        .painted_one = "smooths it"};
+        .painted_one = "are smoothed in full"};
     const auto add = [&](const std::vector<Parameter>& more) {
         table.insert(table.end(), more.begin(), more.end());
     };
     add(staircase_parameter_table(action));
     add({{.name = "beta_min",
           .unit = "-",
-          .help = "how much of the smoothing all that is no staircase gets: 0 stays where it is, "
-                  "1 is smoothed as staircases are; the preset's when left out",
+          .help = "fraction of the smoothing applied outside staircases: 0 leaves the rest "
+                  "unchanged, 1 are smoothed in full like staircases; default: the preset's",
           .minimum = 0.0,
           .maximum = 1.0,
           .only_with = when_staircase},
@@ -82,21 +82,21 @@ std::vector<Parameter> context_parameter_table() {
           .type = Choice,
           .default_value = std::string("tau-max"),
           .help = "where the smoothing has faded out: tau_max away from staircases, or (thesis, "
-                  "as it prints Eq. 5.5) at the farthest vertex within tau_max",
+                  "Eq. 5.5 as printed) at the farthest vertex within tau_max",
           .choices = {"tau-max", "thesis"},
           .only_with = when_staircase}});
     add(distance_parameter_table(action));
     add({{.name = "caps",
           .type = Choice,
           .default_value = std::string("keep"),
-          .help = "keep: vertices of caps and their rims stay bit for bit; smooth: caps are "
-                  "wall; round: caps become domes",
+          .help = "keep: vertices of caps and their rims are unchanged, bit for bit; smooth: caps "
+                  "are treated as wall; round: caps become domes",
           .choices = {"keep", "smooth", "round"}},
          {.name = "find_caps",
           .type = Flag,
           .default_value = true,
-          .help = "look for flat ends that are no openings yet, too: also the first and last "
-                  "slice of a mask; false: openings only",
+          .help = "also treat flat ends that are not openings as caps, including the first and "
+                  "last slice of a mask; false: openings only",
           .only_with = Condition{"caps", {"keep", "round"}}}});
     return table;
 }

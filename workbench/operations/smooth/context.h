@@ -13,10 +13,10 @@
 
 namespace vesselbench {
 
-/// Parameters of `smooth` that make it aware of its context.
+/// The context parameters of `smooth`.
 [[nodiscard]] std::vector<Parameter> context_parameter_table();
 
-/// What the context says about a surface before it is smoothed.
+/// The context of a surface before it is smoothed.
 struct SmoothingContext {
     std::shared_ptr<const Positions> start;  ///< the surface's, or with domed caps (caps=round)
     std::vector<double> weights;             ///< product of all weights, #V; empty: 1 everywhere
@@ -25,12 +25,12 @@ struct SmoothingContext {
     std::optional<PositionConstraint> constraint;
 };
 
-/// Works out weights, fixed vertices and constraint, and fills in what it decided (stack_axis,
+/// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,
 /// cell).
 /// \param finder of the scene's surface
-/// \param report what was found is added here
-/// \throw UsageError if arguments do not go together; InvalidInput if the scene lacks what they
-/// name; AlgorithmFailure if the stack orientation is uncertain
+/// \param report receives the findings
+/// \throw UsageError if arguments cannot be combined; InvalidInput if the scene lacks something
+/// they name; AlgorithmFailure if the stack orientation is uncertain
 [[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
                                                  Arguments& arguments,
                                                  nlohmann::ordered_json& report);

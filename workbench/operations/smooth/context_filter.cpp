@@ -93,7 +93,7 @@ ContextFilter::Result ContextFilter::run(const Arguments& arguments, const Progr
 
 ContextFilter::Result ContextFilter::on_cpu(const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene_);
-    progress.report(0.0, "looking at the context");
+    progress.report(0.0, "finding the context");
     if (!is_found(arguments, false)) {
         if (!cpu_) cpu_ = make_cpu_finder(surface);
         found_ = std::make_shared<const Found>(scene_, *cpu_, arguments, false);
@@ -107,7 +107,7 @@ ContextFilter::Result ContextFilter::on_cpu(const Arguments& arguments, const Pr
 ContextFilter::Result ContextFilter::on_device(const Device& device, const Arguments& arguments,
                                                const Progress& progress) {
     const auto there = std::make_shared<const DeviceSurface>(device, surface_of(scene_));
-    progress.report(0.0, "looking at the context");
+    progress.report(0.0, "finding the context");
     if (!is_found(arguments, true))
         found_ = std::make_shared<const Found>(scene_, *make_gpu_finder(there), arguments, true);
     return found_->result(

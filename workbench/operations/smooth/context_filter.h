@@ -9,11 +9,10 @@
 
 namespace vesselbench {
 
-/// Finds the context of a scene's surface and filters the surface in it, once or again and again
-/// with other arguments: the context is found again only where its own arguments change. What is
-/// committed is the CPU's result unless the argument `device` asks for the GPU (DESIGN 1); then
-/// both are done there, and both by the CPU where the device fails, now or half-way. Not
-/// thread-safe.
+/// Finds the context of a scene's surface and filters the surface in it, once or repeatedly with
+/// other arguments: the context is found again only if its own arguments change. The CPU's result
+/// is committed unless the argument `device` asks for the GPU (DESIGN 1); then both run there, and
+/// both on the CPU if the device fails, now or midway. Not thread-safe.
 class ContextFilter {
 public:
     explicit ContextFilter(Scene scene, DeviceSource source = offscreen_device);
@@ -21,13 +20,13 @@ public:
 
     struct Result {
         Positions positions;  ///< [mm], #V
-        Arguments resolved;   ///< with what the context decided, and the device that was used
+        Arguments resolved;   ///< with the context's decisions, and the device used
         Report report;        ///< on the context
-        std::string reason;   ///< why the CPU served where the GPU was asked for; else empty
+        std::string reason;   ///< why the CPU was used although the GPU was asked for; else empty
     };
 
     /// \param arguments of `smooth` after resolve_filter
-    /// \throw as smoothing_context and the filter; Cancelled. What was found before stays
+    /// \throw as smoothing_context and the filter; Cancelled. Earlier findings are kept
     [[nodiscard]] Result run(const Arguments& arguments, const Progress& progress);
 
 private:
@@ -40,7 +39,7 @@ private:
 
     Scene scene_;
     DeviceSource source_;
-    std::unique_ptr<ContextFinder> cpu_;  ///< keeps the caps it found
+    std::unique_ptr<ContextFinder> cpu_;  ///< keeps the caps found
     std::shared_ptr<const Found> found_;  ///< last
 };
 

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-/// What stands for arguments that are not given.
+/// Defaults of arguments that are not given.
 struct Preset {
     const char* name;
     const char* filter;
@@ -20,9 +20,9 @@ struct Preset {
     double beta_min;  ///< with staircase awareness
 };
 
-/// Laplace+HC and LowPass (Taubin) are what Bade et al. found fit for anatomy, by shape (thesis
-/// 3.3.4); how much, follows from Table 2.1: small features and spatial relations ask for little,
-/// smoothness alone for much.
+/// Laplace+HC and LowPass (Taubin) suit anatomy according to Bade et al., depending on shape
+/// (thesis 3.3.4); the strength follows from Table 2.1: little where small features and spatial
+/// relations matter, much where only smoothness does.
 constexpr std::array kPresets = {
     Preset{"none", "laplace-hc", 20, 0.5, 0.0},     Preset{"compact", "laplace-hc", 30, 0.5, 0.1},
     Preset{"flat", "laplace-hc", 10, 0.5, 0.1},     Preset{"elongated", "taubin", 20, 0.5, 0.1},
@@ -35,7 +35,7 @@ const Preset& preset_of(const Arguments& arguments) {
     return *std::ranges::find_if(kPresets, [&](const Preset& p) { return name == p.name; });
 }
 
-/// What the presets stand for: "flat: laplace-hc 10, 0.1".
+/// The values of the presets: "flat: laplace-hc 10, 0.1".
 std::string preset_values() {
     std::ostringstream text;
     for (const Preset& p : kPresets)
@@ -53,50 +53,51 @@ void check_mu(const Arguments& arguments) {
     if (mu <= -lambda) return;
     std::ostringstream text;
     text << "smooth: mu = " << mu << " must be at most -lambda = " << -lambda
-         << "; mu is negative, -1.02 * lambda when it is left out";
+         << "; mu is negative, by default -1.02 * lambda";
     throw UsageError(text.str());
 }
 
 /// What the filters are set by.
 std::vector<Parameter> strength_parameters() {
-    return {{.name = "lambda",
-             .unit = "-",
-             .help = "share of the way to the neighbours' mean that a vertex goes in one pass; 0.5 "
-                     "when left out",
-             .minimum = 0.0,
-             .maximum = 1.0},
-            {.name = "mu",
-             .unit = "-",
-             .help = "the step back that undoes the shrinking: negative, at most -lambda; -1.02 "
-                     "lambda when left out",
-             .minimum = -2.0,
-             .maximum = 0.0,
-             .only_with = Condition{"filter", {"taubin"}}},
-            {.name = "alpha",
-             .unit = "-",
-             .default_value = 0.0,
-             .help = "what a pass is pulled back to: 1 the original positions, 0 those before the "
-                     "pass; in between a mixture. 0 is smoother",
-             .minimum = 0.0,
-             .maximum = 1.0,
-             .only_with = Condition{"filter", {"laplace-hc"}}},
-            {.name = "beta",
-             .unit = "-",
-             .default_value = 0.5,
-             .help = "share of the pull back that a vertex takes from itself, the rest from its "
-                     "neighbours' mean; 1 undoes the smoothing, less smooths more, and with lambda "
-                     "above 0.5 may roughen",
-             .minimum = 0.0,
-             .maximum = 1.0,
-             .only_with = Condition{"filter", {"laplace-hc"}}},
-            {.name = "curvature",
-             .unit = "1/mm",
-             .help = "anisotropic: edges that bend more are kept; curvature-triggered: smoothing "
-                     "starts where the mean curvature is above it. 1 is the bend of a rod of 1 mm "
-                     "radius; when left out, half a radian (triggered: a quarter) per mean edge",
-             .minimum = 0.0,
-             .above_minimum = true,
-             .only_with = Condition{"filter", {"anisotropic", "curvature-triggered"}}}};
+    return {
+        {.name = "lambda",
+         .unit = "-",
+         .help = "fraction of the way to its neighbours' mean that a vertex moves per pass; "
+                 "default 0.5",
+         .minimum = 0.0,
+         .maximum = 1.0},
+        {.name = "mu",
+         .unit = "-",
+         .help = "the inflating step that undoes the shrinking: negative, at most -lambda; default "
+                 "-1.02 lambda",
+         .minimum = -2.0,
+         .maximum = 0.0,
+         .only_with = Condition{"filter", {"taubin"}}},
+        {.name = "alpha",
+         .unit = "-",
+         .default_value = 0.0,
+         .help = "target of the pull-back after a pass: 1 the original positions, 0 those before "
+                 "the pass, in between a mixture. 0 smooths more",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .only_with = Condition{"filter", {"laplace-hc"}}},
+        {.name = "beta",
+         .unit = "-",
+         .default_value = 0.5,
+         .help = "fraction of the pull-back taken from the vertex itself, the rest from its "
+                 "neighbours' mean; 1 undoes the smoothing, smaller values smooth more and, with "
+                 "lambda above 0.5, may roughen",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .only_with = Condition{"filter", {"laplace-hc"}}},
+        {.name = "curvature",
+         .unit = "1/mm",
+         .help = "anisotropic: edges of larger curvature are preserved; curvature-triggered: "
+                 "smoothing starts where the mean curvature is larger. 1 is the curvature of a rod "
+                 "of 1 mm radius; default: half a radian (triggered: a quarter) per mean edge",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = Condition{"filter", {"anisotropic", "curvature-triggered"}}}};
 }
 
 }  // namespace
@@ -109,20 +110,21 @@ std::vector<Parameter> filter_parameter_table() {
         {.name = "preset",
          .type = Choice,
          .default_value = std::string("none"),
-         .help = "filter, iterations and beta_min where they are not given, for compact "
-                 "organs, flat muscles, elongated vessels, or a use of the model: " +
+         .help = "defaults of filter, iterations and beta_min for compact organs, flat muscles, "
+                 "elongated vessels, or a use of the model: " +
                  preset_values(),
          .choices = presets},
         {.name = "filter",
          .type = Choice,
-         .help = "laplace shrinks the vessel, laplace-hc (the default without a preset) hardly "
-                 "does, taubin keeps the volume; mean-curvature-flow does not slide along the "
-                 "surface; anisotropic keeps sharp edges; curvature-triggered starts at them",
+         .help =
+             "laplace shrinks the vessel, laplace-hc (the default without a preset) hardly does, "
+             "taubin preserves the volume; mean-curvature-flow does not move vertices along the "
+             "surface; anisotropic preserves sharp edges; curvature-triggered starts at them",
          .choices = {"laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic",
                      "curvature-triggered"}},
         {.name = "iterations",
          .type = Integer,
-         .help = "number of passes; more is smoother",
+         .help = "number of passes; more passes smooth more",
          .minimum = 0,
          .maximum = 10000}};
     for (Parameter& parameter : strength_parameters()) table.push_back(std::move(parameter));
@@ -130,7 +132,7 @@ std::vector<Parameter> filter_parameter_table() {
         {.name = "rings",
          .type = Integer,
          .default_value = std::int64_t{1},
-         .help = "rings of neighbours that are averaged; 2 is less sensitive to small features",
+         .help = "rings of neighbours to average; 2 is less sensitive to small features",
          .minimum = 1,
          .maximum = 2});
     return table;
@@ -156,7 +158,7 @@ void resolve_filter(const Surface& surface, Arguments& arguments) {
                     default_trigger_curvature(*surface.topology, surface.points()));
     const bool by_edges = filter == "mean-curvature-flow" || filter == "anisotropic";
     if (by_edges && arguments.integer("rings") != 1)
-        throw UsageError("smooth: rings = 2 does not go with filter=" + filter +
+        throw UsageError("smooth: rings = 2 cannot be combined with filter=" + filter +
                          ", whose weights belong to edges");
 }
 
@@ -179,7 +181,7 @@ std::string filter_warning(const FilterParameters& filter) {
                "(1 - beta) * lambda at or below 0.5";
     const auto* taubin = std::get_if<TaubinParameters>(&filter);
     if (taubin != nullptr && amplifies(*taubin))
-        return "Taubin with these values enlarges the finest bumps: use a smaller lambda (0.5 is "
+        return "Taubin with these values amplifies the finest bumps: use a smaller lambda (0.5 is "
                "safe)";
     return "";
 }

@@ -5,18 +5,18 @@
 
 namespace vesselbench {
 
-/// Parameters of `smooth` that choose the filter and set it.
+/// Parameters of `smooth` that select and configure the filter.
 [[nodiscard]] std::vector<Parameter> filter_parameter_table();
 
-/// Fills in what the preset and the surface decide of the filter's arguments, so that a replay
-/// decides nothing.
-/// \throw UsageError if two arguments do not go together
+/// Fills in the filter's arguments decided by the preset and the surface, so that a replay repeats
+/// them.
+/// \throw UsageError if two arguments cannot be combined
 void resolve_filter(const Surface& surface, Arguments& arguments);
 
 /// The filter of resolved arguments.
 [[nodiscard]] FilterParameters filter_from(const Arguments& resolved);
 
-/// What a user should know of the filter's arguments; empty if nothing.
+/// A warning about the filter's arguments; empty if there is none.
 [[nodiscard]] std::string filter_warning(const FilterParameters& filter);
 
 }  // namespace vesselbench
