@@ -53,7 +53,8 @@ void add_texts(vtkDataSet* data, const char* name, const std::vector<std::string
 /// All but the cells.
 void fill(vtkPointSet* data, const VtkMesh& mesh) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    const auto xyz = view_of<vtkDoubleArray>(mesh.points.front().data(), 3 * mesh.points.size());
+    const auto xyz = view_of<vtkDoubleArray>(reinterpret_cast<const double*>(mesh.points.data()),
+                                             3 * mesh.points.size());
     xyz->SetNumberOfComponents(3);
     vtkNew<vtkPoints> points;
     points->SetData(xyz);

@@ -14,8 +14,7 @@ namespace vesselbench {
 struct VtkMesh {
     const Positions& points;         ///< [mm]
     std::vector<long long> corners;  ///< of all cells, one after the other
-    std::vector<std::int64_t>
-        offsets;  ///< of each cell's first corner; at last the number of corners
+    std::vector<long long> offsets;  ///< of each cell's first corner; at last the number of corners
     std::vector<std::uint8_t> types;    ///< VTK's number of each cell's type; empty: all triangles
     std::vector<std::int32_t> regions;  ///< per cell, the array CellEntityIds
     std::vector<std::string> patch_names;  ///< of regions 1, 2..., the field array PatchNames
