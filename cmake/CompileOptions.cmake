@@ -1,4 +1,4 @@
-# Designated initialisers leave out what takes its default: no warning for that.
+# Designated initialisers omit members with defaults: no warning for that.
 # -Wno-restrict: g++ 12 reports false overlaps in std::string (GCC bug 105651).
 # Our own code: warnings are errors. The same build on the same kind of CPU gives the same bits (DESIGN 1),
 # so multiplications and additions are never contracted.
@@ -20,7 +20,7 @@ if(MOLD_PROGRAM)
   add_link_options(-fuse-ld=mold)
 endif()
 
-# A library of one folder: vesselbench_library(geometry SOURCES ... PUBLIC ... PRIVATE ...)
+# The library of one room: vesselbench_library(geometry SOURCES ... PUBLIC ... PRIVATE ...)
 function(vesselbench_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(vb_${name} STATIC ${ARG_SOURCES})

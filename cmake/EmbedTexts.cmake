@@ -1,5 +1,5 @@
 # Writes a source file that defines `const std::map<std::string, std::string>& FUNCTION()` with the texts of FILES by
-# their names (.json left out): embed_texts(OUTPUT FUNCTION HEADER FILES...)
+# name (without .json): embed_texts(OUTPUT FUNCTION HEADER FILES...)
 function(embed_texts output function header)
   set(entries "")
   foreach(file IN LISTS ARGN)
