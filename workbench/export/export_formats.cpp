@@ -5,6 +5,7 @@
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "meshing/products/product_formats.h"
 #include "workbench/case/near_names.h"
 

@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/sizing_field.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/table.h"
