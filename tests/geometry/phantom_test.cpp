@@ -1,3 +1,5 @@
+#include "geometry/phantoms/exact_surface.h"
+#include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
 
 #include <cmath>

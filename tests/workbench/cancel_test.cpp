@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/session_runner.h"
@@ -29,7 +30,7 @@ Session tube_session() {
     write_surface(test::fine_tube(10.0, 80.0, 240), file);
     SessionOptions options;
     options.find = find_operation;
-    options.worker.command = {VESSELBENCH_BINARY, "--worker"};
+    options.worker.command = {test::program_path(), "--worker"};
     Session session = Session::unsaved(options);
     session.apply("load-surface", {{"file", file}});
     return session;

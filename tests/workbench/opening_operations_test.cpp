@@ -7,6 +7,8 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/phantoms/exact_surface.h"
+#include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"

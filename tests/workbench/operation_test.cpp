@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/near_names.h"
@@ -190,7 +191,7 @@ SCENARIO("Operations declare what others ask of them", "[workbench][operation]")
 
 SCENARIO("Nobody but the operations asks for an operation by its name", "[workbench][operation]") {
     namespace fs = std::filesystem;
-    const fs::path workbench = fs::path(VESSELBENCH_SOURCE_DIR) / "workbench";
+    const fs::path workbench = fs::path(test::source_folder()) / "workbench";
     std::size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(workbench)) {
         const fs::path& file = entry.path();

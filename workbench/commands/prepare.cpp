@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
@@ -31,7 +32,7 @@ void check_purpose(const std::string& purpose) {
 /// What was made, and what the report warns about.
 void print_prepared(const PrepareArguments& arguments) {
     const std::filesystem::path out = arguments.out;
-    const Json report = Json::parse(read_text_file(out / "report.json"));
+    const Json report = Json::parse(file_content(out / "report.json"));
     std::cout << Json({{"purpose", arguments.purpose},
                        {"folder", arguments.out},
                        {"project", "project.vbench"},
