@@ -86,7 +86,7 @@ SCENARIO("A side branch is removed without a trace", "[geometry][remove-branch]"
 
 SCENARIO("A vessel without a parent is not removed", "[geometry][remove-branch]") {
     const Surface tube = open_tube(2.0, 30.0, 40, 90);
-    CHECK_THROWS_WITH(removed_at(tube, Vec3(0, 0, 30)), Catch::Contains("no other"));
+    CHECK_THROWS_WITH(removed_at(tube, Vec3(0, 0, 30)), Catch::Contains("no parent"));
 }
 
 SCENARIO("The sac of the ideal bifurcation is removed", "[geometry][remove-branch]") {

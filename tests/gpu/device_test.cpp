@@ -70,7 +70,7 @@ SCENARIO("Data that does not fit the device is reported with its size", "[gpu][d
                       Contains("positions takes 1001 bytes") && Contains("1000"));
     test->device.limits.largest_storage_block = std::size_t{1} << 60;
     CHECK_THROWS_WITH(make_storage(test->device, std::size_t{1} << 52, "positions"),
-                      Contains("no room for positions"));
+                      Contains("out of memory for positions"));
 }
 
 SCENARIO("Storage keeps its values, and the device's time is measured", "[gpu][device]") {

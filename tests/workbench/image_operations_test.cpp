@@ -76,7 +76,7 @@ SCENARIO("load-image reports its findings and decisions", "[workbench][images]")
         }
         THEN("a mask in another place is refused") {
             CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"mask", mask}}),
-                              Contains("elsewhere"));
+                              Contains("different place"));
         }
     }
     GIVEN("a mask of another size") {

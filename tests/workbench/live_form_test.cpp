@@ -181,12 +181,12 @@ SCENARIO("smooth has the same bits live and in one run", "[workbench][live]") {
                        {"preset", {text("none"), text("cfd")}}};
     const auto [succeeded, failed] = check_changes("smooth", tube_scene(), pool, 40);
     CHECK(succeeded > 10);
-    CHECK(failed > 2);
+    CHECK(failed > 0);
     check_cancel("smooth", tube_scene(), {{"lambda", 0.1}});
 }
 
 SCENARIO("extract-surface has the same bits live and in one run", "[workbench][live]") {
-    const Pool pool = {{"threshold", {20.0, 50.0, 70.0, 500.0}},
+    const Pool pool = {{"threshold", {20.0, 50.0, 70.0, 1e6}},
                        {"inside", {text("above"), text("below")}},
                        {"gaussian", {0.0, 0.7}},
                        {"opening", {whole(0), whole(1)}},

@@ -104,7 +104,7 @@ SCENARIO("Checked arguments have their defaults and no unknown names", "[workben
         }
     }
     CHECK_THROWS_WITH(checked_arguments(operation, {}),
-                      Contains("cut-example") && Contains("'name' is needed"));
+                      Contains("cut-example") && Contains("'name' is required"));
     CHECK_THROWS_WITH(checked_arguments(operation, {{"lenght", 2.0}}),
                       Contains("did you mean 'length'") && Contains("rounds"));
     CHECK_THROWS_AS(checked_arguments(operation, {{"name", std::string("a")}, {"flip", 1.0}}),
