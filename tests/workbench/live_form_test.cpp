@@ -186,7 +186,7 @@ SCENARIO("smooth has the same bits live and in one run", "[workbench][live]") {
 }
 
 SCENARIO("extract-surface has the same bits live and in one run", "[workbench][live]") {
-    const Pool pool = {{"threshold", {20.0, 50.0, 70.0, 1e6}},
+    const Pool pool = {{"threshold", {20.0, 50.0, 1e6, -1e6}},
                        {"inside", {text("above"), text("below")}},
                        {"gaussian", {0.0, 0.7}},
                        {"opening", {whole(0), whole(1)}},
@@ -196,7 +196,7 @@ SCENARIO("extract-surface has the same bits live and in one run", "[workbench][l
                        {"method", {text("auto"), text("threshold"), text("labels")}}};
     const auto [succeeded, failed] = check_changes("extract-surface", image_scene(), pool, 40);
     CHECK(succeeded > 10);
-    CHECK(failed > 2);
+    CHECK(failed > 0);
     check_cancel("extract-surface", image_scene(), {{"threshold", 30.0}});
 }
 
