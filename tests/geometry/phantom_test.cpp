@@ -1,5 +1,3 @@
-#include "geometry/phantoms/exact_surface.h"
-#include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
 
 #include <cmath>
@@ -8,6 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/phantoms/exact_surface.h"
+#include "geometry/phantoms/field.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

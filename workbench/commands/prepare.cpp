@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/commands/commands.h"
