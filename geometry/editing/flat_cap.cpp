@@ -54,7 +54,8 @@ bool is_simple(const Points2& rim) {
 double rim_distance(const Points2& rim, const Point2& x) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < rim.size(); ++i) {
-        const Point2 p = rim[i], e = rim[(i + 1) % rim.size()] - p;
+        const Point2& p = rim[i];
+        const Point2 e = rim[(i + 1) % rim.size()] - p;
         const double t = std::clamp(e.dot(x - p) / e.squaredNorm(), 0.0, 1.0);
         best = std::min(best, (p + t * e - x).norm());
     }

@@ -243,13 +243,13 @@ PlaneCut cut_along(EditableSurface& surface, const Plane& plane, const SectionCu
 
 std::optional<std::vector<std::uint8_t>> part_above(const EditableSurface& surface,
                                                     const PlaneCut& cut) {
-    enum Place : std::uint8_t { kElsewhere, kBelow, kAbove };
+    enum Place : std::uint8_t { Elsewhere, Below, Above };
 
-    std::vector<std::uint8_t> at_rim(surface.triangle_count(), kElsewhere);
+    std::vector<std::uint8_t> at_rim(surface.triangle_count(), Elsewhere);
     std::vector<std::uint8_t> found(surface.triangle_count(), 0);
-    for (const TriangleId t : cut.below) at_rim[t] = kBelow;
+    for (const TriangleId t : cut.below) at_rim[t] = Below;
     for (const TriangleId t : cut.above) {
-        at_rim[t] = kAbove;
+        at_rim[t] = Above;
         found[t] = 1;
     }
     std::vector<TriangleId> open = cut.above;
@@ -258,8 +258,8 @@ std::optional<std::vector<std::uint8_t>> part_above(const EditableSurface& surfa
         open.pop_back();
         for (int k = 0; k < 3; ++k)
             for (const TriangleId other : surface.across(t, k)) {
-                if (found[other] || (at_rim[t] == kAbove && at_rim[other] == kBelow)) continue;
-                if (at_rim[other] == kBelow) return std::nullopt;
+                if (found[other] || (at_rim[t] == Above && at_rim[other] == Below)) continue;
+                if (at_rim[other] == Below) return std::nullopt;
                 found[other] = 1;
                 open.push_back(other);
             }
