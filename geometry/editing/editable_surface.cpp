@@ -57,6 +57,15 @@ void silence_openmesh() {
     (void)silent;
 }
 
+/// Mean length of a closed loop's sides. \param point of a vertex
+template <class Point>
+double mean_side(std::span<const VertexId> loop, const Point& point) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        sum += (point(loop[(i + 1) % loop.size()]) - point(loop[i])).norm();
+    return loop.empty() ? 0.0 : sum / static_cast<double>(loop.size());
+}
+
 }  // namespace
 
 /// The half-edges and their properties.
@@ -441,17 +450,11 @@ Surface EditableSurface::to_surface(std::vector<VertexId>* new_ids) const {
 }
 
 double mean_edge(const EditableSurface& surface, std::span<const VertexId> loop) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        sum += (surface.point(loop[(i + 1) % loop.size()]) - surface.point(loop[i])).norm();
-    return loop.empty() ? 0.0 : sum / static_cast<double>(loop.size());
+    return mean_side(loop, [&](VertexId v) { return surface.point(v); });
 }
 
 double mean_edge(const Positions& points, std::span<const VertexId> loop) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        sum += (points[loop[(i + 1) % loop.size()]] - points[loop[i]]).norm();
-    return loop.empty() ? 0.0 : sum / static_cast<double>(loop.size());
+    return mean_side(loop, [&](VertexId v) { return points[v]; });
 }
 
 }  // namespace vesselbench
