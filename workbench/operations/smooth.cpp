@@ -13,6 +13,7 @@
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/operations/smooth/mean.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -20,12 +21,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double mean(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
 
 /// Adds the figures of the change.
 void add_changes(Json& report, const Surface& before, const Surface& after) {

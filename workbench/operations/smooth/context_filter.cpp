@@ -1,8 +1,6 @@
 #include "workbench/operations/smooth/context_filter.h"
 
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +10,7 @@
 #include "gpu/gpu_context_finder.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/operations/smooth/mean.h"
 
 namespace vesselbench {
 
@@ -30,10 +29,6 @@ Arguments context_arguments(const Arguments& arguments) {
         if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
             own.set(parameter.name, at->second);
     return own;
-}
-
-double mean(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 }  // namespace
