@@ -10,10 +10,10 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
 #include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/stopwatch.h"
 #include "meshing/remeshing/decimate.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/reference_decimation.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

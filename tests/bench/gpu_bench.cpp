@@ -12,6 +12,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/stopwatch.h"
 #include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
 #include "gpu/device_neighbours.h"
@@ -24,7 +25,6 @@
 #include "smoothing/context/staircases.h"
 #include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

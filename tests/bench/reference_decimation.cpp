@@ -14,8 +14,8 @@
 #include <vtkNew.h>
 #include <vtkQuadricDecimation.h>
 
+#include "geometry/kernel/stopwatch.h"
 #include "tests/bench/peer_meshes.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

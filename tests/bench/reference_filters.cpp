@@ -6,8 +6,8 @@
 #include <vtkSmoothPolyDataFilter.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
+#include "geometry/kernel/stopwatch.h"
 #include "tests/bench/peer_meshes.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

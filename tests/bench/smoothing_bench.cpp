@@ -14,6 +14,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/stopwatch.h"
 #include "smoothing/context/caps.h"
 #include "smoothing/context/staircase_weights.h"
 #include "smoothing/context/staircases.h"
@@ -22,7 +23,6 @@
 #include "smoothing/filters/taubin.h"
 #include "tests/bench/organ.h"
 #include "tests/bench/reference_filters.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

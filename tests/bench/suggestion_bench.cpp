@@ -7,11 +7,11 @@
 
 #include <tbb/global_control.h>
 
+#include "geometry/kernel/stopwatch.h"
 #include "smoothing/filters/laplace.h"
 #include "smoothing/quality/cpu_engine.h"
 #include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

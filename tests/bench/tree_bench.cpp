@@ -21,11 +21,11 @@
 #endif
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/stopwatch.h"
 #include "geometry/kernel/surface_distance.h"
 #include "smoothing/context/point_grid.h"
 #include "smoothing/context/point_tree.h"
 #include "tests/bench/organ.h"
-#include "tests/bench/stopwatch.h"
 
 namespace vesselbench::bench {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -41,16 +40,5 @@ struct EvaluatedLine {
 
 /// The current time, UTC, 2024-05-17T09:30:00Z.
 [[nodiscard]] std::string utc_now();
-
-/// Seconds since construction.
-class Stopwatch {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/stopwatch.h"
 
 namespace vesselbench {
 

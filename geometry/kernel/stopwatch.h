@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace vesselbench::bench {
+namespace vesselbench {
 
 /// Seconds since construction.
 class Stopwatch {
@@ -15,4 +15,4 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace vesselbench::bench
+}  // namespace vesselbench
