@@ -34,40 +34,26 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: give planes and names together");
 }
 
-/// A surface's centerlines, found when they are asked for and then kept.
-class KnownCenterlines {
-public:
-    explicit KnownCenterlines(Surface surface) : surface_(std::move(surface)) {}
+/// The centerlines of all vessel ends; if none of them is at the tip, those to the tip.
+std::shared_ptr<const CenterlineGraph> lines_with_tip(const Surface& surface,
+                                                      const std::optional<Vec3>& tip,
+                                                      const Progress& progress) {
+    auto lines = centerlines_of(surface, {}, progress.part(0.0, 0.7));
+    if (!tip) return lines;
+    const auto nearest = nearest_tip(*lines, *tip);
+    if (nearest &&
+        (lines->nodes[*nearest].position - *tip).norm() <= 2.0 * tip_radius(*lines, *nearest))
+        return lines;
+    // A stub or a sac that the automatic search leaves out.
+    return centerlines_of(surface, {.ends = {*tip}}, progress.part(0.7, 0.9));
+}
 
-    /// Of all vessel ends; if none of them is at the tip, a line to it as well.
-    const CenterlineGraph& with_tip(const std::optional<Vec3>& tip, const Progress& progress) {
-        if (!automatic_) automatic_ = centerlines_of(surface_, {}, progress.part(0.0, 0.7));
-        if (!tip || is_tip(*automatic_, *tip)) return *automatic_;
-        // A stub or a sac that the automatic search leaves out.
-        if (!own_ || tip_ != *tip)
-            own_ = centerlines_of(surface_, {.ends = {*tip}}, progress.part(0.7, 0.9));
-        tip_ = *tip;
-        return *own_;
-    }
-
-private:
-    static bool is_tip(const CenterlineGraph& graph, const Vec3& point) {
-        const auto tip = nearest_tip(graph, point);
-        return tip && (graph.nodes[*tip].position - point).norm() <= 2.0 * tip_radius(graph, *tip);
-    }
-
-    Surface surface_;
-    std::shared_ptr<const CenterlineGraph> automatic_;
-    std::shared_ptr<const CenterlineGraph> own_;  ///< with the line to tip_
-    Vec3 tip_ = Vec3::Zero();
-};
-
-OpeningPlan decide(const Surface& surface, const Arguments& arguments, KnownCenterlines& lines,
-                   const Progress& progress) {
+OpeningPlan decide(const Surface& surface, const Arguments& arguments, const Progress& progress) {
     const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                      .distance = arguments.optional_real("distance"),
                                      .radii = arguments.optional_real("radii")};
-    OpeningPlan plan = plan_openings(surface, lines.with_tip(options.tip, progress), options);
+    OpeningPlan plan =
+        plan_openings(surface, *lines_with_tip(surface, options.tip, progress), options);
     const auto kind = arguments.optional_text("kind");
     const auto name = arguments.optional_text("name");
     if (kind || name)
@@ -149,12 +135,11 @@ void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
     }
 }
 
-Outcome clipped_by(const Arguments& arguments, const Scene& scene, KnownCenterlines& lines,
-                   const Progress& progress) {
+Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
     OpeningPlan plan =
-        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, lines, progress);
+        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
     progress.report(0.9, "cutting");
     std::vector<std::size_t> left_out;
     Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out);
@@ -178,8 +163,7 @@ public:
     LiveClipping(const Scene& scene, const Arguments& arguments, Progress& progress)
         : ReplacingStepper(arguments),
           before_(scene),
-          lines_(surface_of(scene)),
-          made_(clipped_by(arguments, before_, lines_, progress)) {}
+          made_(clipped_by(arguments, before_, progress)) {}
 
     [[nodiscard]] const Scene& scene() const override { return made_.scene; }
 
@@ -189,11 +173,10 @@ public:
 
 private:
     void use(const Arguments& arguments, Progress& progress) override {
-        made_ = clipped_by(arguments, before_, lines_, progress);
+        made_ = clipped_by(arguments, before_, progress);
     }
 
     Scene before_;
-    KnownCenterlines lines_;
     Outcome made_;
 };
 
