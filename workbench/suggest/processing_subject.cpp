@@ -42,12 +42,6 @@ StrongChange strong_change(const Operation& operation, const Arguments& argument
     return strong;
 }
 
-Outcome run_bare(const Operation& operation, const Scene& scene, const Arguments& arguments,
-                 const Progress& progress) {
-    Progress own = progress;
-    return run_without_figures(operation, scene, arguments, own);
-}
-
 double share_of_triangles(const Scene& after, const Scene& before) {
     return static_cast<double>(surface_of(after).triangle_count()) /
            static_cast<double>(surface_of(before).triangle_count());
@@ -96,7 +90,7 @@ Surface processed_with(const Operation& operation, const Scene& scene, const Arg
     if (does_nothing(space, set)) return surface_of(scene);
     Arguments changed = arguments;
     set_values(changed, operation, space, set);
-    return surface_of(run_bare(operation, scene, changed, progress).scene);
+    return surface_of(run_without_figures(operation, scene, changed, progress).scene);
 }
 
 std::shared_ptr<MeasureSource> processing_table(const Operation& operation, const Scene& scene,
@@ -127,7 +121,7 @@ ParameterSet processing_set(const Operation& operation, const Scene& scene,
     for (const SearchParameter& parameter : space.parameters) {
         std::optional<double> value = arguments.optional_real(parameter.name);
         if (!value) {
-            if (!outcome) outcome = run_bare(operation, scene, arguments, progress);
+            if (!outcome) outcome = run_without_figures(operation, scene, arguments, progress);
             value = outcome->resolved.optional_real(parameter.name);
         }
         // Only decimate leaves its share open, if max_error alone decides.

@@ -36,7 +36,7 @@ Outcome run_operation(const Operation& operation, const Scene& scene, const Argu
 }
 
 Outcome run_without_figures(const Operation& operation, const Scene& scene, const Arguments& given,
-                            Progress& progress) {
+                            Progress progress) {
     if (operation.start == nullptr) return run_operation(operation, scene, given, progress);
     const auto live = operation.start(scene, checked_arguments(operation, given), progress);
     Outcome outcome;

@@ -18,6 +18,6 @@ namespace vesselbench {
 /// operation with a live form would double the time.
 /// \throw as run_operation
 [[nodiscard]] Outcome run_without_figures(const Operation& operation, const Scene& scene,
-                                          const Arguments& given, Progress& progress);
+                                          const Arguments& given, Progress progress);
 
 }  // namespace vesselbench
