@@ -7,36 +7,16 @@
 
 #include "geometry/kernel/errors.h"
 #include "tests/session/small_operations.h"
+#include "tests/session/sphere_session.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
+using namespace vesselbench::test;
 
 namespace {
 
-const Vec3 kTop(1.0, 2.0, 10.0 + 1.0 / 3.0);  // of make-sphere's default sphere
-
-SessionOptions options() {
-    SessionOptions made;
-    made.author = "Ada";
-    made.find = test::find_test_operation;
-    made.worker = test::test_worker();
-    return made;
-}
-
-Session sphere_session() {
-    Session session = Session::unsaved(options());
-    session.apply("make-sphere", {});
-    return session;
-}
-
 Arguments bump_at(const Vec3& at, double height) {
     return {{"at", at}, {"reach", 4.0}, {"height", height}};
-}
-
-double top_of(const Scene& scene) {
-    double top = -1e9;
-    for (const Vec3& p : surface_of(scene).points()) top = std::max(top, p.z());
-    return top;
 }
 
 std::vector<EditStatus> statuses(const Session& session) {
