@@ -12,6 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/triangle_shape.h"
 
 namespace vesselbench {
 
@@ -36,40 +37,11 @@ void visit_triangles_by_vertex(const Surface& surface, const Visit& visit) {
                       });
 }
 
-/// Accumulates one value after the other.
-class SpreadBuilder {
-public:
-    void add(double value) {
-        spread_.min = count_ == 0 ? value : std::min(spread_.min, value);
-        spread_.max = count_ == 0 ? value : std::max(spread_.max, value);
-        sum_ += value;
-        ++count_;
-    }
-
-    [[nodiscard]] Spread result() const {
-        Spread spread = spread_;
-        if (count_ > 0) spread.mean = sum_ / static_cast<double>(count_);
-        return spread;
-    }
-
-private:
-    Spread spread_;
-    double sum_ = 0.0;
-    std::size_t count_ = 0;
-};
-
 Spread edge_lengths(const Surface& surface, const EdgeTable& table) {
     SpreadBuilder lengths;
     for (const auto& [a, b] : table.edges)
         lengths.add((surface.points()[a] - surface.points()[b]).norm());
     return lengths.result();
-}
-
-template <class Measure>
-Spread over_triangles(const Surface& surface, Measure&& measure_one) {
-    SpreadBuilder spread;
-    for (const Triangle& t : surface.triangles()) spread.add(measure_one(surface.points(), t));
-    return spread.result();
 }
 
 Connectivity connectivity(const Topology& topology, const EdgeTable& table) {
@@ -185,28 +157,6 @@ double mean_edge_length(const Surface& surface) {
     return edge_lengths(surface).mean;
 }
 
-double equiangle_skewness(const Positions& positions, const Triangle& triangle) {
-    double worst = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3& at = positions[triangle[k]];
-        const Vec3 u = positions[triangle[(k + 1) % 3]] - at,
-                   v = positions[triangle[(k + 2) % 3]] - at;
-        const double angle = kDegrees * angle_between(u, v);
-        worst = std::max({worst, (angle - 60.0) / 120.0, (60.0 - angle) / 60.0});
-    }
-    return worst;
-}
-
-double radius_ratio(const Positions& positions, const Triangle& triangle) {
-    const double a = (positions[triangle[1]] - positions[triangle[2]]).norm();
-    const double b = (positions[triangle[2]] - positions[triangle[0]]).norm();
-    const double c = (positions[triangle[0]] - positions[triangle[1]]).norm();
-    // r_in = 2 A / (a + b + c), r_out = a b c / (4 A)
-    const double doubled = area_normal(positions, triangle).norm();
-    const double product = a * b * c * (a + b + c);
-    return product > 0.0 ? std::min(1.0, 4.0 * doubled * doubled / product) : 0.0;
-}
-
 Positions vertex_normals(const Surface& surface) {
     const Positions& points = surface.points();
     Positions normals(points.size(), Vec3::Zero());
@@ -294,8 +244,9 @@ SurfaceMeasures measured(const Surface& surface, DerivedCache& cache) {
     result.volume = volume(surface);
     result.bounds = bounds(surface);
     result.edge_length = edge_lengths(surface, table);
-    result.equiangle_skewness = over_triangles(surface, equiangle_skewness);
-    result.radius_ratio = over_triangles(surface, radius_ratio);
+    const TriangleShape shape = triangle_shape(surface);
+    result.equiangle_skewness = shape.equiangle_skewness;
+    result.radius_ratio = shape.radius_ratio;
     for (const double angle : normal_curvature(surface, cache))
         result.normal_curvature_deg += angle;
     result.normal_curvature_deg /= static_cast<double>(result.vertices);

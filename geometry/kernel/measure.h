@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/kernel/derived_cache.h"
+#include "geometry/kernel/spread.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -18,13 +19,6 @@ struct Bounds {
     [[nodiscard]] double diagonal() const { return (max - min).norm(); }
 
     [[nodiscard]] Vec3 centre() const { return 0.5 * (min + max); }
-};
-
-/// Smallest, mean and largest of a set; zeros if the set is empty.
-struct Spread {
-    double min = 0.0;
-    double mean = 0.0;
-    double max = 0.0;
 };
 
 /// Zeros if there is no point.
@@ -47,13 +41,6 @@ struct Spread {
 /// Edge lengths [mm] over all edges, each counted once.
 [[nodiscard]] Spread edge_lengths(const Surface& surface);
 [[nodiscard]] double mean_edge_length(const Surface& surface);
-
-/// max((t - 60) / 120, (60 - t) / 60) over the angles t of a triangle [-]; 0: equilateral, 1:
-/// degenerate.
-[[nodiscard]] double equiangle_skewness(const Positions& positions, const Triangle& triangle);
-
-/// Twice the inradius over the circumradius [-]; 1: equilateral, 0: degenerate.
-[[nodiscard]] double radius_ratio(const Positions& positions, const Triangle& triangle);
 
 /// Unit vertex normals, mean of the triangle normals weighted by the angle at the vertex; zero
 /// where that is undefined. Source: Thuermer and Wuethrich, "Computing vertex normals from

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "geometry/kernel/measure.h"
-#include "meshing/remeshing/triangle_shape.h"
+#include "geometry/kernel/triangle_shape.h"
 
 namespace vesselbench {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "meshing/remeshing/triangle_shape.h"
+#include "geometry/kernel/triangle_shape.h"
 
 namespace vesselbench {
 

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/repair.h"
 #include "meshing/remeshing/carried_attributes.h"
@@ -13,7 +14,6 @@
 #include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/remesher.h"
 #include "meshing/remeshing/sizing_field.h"
-#include "meshing/remeshing/triangle_shape.h"
 #include "meshing/remeshing/uniform_remesh.h"
 
 namespace vesselbench {
@@ -88,30 +88,6 @@ Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const S
     Remesher remesher(surface, sizes, start);
     run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
     return finished(remesher, progress.part(0.8, 1.0));
-}
-
-void measure_quality(const Surface& surface, RemeshReport& report) {
-    double walls = 0.0, caps = 0.0;
-    report.wall_radius_ratio_min = 1.0;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
-        const auto& [a, b, c] = surface.triangles()[t];
-        const Positions& points = surface.points();
-        const double skewness = equiangle_skewness(points[a], points[b], points[c]);
-        const double ratio = radius_ratio(points[a], points[b], points[c]);
-        if (surface.patch_of(t).kind != PatchKind::Wall) {
-            report.caps_skewness_mean += skewness;
-            caps += 1.0;
-            continue;
-        }
-        walls += 1.0;
-        report.wall_skewness_mean += skewness;
-        report.wall_radius_ratio_mean += ratio;
-        report.wall_skewness_max = std::max(report.wall_skewness_max, skewness);
-        report.wall_radius_ratio_min = std::min(report.wall_radius_ratio_min, ratio);
-    }
-    report.wall_skewness_mean /= std::max(walls, 1.0);
-    report.wall_radius_ratio_mean /= std::max(walls, 1.0);
-    report.caps_skewness_mean /= std::max(caps, 1.0);
 }
 
 /// The places where the result crosses itself, or a triangle could not be made well-shaped.
@@ -236,7 +212,8 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
             : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
     result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();
-    measure_quality(result, report);
+    report.wall = wall_shape(result);
+    report.caps = openings_shape(result);
     return {std::move(result), report};
 }
 

@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 
 namespace vesselbench {
@@ -26,9 +27,7 @@ struct RemeshReport {
     double edge = 0.0;                      ///< [mm]
     double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
     std::size_t triangles_before = 0, triangles_after = 0;
-    double wall_skewness_mean = 0.0, wall_skewness_max = 0.0;          ///< equiangle skewness [-]
-    double wall_radius_ratio_mean = 0.0, wall_radius_ratio_min = 0.0;  ///< 2 r_in / r_out [-]
-    double caps_skewness_mean = 0.0;                                   ///< 0 without caps [-]
+    TriangleShape wall, caps;
     /// Pairs of triangles that crossed where walls almost touch, until the walls were separated
     /// there, which leaves worse triangles; and the place of the first [mm].
     std::size_t crossings_parted = 0;

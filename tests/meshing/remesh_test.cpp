@@ -20,11 +20,11 @@ using namespace vesselbench::test;
 namespace {
 
 void check_quality(const RemeshReport& report) {
-    CHECK(report.wall_skewness_mean <= 0.12);
-    CHECK(report.wall_skewness_max <= 0.65);
-    CHECK(report.wall_radius_ratio_mean >= 0.97);
-    CHECK(report.wall_radius_ratio_min >= 0.35);
-    CHECK(report.caps_skewness_mean < 0.2);
+    CHECK(report.wall.equiangle_skewness.mean <= 0.12);
+    CHECK(report.wall.equiangle_skewness.max <= 0.65);
+    CHECK(report.wall.radius_ratio.mean >= 0.97);
+    CHECK(report.wall.radius_ratio.min >= 0.35);
+    CHECK(report.caps.equiangle_skewness.mean < 0.2);
 }
 
 /// A ball of radius 5 mm, dented from above until the dent's tip is this far from the wall below.

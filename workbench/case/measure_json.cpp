@@ -49,7 +49,7 @@ Json measure_json(const SurfaceMeasures& measures) {
     json["edge_length"] = {{"min", measures.edge_length.min},
                            {"mean", measures.edge_length.mean},
                            {"max", measures.edge_length.max}};
-    json.update(triangle_shape_json(measures.equiangle_skewness, measures.radius_ratio));
+    json.update(triangle_shape_json({measures.equiangle_skewness, measures.radius_ratio}));
     json["normal_curvature_deg"] = measures.normal_curvature_deg;
     json["mean_curvature"] = {{"integral", measures.mean_curvature_integral},
                               {"integral_abs", measures.mean_curvature_integral_abs}};
@@ -59,9 +59,10 @@ Json measure_json(const SurfaceMeasures& measures) {
     return json;
 }
 
-Json triangle_shape_json(const Spread& skewness, const Spread& radius_ratio) {
+Json triangle_shape_json(const TriangleShape& shape) {
+    const Spread &skewness = shape.equiangle_skewness, &ratio = shape.radius_ratio;
     return {{"equiangle_skewness", {{"mean", skewness.mean}, {"max", skewness.max}}},
-            {"radius_ratio", {{"min", radius_ratio.min}, {"mean", radius_ratio.mean}}}};
+            {"radius_ratio", {{"min", ratio.min}, {"mean", ratio.mean}}}};
 }
 
 Json volume_quality_json(const VolumeQuality& q) {

@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "meshing/tetrahedra/quality.h"
 
 namespace vesselbench {
@@ -17,8 +18,7 @@ namespace vesselbench {
 [[nodiscard]] nlohmann::ordered_json reference_json(const ReferenceComparison& comparison);
 
 /// Its figures of triangle shape: `equiangle_skewness` and `radius_ratio`.
-[[nodiscard]] nlohmann::ordered_json triangle_shape_json(const Spread& skewness,
-                                                         const Spread& radius_ratio);
+[[nodiscard]] nlohmann::ordered_json triangle_shape_json(const TriangleShape& shape);
 
 /// Quality of a volume mesh, units in the keys.
 [[nodiscard]] nlohmann::ordered_json volume_quality_json(const VolumeQuality& quality);

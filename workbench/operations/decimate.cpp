@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
 #include "workbench/operations/context_weights.h"
@@ -49,12 +50,6 @@ std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json&
     return context_weights(scene, settings, *finder, arguments, report);
 }
 
-double mean_skewness(const Surface& surface) {
-    double sum = 0.0;
-    for (const Triangle& t : surface.triangles()) sum += equiangle_skewness(surface.points(), t);
-    return sum / static_cast<double>(std::max<std::size_t>(surface.triangle_count(), 1));
-}
-
 void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["triangles_before"] = before.triangle_count();
     report["triangles_after"] = after.triangle_count();
@@ -63,8 +58,8 @@ void add_changes(Json& report, const Surface& before, const Surface& after) {
     report["largest_distance_mm"] = found.hausdorff;
     report["volume_before_mm3"] = volume(before);
     report["volume_after_mm3"] = volume(after);
-    report["equiangle_skewness_before_mean"] = mean_skewness(before);
-    report["equiangle_skewness_after_mean"] = mean_skewness(after);
+    report["equiangle_skewness_before_mean"] = triangle_shape(before).equiangle_skewness.mean;
+    report["equiangle_skewness_after_mean"] = triangle_shape(after).equiangle_skewness.mean;
 }
 
 /// The same parts for any beta_min: 1 at the largest weight, 0 at the smallest.

@@ -33,16 +33,13 @@ RemeshParameters parameters_from(const Arguments& arguments) {
 }
 
 Report report_from(const RemeshReport& figures) {
-    const Spread skewness{.mean = figures.wall_skewness_mean, .max = figures.wall_skewness_max};
-    const Spread ratio{.min = figures.wall_radius_ratio_min,
-                       .mean = figures.wall_radius_ratio_mean};
-    return std::make_shared<nlohmann::ordered_json>(
-        nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
-                               {"edge_mm", figures.edge},
-                               {"triangles_before", figures.triangles_before},
-                               {"triangles_after", figures.triangles_after},
-                               {"wall", triangle_shape_json(skewness, ratio)},
-                               {"caps_equiangle_skewness_mean", figures.caps_skewness_mean}});
+    return std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{
+        {"usual_radius_mm", figures.usual_radius},
+        {"edge_mm", figures.edge},
+        {"triangles_before", figures.triangles_before},
+        {"triangles_after", figures.triangles_after},
+        {"wall", triangle_shape_json(figures.wall)},
+        {"caps_equiangle_skewness_mean", figures.caps.equiangle_skewness.mean}});
 }
 
 /// The centerlines, if they are wanted and can be found; the source used is resolved.

@@ -6,6 +6,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/version.h"
@@ -102,26 +103,6 @@ std::optional<EditId> last_edit(const std::vector<LogEntry>& edits, bool RecipeP
     return last;
 }
 
-/// Shape of the wall's own triangles: caps are judged apart from it.
-Json wall_json(const Surface& surface) {
-    Spread skewness{.min = 0.0, .mean = 0.0, .max = 0.0}, ratio{.min = 1.0, .mean = 0.0};
-    std::size_t count = 0;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
-        if (surface.patch_of(t).kind != PatchKind::Wall) continue;
-        const double s = equiangle_skewness(surface.points(), surface.triangles()[t]);
-        const double r = radius_ratio(surface.points(), surface.triangles()[t]);
-        skewness.mean += s;
-        ratio.mean += r;
-        skewness.max = std::max(skewness.max, s);
-        ratio.min = std::min(ratio.min, r);
-        ++count;
-    }
-    const double n = static_cast<double>(std::max<std::size_t>(count, 1));
-    skewness.mean /= n;
-    ratio.mean /= n;
-    return triangle_shape_json(skewness, ratio);
-}
-
 /// Quality of the volume mesh, as the edit that made it states it; null if none did.
 Json volume_mesh_json(const std::vector<LogEntry>& edits) {
     Json quality;
@@ -174,7 +155,8 @@ double inlet_bend(const Json& openings) {
 void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["quality"]["before"] = source.surface ? measure_json(measure(*source.surface)) : Json();
     report["quality"]["after"] = measure_json(measure(surface));
-    report["quality"]["wall"] = wall_json(surface);
+    // Caps are judged apart from the wall.
+    report["quality"]["wall"] = triangle_shape_json(wall_shape(surface));
     report["patches"] = report["quality"]["after"]["patches"];
     report["openings"] = openings_json(report["patches"], surface);
 }

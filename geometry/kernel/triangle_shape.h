@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/kernel/vec3.h"
+#include "geometry/kernel/spread.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 
@@ -36,5 +37,16 @@ namespace vesselbench {
     const double twice_area = (b - a).cross(c - a).norm();
     return squares > 0.0 ? 2.0 * std::numbers::sqrt3 * twice_area / squares : 0.0;
 }
+
+/// Shape of several triangles; zeros without any.
+struct TriangleShape {
+    Spread equiangle_skewness;  ///< [-]
+    Spread radius_ratio;        ///< [-], at most 1
+};
+
+/// Of all triangles of a surface, of its wall's, of those of caps and other openings.
+[[nodiscard]] TriangleShape triangle_shape(const Surface& surface);
+[[nodiscard]] TriangleShape wall_shape(const Surface& surface);
+[[nodiscard]] TriangleShape openings_shape(const Surface& surface);
 
 }  // namespace vesselbench
