@@ -29,7 +29,7 @@ struct RemeshReport {
     double wall_skewness_mean = 0.0, wall_skewness_max = 0.0;          ///< equiangle skewness [-]
     double wall_radius_ratio_mean = 0.0, wall_radius_ratio_min = 0.0;  ///< 2 r_in / r_out [-]
     double caps_skewness_mean = 0.0;                                   ///< 0 without caps [-]
-    /// Pairs of triangles that crossed where walls almost touch, until the walls were separated
+    /// Pairs of triangles that crossed where walls almost touch, before the walls were separated
     /// there, which leaves worse triangles; and the place of the first [mm].
     std::size_t crossings_parted = 0;
     Vec3 crossing = Vec3::Zero();
