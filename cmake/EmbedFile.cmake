@@ -1,7 +1,7 @@
 # Writes a source file that defines `std::span<const unsigned char> FUNCTION()` with the bytes of FILE:
 # embed_file(OUTPUT FUNCTION HEADER FILE). The assembler includes the bytes; the compiler never parses them.
 function(embed_file output function header file)
-  file(SHA256 ${file} hash)  # another file is another source: compiler caches notice
+  file(SHA256 ${file} hash)  # a changed file changes the source: compiler caches notice
   file(CONFIGURE OUTPUT ${output} @ONLY CONTENT
 "// SHA-256 of the embedded file: ${hash}
 #include \"${header}\"

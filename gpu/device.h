@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// What a context's driver offers for computing.
+/// The compute capabilities of a context's driver.
 struct DeviceLimits {
     int major = 0, minor = 0;               ///< OpenGL version
     std::string renderer;                   ///< the driver's name of the device

@@ -31,7 +31,7 @@ using DeviceSource = std::function<HeldDevice()>;
 /// Outcome of a choice.
 struct ChosenDevice {
     std::optional<HeldDevice> device;  ///< none: the CPU
-    std::string reason;  ///< why the CPU is used although it was not asked for; else empty
+    std::string reason;                ///< why it falls back to the CPU; else empty
 };
 
 /// Finds the device for a choice.

@@ -9,7 +9,7 @@ namespace vesselbench {
 /// Distances of a surface's vertices to neighbouring structures, on the device.
 struct NeighbourDistances {
     Buffer distances;                ///< [mm], >= 0: float, #V
-    double least = 0.0, most = 0.0;  ///< of them [mm]
+    double least = 0.0, most = 0.0;  ///< smallest and largest [mm]
     std::size_t count = 0;           ///< #V of their surface
 };
 

@@ -8,7 +8,7 @@
 
 namespace vesselbench {
 
-/// Like apply_filter, on a device: the same to single precision.
+/// Like apply_filter, on a device: the same result to single precision.
 /// \param there the surface whose connectivity is filtered; its context must be current
 /// \param start positions the filter starts from [mm], #V x 3
 /// \return moved positions [mm], #V x 3

@@ -12,7 +12,7 @@
 
 namespace vesselbench {
 
-/// The inputs of staircase weights, whatever their thresholds.
+/// The inputs of staircase weights that do not depend on thresholds.
 struct StaircaseGround {
     Vec3 stack_axis = Vec3::UnitZ();
     std::vector<std::uint8_t> caps;  ///< as in StaircaseParameters
@@ -24,8 +24,8 @@ struct StaircaseGround {
 /// must be used and destroyed on the thread where the device is current; a second one on another
 /// thread needs its own context.
 /// \param planes measures error_thesis too
-/// \param staircases of the ground's start: makes the weights of SmoothingChoice::staircase on the
-/// device; without it the choice's own function makes them
+/// \param staircases for the ground's start: the device then computes the weights of
+/// SmoothingChoice::staircase; without it the choice's own function does
 /// \throw InvalidInput if the ground is inconsistent; GpuUnavailable if it does not fit the device.
 /// Runs throw GpuUnavailable if the context is lost.
 [[nodiscard]] std::shared_ptr<const SmoothingEngine> make_gpu_engine(
@@ -37,11 +37,11 @@ struct ChosenEngine {
     std::shared_ptr<const SmoothingEngine> engine;
     bool on_gpu = false;
     std::string device_name;  ///< the driver's name; empty on the CPU
-    std::string reason;       ///< why the CPU is used although it was not asked for; else empty
+    std::string reason;       ///< why it falls back to the CPU; else empty
 };
 
 /// The GPU's engine or the CPU's. If the device fails midway, the CPU takes over: runs continue
-/// from their state, and later ones start there.
+/// from their state, and later ones start on the CPU.
 /// \throw InvalidInput if the ground is inconsistent
 [[nodiscard]] ChosenEngine make_engine(DeviceChoice choice, const FilterGround& ground,
                                        bool planes = false,

@@ -19,7 +19,7 @@ namespace vesselbench {
 /// current whenever it is used or destroyed.
 class GpuSmoother {
 public:
-    /// \param settings their number of iterations is ignored
+    /// \param settings `iterations` is ignored
     /// \throw InvalidInput if the settings do not fit the surface; GpuUnavailable if it does not
     /// fit the device
     GpuSmoother(std::shared_ptr<const DeviceSurface> surface, const FilterSettings& settings);

@@ -36,7 +36,7 @@ public:
           reach_(reach),
           nearest_(make_storage(device_, count_ * sizeof(VertexId), "nearest staircases")),
           doubts_(make_storage(device_, count_ * sizeof(VertexId), "staircases in doubt")),
-          found_(make_storage(device_, sizeof(Found), "what a search found")) {
+          found_(make_storage(device_, sizeof(Found), "results of a search")) {
         fill_storage(found_, 0);
     }
 

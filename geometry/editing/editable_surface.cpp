@@ -171,8 +171,8 @@ struct EditableSurface::Mesh {
             if (!half_edges.status(face(t)).deleted()) found.push_back(t);
     }
 
-    /// Only at the edges of a tetrahedron both ends have three neighbours around them. OpenMesh
-    /// would collapse it to two triangles back to back.
+    /// Only the edges of a tetrahedron have three neighbours at both ends. OpenMesh would collapse
+    /// it to two triangles back to back.
     [[nodiscard]] bool is_on_tetrahedron(HalfEdge h) const {
         const auto is_peak = [&](VertexHandle v) {
             return !half_edges.is_boundary(v) && half_edges.valence(v) == 3;
@@ -305,7 +305,7 @@ std::vector<std::vector<VertexId>> EditableSurface::rims() const {
         for (int k = 0; k < 3; ++k) {
             const HalfEdge start = mesh.opposite_halfedge_handle(mesh_->side(t, k));
             if (!mesh.is_boundary(start) || seen[id(start)]) continue;
-            // Along the border, against the triangles: the loop is turned round.
+            // Along the border, against the triangles: the loop is reversed.
             std::vector<VertexId> rim;
             for (HalfEdge h = start; !std::exchange(seen[id(h)], 1);
                  h = mesh.prev_halfedge_handle(h))

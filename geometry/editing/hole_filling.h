@@ -14,20 +14,20 @@ struct HoleChart {
     std::function<Vec3(const Vec3&)> from_chart;  ///< [mm]
 };
 
-/// Closes an open rim: triangulation of least area and angle, refined to the density around it,
-/// faired to continue the surface (fill_smoothly, or fill_seen_along_x in a chart). The new
-/// triangles get the label of the triangle at the loop's first edge, attributes are copied from the
+/// Closes an open rim by the triangulation of least area and angle, refined to the density around
+/// it and faired to continue the surface (fill_smoothly, or fill_seen_along_x in a chart). The new
+/// triangles get the label of the triangle at the loop's first edge; attributes are copied from the
 /// nearest loop vertex.
-/// \param loop as EditableSurface::rims gives it
+/// \param loop as from EditableSurface::rims
 /// \param continuity at the loop: 0 position, 1 tangent, 2 curvature
 /// \param chart if given, the hole is filled and faired in these coordinates; the first one points
-///        out of the wall: the new wall has one value of it for each pair of the others
+///        out of the wall, and the new wall is a function of the other two
 /// \return the number of new triangles
 /// \throw AlgorithmFailure if the hole cannot be triangulated; the text names its place
 std::size_t fill_rim(EditableSurface& surface, std::span<const VertexId> loop, int continuity = 1,
                      const HoleChart* chart = nullptr);
 
-/// A surface with one hole less; new elements are at the end of its arrays.
+/// A surface with one hole filled; new elements are at the end of its arrays.
 struct FilledHole {
     Surface surface;
     std::size_t first_new_vertex = 0;

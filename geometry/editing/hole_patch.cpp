@@ -27,8 +27,8 @@ Vec3 from_cgal(const Kernel::Point_3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-/// The surroundings of a hole as a mesh of CGAL's, whose functions take time for all of a mesh: so
-/// the whole surface is not handed over.
+/// The surroundings of a hole as a CGAL mesh, instead of the whole surface: CGAL's functions
+/// process the whole mesh they are given.
 struct LocalMesh {
     Mesh mesh;
     std::map<VertexId, Mesh::Vertex_index> local;
@@ -80,7 +80,7 @@ Triangle corners_of(const LocalMesh& local, Mesh::Face_index face) {
     return corners;
 }
 
-/// Numbers the new vertices in the order in which the new triangles name them first.
+/// Numbers the new vertices in the order of their first new triangle.
 void order_by_faces(LocalMesh& local, std::size_t old_vertices) {
     std::vector<std::uint8_t> seen(local.mesh.number_of_vertices(), 0);
     std::vector<Mesh::Vertex_index> order;

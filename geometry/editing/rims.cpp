@@ -8,12 +8,12 @@ namespace vesselbench {
 
 namespace {
 
-/// Share of the i-th point, counted on beyond the first round.
+/// Fraction of the i-th point, continued beyond one turn.
 double share_of(std::span<const double> shares, std::size_t i) {
     return shares[i % shares.size()] + (i >= shares.size() ? 1.0 : 0.0);
 }
 
-/// Shares of the way around by arc length.
+/// Fractions of the way around by arc length.
 Ring ring_of(const EditableSurface& surface, std::vector<VertexId> vertices) {
     Ring ring{std::move(vertices), {}};
     const double length =

@@ -8,15 +8,15 @@
 
 namespace vesselbench {
 
-/// Triangles between two closed rings of points, by the order of the points' shares of the way
-/// around; indices of the lower ring, then those of the upper one. Outward if the rings run
+/// Triangles between two closed rings of points, matched by the points' fractions of the way
+/// around; indices count the lower ring, then the upper one. Outward if the rings run
 /// counter-clockwise seen from the upper ring's side.
 /// \param lower,upper ascending, over a range of at most 1 [-]
 [[nodiscard]] std::vector<Triangle> band_between(std::span<const double> lower,
                                                  std::span<const double> upper);
 
-/// A closed ring of vertices, and for each its share of the way around, ascending from 0 to
-/// below 1.
+/// A closed ring of vertices, and each one's fraction of the way around, ascending from 0 to below
+/// 1.
 struct Ring {
     std::vector<VertexId> vertices;
     std::vector<double> shares;
@@ -28,14 +28,14 @@ void join_rings(EditableSurface& surface, const Ring& lower, const Ring& upper,
 
 /// Joins two open rims that face each other by a band of triangles; vertices are matched by arc
 /// length from the nearest pair at the first rim's start.
-/// \param rim,other as EditableSurface::rims gives them
+/// \param rim,other as from EditableSurface::rims
 void join_rims(EditableSurface& surface, std::span<const VertexId> rim,
                std::span<const VertexId> other, std::uint16_t label);
 
 /// Closes a planar loop by near-equilateral triangles (fill_flat).
-/// \param loop in the plane, in the direction of the new half-edges: against those of the wall,
-///        counter-clockwise round the plane's normal
-/// \param edge wanted edge length inside [mm]
+/// \param loop in the plane, in the direction of the new half-edges: opposite to the wall's,
+///        counter-clockwise around the plane's normal
+/// \param edge target edge length inside [mm]
 /// \throw AlgorithmFailure if the loop touches or crosses itself
 void close_flat(EditableSurface& surface, std::span<const VertexId> loop, const Plane& plane,
                 double edge, std::uint16_t label);

@@ -10,8 +10,8 @@
 
 namespace vesselbench {
 
-/// Triangles in plain arrays that can be added and removed one by one. Nothing has to be manifold:
-/// this is what raw input is welded, parted and cropped in. What needs neighbours works on an
+/// Triangles in plain arrays that can be added and removed one by one. They need not be manifold:
+/// raw input is welded, split and cropped in this form. Algorithms that need neighbours use an
 /// EditableSurface.
 struct TriangleSoup {
     Positions points;  ///< [mm]
@@ -19,9 +19,9 @@ struct TriangleSoup {
     PatchLabels labels;  ///< #T
     std::vector<Patch> patches;
     std::map<std::string, std::vector<double>> attributes;  ///< each #V
-    std::vector<std::uint8_t> marks;                        ///< #V, free for the user; new ones: 0
+    std::vector<std::uint8_t> marks;                        ///< #V, for the caller; 0 if new
 
-    /// Adds a vertex whose attributes are the weighted mean of others' (weights of sum 1).
+    /// Adds a vertex whose attributes are the weighted mean of other vertices' (weights sum to 1).
     VertexId add_vertex(const Vec3& point, std::span<const VertexId> sources,
                         std::span<const double> weights);
 
@@ -37,7 +37,7 @@ struct TriangleSoup {
     void remove_triangles(const std::vector<std::uint8_t>& marked);
 
     /// Removes vertices that no triangle uses, keeping the order.
-    /// \param new_ids if not null, receives each vertex' new number, or kRemovedVertex
+    /// \param new_ids if not null, receives each vertex's new number, or kRemovedVertex
     /// \return their number
     std::size_t remove_unused_vertices(std::vector<VertexId>* new_ids = nullptr);
 

@@ -6,11 +6,11 @@
 
 namespace vesselbench {
 
-/// What a file of a format holds.
+/// The content of a file.
 enum class FormatKind { Surface, Image, VolumeMesh, Centerlines };
 
-/// What every row of the tables of formats says about its format. Choice of a reader or writer,
-/// help texts and error texts come from these rows; no other place names a suffix.
+/// A row of a table of formats. The choice of reader or writer, help texts and error texts follow
+/// from these rows; suffixes are named nowhere else.
 struct Format {
     std::string name;  ///< "STL"
     FormatKind kind = FormatKind::Surface;
@@ -18,15 +18,15 @@ struct Format {
     std::string content;                 ///< what a file holds, for help texts
     std::string unit = "mm";             ///< of the lengths in a written file
     std::vector<std::string> also_read;  ///< suffixes of files that are read, but never written
-    bool folder = false;                 ///< a folder without a suffix is of this format
-    /// Whether a file that begins with these bytes (at most kSniffedBytes) is of this format.
-    /// Needed where formats share a suffix.
+    bool folder = false;                 ///< a folder without a suffix has this format
+    /// Whether a file that begins with these bytes (at most kSniffedBytes) has this format. Needed
+    /// where formats share a suffix.
     bool (*sniff)(std::string_view head) = nullptr;
     bool any_name = false;  ///< such files may have any name: `sniff` decides
 };
 
 /// A row of a table. A null function: such files are not read, or not written.
-/// \tparam Read what reading gives, \tparam Written what is written
+/// \tparam Read type that is read, \tparam Written type that is written
 template <class Read, class Written>
 struct FormatRow : Format {
     Read (*read)(const std::string& path) = nullptr;
@@ -39,14 +39,14 @@ inline constexpr std::size_t kSniffedBytes = 1024;
 /// folder and the format takes folders.
 [[nodiscard]] bool is_named_for_reading(const Format& format, const std::string& path);
 
-/// True if a file to be written under this name would be of the format.
+/// True if a file to be written under this name would have the format.
 [[nodiscard]] bool is_named_for_writing(const Format& format, const std::string& path);
 
 /// True if the format has no `sniff`, or the file's first bytes satisfy it.
 [[nodiscard]] bool content_fits(const Format& format, const std::string& path);
 
-/// The first row that reads files of this name, else one that knows its files by their content;
-/// null: none.
+/// The first row that reads files of this name, else one that recognises its files by their
+/// content; null: none.
 template <class Row>
 const Row* row_that_reads(const std::vector<Row>& rows, const std::string& path) {
     for (const Row& row : rows)

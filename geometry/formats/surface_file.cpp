@@ -57,7 +57,7 @@ void write_surface(const Surface& surface, const std::string& path) {
     const SurfaceFormat* format = row_that_writes(surface_formats(), path);
     if (!format)
         throw UsageError("'" + lower_suffix(path) +
-                         "' is no surface format that can be written: use " +
+                         "' is not a surface format that can be written: use " +
                          enumerated(written_suffixes(surface_formats()), "or"));
     if (surface.empty()) throw InvalidInput("there are no triangles to write");
     format->write(surface, path);

@@ -27,7 +27,7 @@ namespace vesselbench {
 
 namespace {
 
-/// An array of VTK that looks at our values; VTK's writers do not change them.
+/// A VTK array that views our values; VTK's writers do not change them.
 template <class Array, class T>
 vtkSmartPointer<Array> view_of(const T* values, std::size_t count) {
     auto array = vtkSmartPointer<Array>::New();

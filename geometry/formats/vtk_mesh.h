@@ -10,11 +10,12 @@
 
 namespace vesselbench {
 
-/// A mesh as VTK's XML files hold it.
+/// A mesh as stored in VTK's XML files.
 struct VtkMesh {
     const Positions& points;         ///< [mm]
     std::vector<long long> corners;  ///< of all cells, one after the other
-    std::vector<long long> offsets;  ///< of each cell's first corner; at last the number of corners
+    std::vector<long long>
+        offsets;  ///< of each cell's first corner; the last is the number of corners
     std::vector<std::uint8_t> types;    ///< VTK's number of each cell's type; empty: all triangles
     std::vector<std::int32_t> regions;  ///< per cell, the array CellEntityIds
     std::vector<std::string> patch_names;  ///< of regions 1, 2..., the field array PatchNames
@@ -32,8 +33,8 @@ void add_cell(VtkMesh& mesh, const Corners& corners, std::int32_t region) {
     mesh.regions.push_back(region);
 }
 
-/// Writes PolyData by VTK, in double precision, appended raw data; the same mesh gives the same
-/// bytes. \throw IoError
+/// Writes PolyData with VTK, in double precision, as appended raw data; the same mesh gives the
+/// same bytes. \throw IoError
 void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path);
 
 /// The same as UnstructuredGrid. \throw IoError

@@ -38,7 +38,7 @@ void check(const Image& image, const std::optional<Image>& mask) {
                            size_text(image) + ": give the mask of this image");
 }
 
-/// Intensities as the surface is extracted from them, and what they were made for.
+/// Intensities ready for extraction, and the parameters they were made with.
 struct Intensities {
     bool inside_below = false;
     Cleaning cleaning;
@@ -48,7 +48,7 @@ struct Intensities {
     std::optional<double> contrast;  ///< of the diffusion, if it ran
 };
 
-/// An image, and what was found and made of it so far.
+/// An image, and everything derived from it so far.
 struct ImageSource {
     Image image;
     std::optional<Image> mask;

@@ -32,8 +32,8 @@ template <class Scalar>
 struct Builder {
     using Tree = BasicBoxTree<Scalar>;
 
-    /// An item and twice its box's centre along the axis of a split: side by side, as comparisons
-    /// would else look for each box in memory.
+    /// An item and twice its box's centre along the axis of a split: side by side, so that
+    /// comparisons need not fetch each box from memory.
     struct Placed {
         Scalar place;
         std::uint32_t item;

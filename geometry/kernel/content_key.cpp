@@ -12,7 +12,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kPart = std::size_t{1} << 20;  ///< bytes that one thread takes at a time
+constexpr std::size_t kPart = std::size_t{1} << 20;  ///< bytes per parallel task
 
 ContentKey key_of(std::span<const std::byte> bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());

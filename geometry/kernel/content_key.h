@@ -9,9 +9,9 @@
 
 namespace vesselbench {
 
-/// 128 bits that stand for a content: equal contents have equal keys, and different ones, for all
-/// practical purposes, different keys. Not cryptographic, and valid within one run only: a key is
-/// never stored (what is stored is known by its SHA-256).
+/// A 128-bit hash of some content: equal content has equal keys; different content, for all
+/// practical purposes, different ones. Not cryptographic, and valid within one run only: keys are
+/// never stored (files use SHA-256).
 /// Source: XXH3, Collet, https://xxhash.com, version 0.8.
 struct ContentKey {
     std::uint64_t high = 0, low = 0;
@@ -25,13 +25,13 @@ struct ContentKey {
 
 template <class Value>
 [[nodiscard]] ContentKey content_key(std::span<const Value> values) {
-    // padding would be bits without a meaning
+    // padding bits are indeterminate
     static_assert(std::is_floating_point_v<Value> ||
                   std::has_unique_object_representations_v<Value>);
     return content_key(std::as_bytes(values));
 }
 
-/// Key of several contents in this order.
+/// Key of several keys in this order.
 [[nodiscard]] ContentKey content_key(std::initializer_list<ContentKey> parts);
 
 }  // namespace vesselbench

@@ -16,7 +16,7 @@ namespace vesselbench {
 
 namespace {
 
-/// How long a cancelled waiter may go on waiting.
+/// How long a cancelled waiter may keep waiting.
 constexpr std::chrono::milliseconds kLookAround{20};
 
 ContentKey key_of_positions(const Positions& positions) {
@@ -24,8 +24,8 @@ ContentKey key_of_positions(const Positions& positions) {
     return content_key(std::as_bytes(std::span<const Vec3>(positions)));
 }
 
-/// Keys of shared arrays, so that each is read once. An array's address may be used again after it
-/// is gone; its owner's may not while a weak pointer to it is kept.
+/// Keys of shared arrays, so that each is hashed once. An array's address may be reused once the
+/// array is gone, its control block's may not while a weak pointer to it is kept.
 class ArrayKeys {
 public:
     template <class Array, class Read>
@@ -79,7 +79,7 @@ struct DerivedCache::Parts {
         return found->second->made.value;
     }
 
-    /// Moves what goes beyond the budget to `dropped`, whose owner frees it without the lock.
+    /// Moves entries beyond the budget to `dropped`, which the caller frees without the lock.
     void shrink_to(std::size_t most, std::list<Entry>& dropped) {
         while (total > most) {
             total -= entries.back().made.bytes;
@@ -97,13 +97,13 @@ struct DerivedCache::Parts {
     }
 
     mutable std::mutex mutex;
-    std::condition_variable over;  ///< something is in the making no longer
+    std::condition_variable over;  ///< an entry is no longer in the making
     std::size_t budget;
     std::size_t total = 0;
     std::list<Entry> entries;  ///< most recently used first
     std::map<Key, Place> places;
-    /// In the making: each maker's place for what it made, which those that wait hold as well, so
-    /// that they get it even if it is too large to be kept.
+    /// Entries in the making: each maker's slot for its result, shared with those that wait, so
+    /// that they get it even if it is too large to keep.
     std::map<Key, std::shared_ptr<std::shared_ptr<const void>>> making;
     ArrayKeys array_keys;
 };
@@ -144,7 +144,8 @@ std::shared_ptr<const void> DerivedCache::find_or_make(const Key& key,
         parts.over.notify_all();
     };
     try {
-        // While it waits for its own tasks, this thread must not take up one that asks for the key.
+        // While it waits for its own tasks, this thread must not take up one that requests the same
+        // key.
         const Sized made = tbb::this_task_arena::isolate(make);
         finish(made);
         return made.value;
@@ -202,8 +203,7 @@ void DerivedCache::clear() {
 }
 
 DerivedCache& derived_cache() {
-    static DerivedCache& cache =
-        *new DerivedCache;  // outlives whatever asks while the program ends
+    static DerivedCache& cache = *new DerivedCache;  // outlives users during program exit
     return cache;
 }
 

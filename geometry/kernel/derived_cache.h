@@ -14,30 +14,29 @@
 
 namespace vesselbench {
 
-/// What is derived from surfaces and costs more than looking it up: distance trees, one-rings,
-/// centerline graphs, curvature, self-intersections. Keyed by content: the same arrays find it
-/// wherever they lie in memory, and a changed vertex does not. Holds what was used last within a
-/// number of bytes. Thread-safe.
+/// A cache of data derived from surfaces: distance trees, one-rings, centerline graphs, curvature,
+/// self-intersections. Keyed by content: equal arrays hit wherever they lie in memory; one moved
+/// vertex is a miss. Keeps the most recently used entries within a budget of bytes. Thread-safe.
 class DerivedCache {
 public:
     static constexpr std::size_t kUsualBudget = std::size_t{512} << 20;  ///< [bytes]
 
-    /// \param budget [bytes] of all that is held; 0 keeps nothing
+    /// \param budget [bytes] of all entries; 0 keeps nothing
     explicit DerivedCache(std::size_t budget = kUsualBudget);
     ~DerivedCache();
     DerivedCache(const DerivedCache&) = delete;
     DerivedCache& operator=(const DerivedCache&) = delete;
 
-    /// What is derived from a content: known, or made and kept. Several threads that ask for the
-    /// same at once wait for the one that makes it. If that one throws, its caller gets the
-    /// exception, nothing is kept, and one of those that wait makes it in its place; so a cancelled
-    /// caller takes nothing from the others.
-    /// \param kind what it is; one type may serve several kinds
-    /// \param key of everything that it depends on
+    /// The entry of a key, made if it is not there yet. Threads that request the same entry at once
+    /// wait for the one that makes it. If that one throws, its caller gets the exception, nothing
+    /// is kept, and a waiting thread makes the entry instead: a cancelled caller does not affect
+    /// the others.
+    /// \param kind of entry; one type may serve several kinds
+    /// \param key of everything it depends on
     /// \param make () -> T, pure in `key`; must not ask for the same kind and key
-    /// \param bytes (const T&) -> [bytes] that keeping it costs
-    /// \param progress cancels the wait; what `make` reports to is its own matter
-    /// \throw Cancelled while it waits; whatever `make` throws
+    /// \param bytes (const T&) -> [bytes] it takes
+    /// \param progress cancels the wait; it is not passed to `make`
+    /// \throw Cancelled while waiting; whatever `make` throws
     template <class T, class Make, class Bytes>
     [[nodiscard]] std::shared_ptr<const T> find_or_make(std::string_view kind,
                                                         const ContentKey& key, const Make& make,
@@ -52,8 +51,8 @@ public:
             find_or_make({typeid(T), kind, key}, make_sized, progress));
     }
 
-    /// Key of positions and triangles. What a shared array holds is read once, then remembered as
-    /// long as the array lives.
+    /// Key of positions and triangles. A shared array is hashed once; its key is kept as long as
+    /// the array lives.
     /// \throw InvalidInput if the surface has no triangle
     [[nodiscard]] ContentKey shape_key(const Surface& surface);
 
@@ -66,10 +65,10 @@ public:
 
     [[nodiscard]] std::size_t size() const;
 
-    /// Drops what was not used for longest where the new budget asks for it.
+    /// Sets the budget and drops the least recently used entries beyond it.
     void set_budget(std::size_t budget);
 
-    /// Drops everything that is held; what callers still hold lives on.
+    /// Drops all entries; those still held by callers live on.
     void clear();
 
 private:
@@ -95,12 +94,13 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Key of positions and triangles, read each time: that of a surface that holds the same.
+/// Key of positions and triangles, hashed on every call; equal to that of a surface with the same
+/// arrays.
 [[nodiscard]] ContentKey shape_key(const Topology& topology, const Positions& positions);
 [[nodiscard]] ContentKey shape_key(const Positions& positions, std::span<const Triangle> triangles);
 
-/// The one that functions of surfaces share when they are given no other. What is derived is a pure
-/// function of its content, so nobody can see who made it; see docs/decisions.md.
+/// The cache that functions of surfaces use unless given another. Entries are pure functions of
+/// their keys, so sharing them changes no result; see docs/decisions.md.
 [[nodiscard]] DerivedCache& derived_cache();
 
 }  // namespace vesselbench

@@ -10,8 +10,8 @@
 namespace vesselbench {
 
 /// The numbers 0 ... count - 1 in disjoint sets (union-find with path halving). The smallest member
-/// is the root of its set, whatever the order of the joins: numberings made from roots keep their
-/// bits, which ranks as in boost::disjoint_sets would not promise.
+/// is the root of its set, whatever the order of the joins: numberings derived from roots are
+/// reproducible, unlike those of boost::disjoint_sets, which depend on ranks.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -23,7 +23,7 @@ public:
         return i;
     }
 
-    /// \return false if both are in one set already
+    /// \return false if both are already in one set
     bool join(std::uint32_t a, std::uint32_t b) {
         const auto [low, high] = std::minmax({root(a), root(b)});
         parent_[high] = low;

@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// Corner (0 to 2) of a triangle at which a vertex is; in a degenerate triangle the first one.
+/// The corner (0 to 2) of a triangle at a vertex; in a degenerate triangle the first one.
 [[nodiscard]] inline std::uint32_t corner_of(const Triangle& triangle, VertexId v) {
     return triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2;
 }

@@ -2,8 +2,8 @@
 
 namespace vesselbench {
 
-/// Gives memory that was freed, but that the C library keeps for later, back to the system. For
-/// operations on whole surfaces, between phases that take their memory from different containers.
+/// Returns to the system freed memory that the C library caches. For operations on whole surfaces,
+/// between phases that allocate different containers.
 void release_freed_memory() noexcept;
 
 }  // namespace vesselbench

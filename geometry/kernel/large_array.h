@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// A fixed array of plain values for passes over whole surfaces, aligned to a cache line. It is not
-/// filled when it is made, as its first writer does that on all threads.
+/// A fixed array of plain values for passes over whole surfaces, aligned to a cache line.
+/// Uninitialised: its first writer fills it on all threads.
 template <class T>
 class LargeArray {
     static constexpr std::align_val_t kAlignment{64};

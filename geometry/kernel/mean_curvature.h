@@ -18,7 +18,7 @@ struct MeanCurvature {
 
 [[nodiscard]] MeanCurvature mean_curvature(const Surface& surface);
 
-/// The same, made once for each shape (derived_cache.h).
+/// The same, computed once per shape (derived_cache.h).
 /// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] std::shared_ptr<const MeanCurvature> mean_curvature_of(
     const Surface& surface, DerivedCache& cache = derived_cache());

@@ -47,7 +47,7 @@ struct Bounds {
 /// polygonal facets", 1998.
 [[nodiscard]] Positions vertex_normals(const Surface& surface);
 
-/// The same, made once for each shape (derived_cache.h).
+/// The same, computed once per shape (derived_cache.h).
 [[nodiscard]] std::shared_ptr<const Positions> vertex_normals_of(
     const Surface& surface, DerivedCache& cache = derived_cache());
 

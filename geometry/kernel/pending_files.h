@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-/// What becomes of a file that has the name already.
+/// What happens to an existing file of the same name.
 enum class Existing { Replace, Keep };
 
 /// Files and folders that appear under their final names only when all of them are complete. Until
@@ -32,9 +32,9 @@ public:
     /// Adds a text file. \throw IoError if it cannot be written entirely
     void add_text(const std::filesystem::path& final_name, const std::string& text);
 
-    /// Flushes all of them to the disk and gives them their own names.
-    /// \throw IoError that names the file and the cause; with Existing::Keep also if a file has one
-    /// of the names already
+    /// Flushes all of them to disk and gives them their final names.
+    /// \throw IoError that names the file and the cause; with Existing::Keep also if one of the
+    /// files already exists
     void commit(Existing existing = Existing::Replace);
 
 private:

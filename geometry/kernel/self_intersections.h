@@ -20,19 +20,19 @@ using TrianglePair = std::pair<TriangleId, TriangleId>;
                                                            std::span<const Triangle> triangles,
                                                            const Progress& progress = {});
 
-/// The same pairs, but only those that contain a chosen triangle: for a few that moved.
+/// The same pairs, but only those that contain a chosen triangle: for when only a few moved.
 /// \param chosen 1 at the triangles, #T
 /// \throw InvalidInput unless chosen is #T long
 [[nodiscard]] std::vector<TrianglePair> self_intersections_with(
     const Positions& positions, std::span<const Triangle> triangles,
     std::span<const std::uint8_t> chosen, const Progress& progress = {});
 
-/// The same pairs of a whole surface, searched once for each shape (derived_cache.h).
+/// The same pairs of a whole surface, searched once per shape (derived_cache.h).
 [[nodiscard]] std::vector<TrianglePair> self_intersections(const Surface& surface,
                                                            const Progress& progress = {},
                                                            DerivedCache& cache = derived_cache());
 
-/// Enters a shape of which it is known that no triangles meet, so that nobody searches it again.
+/// Records that a shape has no self-intersections, so that it is not searched again.
 void remember_no_self_intersections(const Topology& topology, const Positions& positions,
                                     DerivedCache& cache = derived_cache());
 

@@ -32,7 +32,7 @@ public:
     /// Keeps a reference to the distances and writes to them.
     explicit ShortestPaths(Distances& distances) : distances_(distances) {}
 
-    /// Begins at a vertex whose distance is set already.
+    /// Starts at a vertex whose distance is already set.
     void start(std::uint32_t vertex) { queue_.push({distances_[vertex], vertex}); }
 
     /// Sets the distance of a vertex if the new one is smaller.
@@ -43,7 +43,7 @@ public:
         queue_.push({distance, vertex});
     }
 
-    /// The next vertex, nearest first, of equal ones the smallest number; none: all are reached.
+    /// The next vertex, nearest first, ties by lowest number; none: all are reached.
     [[nodiscard]] std::optional<Reached> next() {
         while (!queue_.empty()) {
             const Reached nearest = queue_.top();

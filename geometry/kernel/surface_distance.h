@@ -26,10 +26,9 @@ struct SurfaceHit {
     bool from_inside = false;  ///< the ray meets the triangle's inner side
 };
 
-/// Distances, rays and inside tests on a surface: build once, ask often, from any thread. A copy
-/// shares what was built.
-/// Works on any triangles; the inside test is exact for closed outward surfaces and sensible for
-/// surfaces with openings. Equal distances resolve to the lowest triangle index.
+/// Distances, rays and inside tests on a surface: build once, query often, from any thread. Copies
+/// share the tree. Works on any triangles; the inside test is exact for closed outward surfaces and
+/// sensible for surfaces with openings. Equal distances resolve to the lowest triangle index.
 class SurfaceDistance {
 public:
     /// Copies the data it needs. \throw InvalidInput if the surface has no triangle
@@ -71,7 +70,7 @@ public:
     [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const Vec3> points) const;
     [[nodiscard]] std::vector<double> signed_distances(std::span<const Vec3> points) const;
 
-    /// [bytes] that it takes
+    /// Memory [bytes].
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -79,9 +78,8 @@ private:
     std::shared_ptr<const Data> data_;
 };
 
-/// The same as SurfaceDistance(surface), but built once for a shape that is asked again, by anyone:
-/// found in the cache, or built and kept there. For surfaces that live on; one that is thrown away
-/// at once would only drive others out.
+/// The same as SurfaceDistance(surface), but taken from the cache, or built and kept there. For
+/// surfaces that live on; a short-lived one would only evict others.
 /// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] SurfaceDistance distance_to(const Surface& surface,
                                           DerivedCache& cache = derived_cache());

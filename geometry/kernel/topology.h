@@ -14,9 +14,9 @@ namespace vesselbench {
 struct OneRings;
 
 /// Connectivity of a triangle surface: immutable, shared by all states that differ only in shape.
-/// Neighbour arrays are found on first use, once, from any thread; topologies of the same content
-/// share them (derived_cache.h). Degenerate and non-manifold triangles are allowed here; what needs
-/// a manifold says so.
+/// Neighbour arrays are computed once, on first use, from any thread; topologies of equal content
+/// share them (derived_cache.h). Degenerate and non-manifold triangles are allowed here; functions
+/// that need a manifold say so.
 class Topology {
 public:
     /// \throw InvalidInput if a triangle names a vertex >= vertex_count
@@ -29,7 +29,7 @@ public:
 
     [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
 
-    /// Stands for the triangles and the number of vertices; read from them on first use.
+    /// Key of the triangles and the number of vertices; computed on first use.
     [[nodiscard]] const ContentKey& key() const;
 
     /// One-ring neighbours of every vertex, each row ascending and without repetition.

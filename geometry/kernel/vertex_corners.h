@@ -19,15 +19,15 @@ struct VertexRange {
 [[nodiscard]] std::vector<VertexRange> vertex_shares(std::size_t vertex_count);
 
 /// The corners of triangles, visited by vertex: each thread handles its share of the vertices. The
-/// range of vertices of every few thousand triangles is stored: in a surface made front by front it
-/// is small, so a thread skips most triangles that are not its own.
+/// range of vertices of every few thousand triangles is stored: in a surface generated front by
+/// front it is small, so a thread skips most triangles outside its share.
 class VertexCorners {
 public:
     explicit VertexCorners(std::span<const Triangle> triangles);
 
     /// Calls visit(v, next, previous, triangle) for the corners at the wanted vertices, in the
-    /// order of the triangles; before each few thousand of these, calls prepare(the vertex behind
-    /// the last wanted one among their corners).
+    /// order of the triangles; before each few thousand of these, calls prepare(one past the last
+    /// wanted vertex among their corners).
     template <class Prepare, class Visit>
     void visit_at(const VertexRange& wanted, const Prepare& prepare, const Visit& visit) const {
         for (std::size_t i = 0; i < ranges_.size(); ++i) {

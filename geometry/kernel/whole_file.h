@@ -15,11 +15,11 @@ namespace vesselbench {
 /// \throw IoError if it is missing, a folder, or cannot be read to its end
 [[nodiscard]] std::string file_content(const std::filesystem::path& path);
 
-/// Writes a file so that it is whole or absent (PendingFiles, for one file).
+/// Writes a file completely or not at all (PendingFiles, for one file).
 /// \throw IoError if the folder is missing or read-only, or the disk is full
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
-/// The same for bytes at hand.
+/// The same for bytes in memory.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace vesselbench

@@ -304,7 +304,7 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters) {
         << "  " << mesh.tetrahedra.size() << " tetrahedra; lengths in metres; density "
         << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s, inflow "
         << parameters.flow << " cm^3/s\n"
-        << "  walls do not slip; outlets at pressure 0, backflow comes in at rest\n\n"
+        << "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
         << " simpleFoam -parallel, reconstructPar\n\n"

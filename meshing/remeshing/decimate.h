@@ -45,9 +45,8 @@ struct Decimated {
 /// metrics", SIGGRAPH 1997; if planes are ambiguous: Trettner & Kobbelt, "Fast and robust QEF
 /// minimization using probabilistic quadrics", Eurographics 2020; weights: thesis 5.6 and 7.2.
 /// \param weights per vertex, in [0, 1]; empty: 1 everywhere
-/// \throw InvalidInput if there is no stopping criterion, a parameter or a weight is out of its
-/// range,
-///        a position is not finite, or the surface is not an oriented manifold
+/// \throw InvalidInput if there is no stopping criterion, a parameter or a weight is out of range,
+/// a position is not finite, or the surface is not an oriented manifold
 [[nodiscard]] Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
                                  std::span<const double> weights = {},
                                  const Progress& progress = {});

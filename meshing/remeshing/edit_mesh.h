@@ -40,7 +40,7 @@ public:
     /// One half-edge leaving v; kNone if v is removed.
     [[nodiscard]] HalfEdge leaving(VertexId v) const { return leaving_[v]; }
 
-    /// The half-edge leaving the same vertex that is clockwise of h.
+    /// The next half-edge leaving the same vertex, clockwise from h.
     [[nodiscard]] HalfEdge around(HalfEdge h) const { return twin_[prev(h)]; }
 
     [[nodiscard]] std::size_t half_edge_count() const { return origin_.size(); }
@@ -90,7 +90,7 @@ public:
     /// Merges the origin of h into its target, which does not move.
     void collapse(HalfEdge h);
 
-    /// Removes the gaps of removed triangles: half-edges and triangles get new numbers (in the old
+    /// Closes the gaps of removed triangles: half-edges and triangles get new numbers (in the old
     /// order); vertices keep theirs.
     void compact();
 

@@ -28,7 +28,7 @@ struct RemeshReport {
     double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
     std::size_t triangles_before = 0, triangles_after = 0;
     TriangleShape wall, caps;
-    /// Pairs of triangles that crossed where walls almost touch, until the walls were separated
+    /// Pairs of triangles that crossed where walls almost touch, before the walls were separated
     /// there, which leaves worse triangles; and the place of the first [mm].
     std::size_t crossings_parted = 0;
     Vec3 crossing = Vec3::Zero();

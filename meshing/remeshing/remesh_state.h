@@ -7,13 +7,13 @@
 
 namespace vesselbench {
 
-/// A surface under remeshing: its mesh, what it has to lie on, and for each vertex the wanted edge
-/// length and a hint for the next search; with the edits of single vertices and edges that every
-/// pass is made of, and the conditions under which they keep the surface.
+/// A surface under remeshing: its mesh, its target geometry, and each vertex's target edge length
+/// and search hint; with the edits of single vertices and edges that the passes consist of, and the
+/// conditions under which they preserve the surface.
 struct RemeshState {
     using HalfEdge = EditMesh::HalfEdge;
 
-    /// Longer edges, in wanted lengths, are split; no edit makes one.
+    /// Edges longer than this, in target lengths, are split; no edit creates one.
     static constexpr double kLong = 4.0 / 3.0;
 
     struct VertexKind {
@@ -30,7 +30,7 @@ struct RemeshState {
 
     [[nodiscard]] VertexKind kind_of(VertexId v) const;
 
-    /// True for the vertex that closes a hole of the surface: it is no part of the result.
+    /// True for the vertex that closes a hole of the surface: it is not part of the result.
     [[nodiscard]] bool is_hub(VertexId v) const;
 
     /// The place on the source, on the patch or rim of the vertex, that is closest to x.
@@ -47,8 +47,8 @@ struct RemeshState {
     /// Unit mean normal of the triangles at v, by area.
     [[nodiscard]] Vec3 normal_at(VertexId v) const;
 
-    /// True if collapsing h keeps rims, makes no edge longer than `limit` wanted lengths and folds
-    /// nothing over. Edges that are too long already may stay so.
+    /// True if collapsing h preserves rims, creates no edge longer than `limit` target lengths and
+    /// folds nothing over. Edges that are already too long may stay so.
     [[nodiscard]] bool may_collapse(HalfEdge h, double limit);
 
     [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
@@ -61,7 +61,7 @@ struct RemeshState {
     RemeshTarget target;
     EditMesh mesh;
     std::vector<Patch> patches;
-    std::vector<double> sizes;      ///< wanted edge length by vertex [mm]
+    std::vector<double> sizes;      ///< target edge length by vertex [mm]
     std::vector<TriangleId> hints;  ///< by vertex: the source's triangle where searches begin
 };
 

@@ -47,7 +47,7 @@ struct VolumeQuality {
 
 [[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh);
 
-/// Only its largest_non_orthogonality [deg], for faces known already.
+/// Only the largest_non_orthogonality [deg], for known faces.
 /// \param faces of mesh_faces
 [[nodiscard]] double largest_non_orthogonality(const VolumeMesh& mesh,
                                                std::span<const MeshFace> faces);

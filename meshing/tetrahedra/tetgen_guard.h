@@ -2,8 +2,8 @@
 
 namespace vesselbench {
 
-/// True. A call makes the linker take the guard's object out of the static library, and with it the
-/// terminatetetgen() that only throws.
+/// Always true. Calling it makes the linker pull the guard's object from the static library, and
+/// with it the terminatetetgen() that only throws.
 [[nodiscard]] bool tetgen_guard_is_linked();
 
 }  // namespace vesselbench

@@ -84,7 +84,7 @@ std::size_t region_count(const VolumeMesh& mesh) {
     return regions;
 }
 
-// What the mesh lost of the surface; empty if nothing.
+// How the mesh departs from the surface; empty if it does not.
 std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surface) {
     if (mesh.tetrahedra.empty()) return "no cells";
     const double wanted = volume(surface), got = volume(mesh);

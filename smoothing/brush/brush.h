@@ -66,11 +66,11 @@ public:
     BrushStroke(Surface surface, BrushSettings settings,
                 std::shared_ptr<const SurfaceDistance> places = nullptr);
 
-    /// Applies a dab to the surface as the dabs before left it, at the nearest place within one
-    /// local radius of the anchor whose normal is within 60 degrees of the anchor's.
+    /// Applies a dab to the surface as left by earlier dabs, at the nearest place within one local
+    /// radius of the anchor whose normal is within 60 degrees of the anchor's.
     /// \return vertices that the dab changed, ascending
     /// \throw InvalidInput if the dab is out of its ranges
-    /// \throw AlgorithmFailure if there is no such place; the stroke stays as it was
+    /// \throw AlgorithmFailure if there is no such place; the stroke is unchanged
     std::vector<VertexId> add(const Dab& dab);
 
     /// Ends the stroke: it is reverted where it made the wall pass through itself or another

@@ -23,8 +23,7 @@ struct GeodesicNeighbour {
 /// Distances spread triangle by triangle from the two nearer corners, which are unfolded into the
 /// plane with the place as virtual source: accurate to 1e-5 on a plane, obtuse triangles included.
 /// Source: Melvaer, Reimers, "Geodesic polar coordinates on polygonal meshes", Computer Graphics
-/// Forum 31(8), 2012; the update of Reimers, "Topics in mesh based modelling", 2004. Forum 31(8),
-/// 2012; the update of Reimers, "Topics in mesh based modelling", 2004.
+/// Forum 31(8), 2012; the update of Reimers, "Topics in mesh based modelling", 2004.
 class GeodesicNeighbourhood {
 public:
     /// Keeps a reference to the topology.

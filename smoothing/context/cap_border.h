@@ -10,7 +10,7 @@
 namespace vesselbench {
 
 /// Distinguishes caps from other flat areas by the surface beyond their border. One object checks
-/// one area after the other and keeps its arrays.
+/// many areas in turn and reuses its arrays.
 class CapBorder {
 public:
     explicit CapBorder(const Surface& surface)

@@ -10,7 +10,7 @@ namespace vesselbench {
 /// profile from the rim to the cap's middle is a quarter ellipse that leaves the rim in the wall's
 /// direction and arrives flat, so that neither end has an edge; vertices slide towards the rim to
 /// be spread evenly over the dome. The dome leans with the wall, by its mean direction at the rim,
-/// up to 45 degrees from the cap's normal. Where caps have ridges (an ellipse has), the dome is
+/// up to 45 degrees from the cap's normal. Where caps have ridges (as in an ellipse), the dome is
 /// lower, as everywhere closer to the rim. Connectivity is kept: a cap of a few large triangles
 /// becomes a blunt cone. The rim is kept, too; if it is jagged, a filter over dome and wall should
 /// follow. Nothing keeps a dome out of other parts of the surface that are closer than its height.

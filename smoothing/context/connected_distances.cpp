@@ -60,7 +60,7 @@ PointTree::Found handed_on(const DistanceSearch& search, VertexId v, VertexId fi
 }
 
 /// Assigns to every vertex the nearest of all sources if a neighbour or a walk proves that it
-/// reaches.
+/// reaches the vertex.
 /// \return vertices with a source within reach whose nearest one lacks such a proof
 template <class Places>
 std::vector<VertexId> find_nearest(DistanceSearch& search, const Places& places) {

@@ -47,7 +47,7 @@ struct StaircaseParameters {
                                                     const StaircaseParameters& parameters = {});
 
 /// The same from distances computed before, which are valid for any beta_min and scaling.
-/// \param distances as staircase_distances gives them for these parameters; reused
+/// \param distances as from staircase_distances with these parameters; the memory is reused
 [[nodiscard]] std::vector<double> weights_of_distances(std::vector<double> distances,
                                                        const StaircaseParameters& parameters);
 

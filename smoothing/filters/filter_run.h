@@ -11,7 +11,7 @@
 
 namespace vesselbench {
 
-/// What all runs of filters on one surface share; made once.
+/// Shared by all filter runs on one surface; made once.
 struct FilterGround {
     std::shared_ptr<const Topology> topology;
     std::shared_ptr<const Positions> start;  ///< [mm], #V

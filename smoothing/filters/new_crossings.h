@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// What was reverted of a filter's result.
+/// The part of a filter's result that was reverted.
 struct TakenBack {
     std::size_t vertices = 0;        ///< that moved less than the filter computed
     Vec3 place = Vec3::Zero();       ///< of the first crossing [mm]
@@ -15,8 +15,8 @@ struct TakenBack {
 };
 
 /// Reverts a filter's displacement around the places where the surface would pass through itself:
-/// thin walls, walls that touch. Over a few rings around them the displacement fades in from none
-/// to all of it; over more rings, the longer crossings persist.
+/// thin walls, walls that touch. Around them the displacement fades in over a few rings, from none
+/// to all of it; the longer crossings persist, the more rings.
 /// \param moved positions after the filter, #V [mm]; changed in place
 /// \return all zero if there is no new crossing, even if the surface itself crossed before
 TakenBack take_back_crossings(const Surface& surface, Positions& moved,

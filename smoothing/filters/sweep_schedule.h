@@ -15,8 +15,8 @@ namespace vesselbench {
 /// block's step sees exactly the values of the previous step, whatever the order.
 /// Source: Wolf, "More iteration space tiling", 1989; Wonnacott, "Achieving scalable locality with
 /// time skewing", 2002.
-/// \param bytes_at_place that a step reads and writes
-/// \param run step (from 0) and block
+/// \param bytes_at_place bytes that a step reads and writes at each place
+/// \param run takes the step (from 0) and the block
 void sweep_blocks(const NeighbourBlocks& blocks, std::size_t steps, std::size_t bytes_at_place,
                   const std::function<void(std::size_t step, std::size_t block)>& run,
                   const Progress& progress);

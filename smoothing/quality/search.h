@@ -96,7 +96,7 @@ public:
 
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 
-    /// Another target smoothness or score; all measurements of the surface are kept.
+    /// Sets another target smoothness or score; all measurements of the surface are kept.
     void set_score(ScoreSettings settings) { settings_ = settings; }
 
     /// The best of some sets. \throw InvalidInput if all of them are left out; Cancelled

@@ -1,5 +1,5 @@
-// Decimates surfaces beside the decimations of other libraries at the same number of triangles, and
-// prints a row each: seconds, distances from the source, worst triangles.
+// Compares our decimation with other libraries' at the same number of triangles, and prints a row
+// each: seconds, distances from the source, worst triangles.
 //   bench_decimation [SURFACE]...
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Times smoothing, measures, the exhaustive search and detections on the GPU, and prints a row
 // each. Renderers that compute on the CPU are named and skipped.
-//   bench_gpu [--any-device] [VERTICES]...     250000 and 7000000 vertices when none are given
+//   bench_gpu [--any-device] [VERTICES]...     default: 250000 and 7000000 vertices
 
 #include <algorithm>
 #include <cstdio>
@@ -39,8 +39,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Milliseconds that the device is busy with some work: the median of several times, after two to
-/// warm up. By the clock where the driver does not time its commands, as llvmpipe.
+/// Device time of some work [ms]: the median of several runs, after two to warm up. Wall-clock time
+/// if the driver does not time its commands, like llvmpipe.
 double device_milliseconds(const std::function<void()>& work) {
     const DeviceTimer timer;
     std::vector<double> times;
@@ -57,7 +57,7 @@ double device_milliseconds(const std::function<void()>& work) {
     return median(times);
 }
 
-/// Bytes a second that a copy from buffer to buffer reads and writes together.
+/// Bytes per second that a copy from buffer to buffer reads and writes in total.
 double copy_bandwidth(const Device& device) {
     const std::size_t bytes =
         std::min(device.limits.largest_storage_block, std::size_t{1} << 30) & ~std::size_t{4095};
@@ -67,18 +67,18 @@ double copy_bandwidth(const Device& device) {
     return 2.0 * static_cast<double>(bytes) / (1e-3 * time);
 }
 
-/// What 20 iterations of Laplace+HC and the measures cannot do without [bytes]: every array that a
-/// pass needs read once, and written once.
+/// Least memory traffic of 20 iterations of Laplace+HC and the measures [bytes]: every array that a
+/// pass needs is read once and written once.
 double least_bytes(const Topology& topology) {
     const auto vertices = static_cast<double>(topology.vertex_count());
     const double neighbours = 4.0 * static_cast<double>(topology.rings().values.size());
     const double corners = 8.0 * static_cast<double>(topology.triangles_at().values.size());
     const double shifts = 16.0 * vertices, offsets = 4.0 * vertices;
-    // own shifts and the anchors' umbrella or what the last pass left in; moved ones out
+    // in: own shifts and the anchors' umbrella or the last pass's result; out: moved shifts
     const double pass = 3.0 * shifts + offsets + neighbours;
-    // shifts and anchors in, normals out
+    // in: shifts and anchors; out: normals
     const double shape = 3.0 * shifts + offsets + corners;
-    // both shifts, anchors and references in, references and errors out
+    // in: both shifts, anchors and references; out: references and errors
     const double error = 3.0 * shifts + offsets + corners + 12.0 * vertices;
     return 2.0 * kIterations * pass + shape + error;
 }
@@ -140,7 +140,7 @@ void time_search(const HeldDevice& held, const Surface& surface) {
     std::fflush(stdout);
 }
 
-/// Milliseconds of the clock: the best of three, for what reads numbers back on its way.
+/// Wall-clock time [ms], the best of three: for work that reads numbers back on the way.
 double clock_milliseconds(const std::function<void()>& work) {
     std::vector<double> times;
     for (int repeat = 0; repeat < 3; ++repeat) {
@@ -157,7 +157,7 @@ void print_beside(const Surface& surface, const char* what, double on_device, do
     std::fflush(stdout);
 }
 
-/// The same surface so far away that the two touch.
+/// The same surface, shifted until the two touch.
 Surface beside(const Surface& surface) {
     Positions points = surface.points();
     const Bounds box = bounds(points);
@@ -165,8 +165,8 @@ Surface beside(const Surface& surface) {
     return surface.with_positions(std::move(points));
 }
 
-/// Staircases, their weights, caps and distances to a neighbour of a stack of slices, on the device
-/// and by the CPU.
+/// Times staircases, their weights, caps and distances to a neighbour on a stack of slices, on the
+/// device and the CPU.
 void time_detections(const HeldDevice& held, const Surface& surface) {
     const auto on_device = std::make_shared<const DeviceSurface>(held.device, surface);
     const Topology& topology = *surface.topology;
@@ -182,7 +182,7 @@ void time_detections(const HeldDevice& held, const Surface& surface) {
     print_beside(surface, "staircases", change_time, cpu_change_time);
     double tau_max = 3.0;
     const double weight_time = clock_milliseconds([&] {
-        tau_max += 1e-9;  // or the last search serves again
+        tau_max += 1e-9;  // else the last search is reused
         weights.restart();
         weights.multiply_staircases({.tau_max = tau_max});
         finish_device();

@@ -16,7 +16,7 @@ namespace {
 const Vec3 kHalfAxes(60.0, 48.0, 39.0);  // [mm]
 constexpr double kLobes = 0.06;          // height of the lobes by the half-axes [-]
 
-/// About the depth below the wall [mm]; negative outside.
+/// Approximate depth below the wall [mm]; negative outside.
 double depth(const Vec3& p) {
     const Vec3 q = p.cwiseQuotient(kHalfAxes);
     const double lobes =
@@ -24,7 +24,7 @@ double depth(const Vec3& p) {
     return (1.0 + kLobes * lobes - q.norm()) * kHalfAxes.z();
 }
 
-/// The grey value of a voxel in which a part of the organ lies: 16 levels, never on the wall.
+/// The grey value of a voxel that contains a part of the organ: 16 levels, never on the wall.
 float grey(double cells_deep) {
     return static_cast<float>((std::floor(8.0 * std::clamp(cells_deep, -1.0, 0.999)) + 0.5) / 8.0);
 }

@@ -11,9 +11,9 @@
 
 namespace vesselbench::bench {
 
-// A surface as the libraries beside which ours is timed take it.
+// A surface in the data structures of the libraries that ours is timed against.
 
-/// \param precision of the points: VTK_FLOAT, which is VTK's own choice, or VTK_DOUBLE
+/// \param precision of the points: VTK_FLOAT, VTK's default, or VTK_DOUBLE
 [[nodiscard]] inline vtkSmartPointer<vtkPolyData> polydata(const Surface& surface, int precision) {
     vtkNew<vtkPoints> points;
     points->SetDataType(precision);

@@ -4,8 +4,8 @@
 
 namespace vesselbench::bench {
 
-// What other libraries make of a surface at the same number of triangles, with the settings that
-// serve a vessel best: topology kept, boundaries kept.
+// Decimation by other libraries to the same number of triangles, with the settings that suit
+// vessels best: topology and boundaries kept.
 
 struct DecimationRun {
     Surface surface;
@@ -15,10 +15,10 @@ struct DecimationRun {
 [[nodiscard]] DecimationRun vtk_quadric(const Surface& surface, std::size_t triangles);
 [[nodiscard]] DecimationRun vtk_pro(const Surface& surface, std::size_t triangles);
 
-/// Garland & Heckbert's quadrics, with placements that turn no normal too far.
+/// Garland & Heckbert's quadrics, with a bounded change of the normals.
 [[nodiscard]] DecimationRun cgal_quadric(const Surface& surface, std::size_t triangles);
 
-/// Half-edge collapses by quadrics, with normals that may turn by 75 degrees at most.
+/// Half-edge collapses by quadrics; normals turn by at most 75 degrees.
 [[nodiscard]] DecimationRun openmesh_quadric(const Surface& surface, std::size_t triangles);
 
 }  // namespace vesselbench::bench

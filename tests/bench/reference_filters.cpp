@@ -20,7 +20,7 @@ double timed(Filter& filter) {
     return watch.seconds();
 }
 
-/// A new polydata every time, so that no cells or links stay from the run before.
+/// A new polydata each time, so that no cells or links remain from the previous run.
 vtkSmartPointer<vtkPolyData> bare_copy(vtkPolyData* from) {
     auto copy = vtkSmartPointer<vtkPolyData>::New();
     copy->SetPoints(from->GetPoints());

@@ -1,4 +1,4 @@
-// Times the filters of smoothing/ beside other libraries' in the same run, and prints a row each.
+// Times the filters of smoothing/ and other libraries' in the same run, and prints a row each.
 //   bench_smoothing [--large]     with --large also 7 million vertices (about 15 GB of memory)
 
 #include <algorithm>
@@ -32,7 +32,7 @@ constexpr int kIterations = 20;
 constexpr int kRepeats = 7;
 const Vec3 kStackAxis(0, 0, 1);
 
-/// Seconds of a filter of ours with its neighbour arrays, which a fresh topology makes each time.
+/// Seconds of one of our filters with its neighbour arrays, built by a fresh topology each time.
 template <class Filter>
 Run ours(const Surface& surface, Filter filter) {
     return [&surface, filter] {
@@ -65,13 +65,14 @@ double median(const std::vector<double>& ascending) {
     return ascending[ascending.size() / 2];
 }
 
-/// What the repeats of two runs gave, each ascending.
+/// Results of the repeats of two runs, each ascending.
 struct Pair {
     std::vector<double> first, second;  ///< [s]
     std::vector<double> ratios;         ///< first / second of each repeat [-]
 };
 
-/// Runs both in turn, so that a disturbance of the machine meets both; the first turn warms up.
+/// Runs both alternately, so that a disturbance of the machine affects both; the first turn warms
+/// up.
 Pair in_turn(const Run& first, const Run& second) {
     std::vector<double> a, b, ratios;
     for (int repeat = -1; repeat < kRepeats; ++repeat) {
@@ -122,7 +123,7 @@ void compare_filters(const Surface& surface) {
     row("laplace on 1 thread / on 2", in_turn(on(1, our_laplace), on(2, our_laplace)), 1.5, true);
 }
 
-/// Orientation changes of which about the given share exceeds `threshold`; all of them for 1.
+/// Orientation changes; about the given fraction exceeds `threshold`, all of them if it is 1.
 std::vector<double> changes_of(const Surface& surface, double share, double& threshold) {
     std::vector<double> change =
         orientation_change(*surface.topology, surface.points(), kStackAxis);
@@ -133,7 +134,7 @@ std::vector<double> changes_of(const Surface& surface, double share, double& thr
 }
 
 /// Orientation changes, caps and weights on a surface that has no neighbour arrays yet.
-/// \param change what the weights are made from: nearly the orientation changes
+/// \param change input of the weights, close to the orientation changes
 double detection_seconds(const Surface& surface, std::span<const double> change,
                          StaircaseParameters parameters) {
     const Surface fresh =
@@ -146,8 +147,8 @@ double detection_seconds(const Surface& surface, std::span<const double> change,
     return watch.seconds();
 }
 
-/// Detection and weights from nothing, and weights alone as after a change of a threshold, beside
-/// 40 Laplace iterations.
+/// Times detection and weights from scratch, and weights alone as after a change of a threshold,
+/// against 40 Laplace iterations.
 void compare_staircases(const Surface& surface, double share) {
     StaircaseParameters parameters;
     const std::vector<double> change = changes_of(surface, share, parameters.tau_theta);
@@ -175,7 +176,7 @@ void compare_staircases(const Surface& surface, double share) {
         false);
 }
 
-/// STREAM's triad a = b + s c, 24 bytes an element, arrays of 256 MiB. [bytes/s]
+/// STREAM's triad a = b + s c, 24 bytes per element, arrays of 256 MiB [bytes/s].
 double triad_bandwidth(int threads) {
     const std::size_t count = std::size_t{1} << 25;
     std::vector<double> a(count, 0.0), b(count, 1.0), c(count, 2.0);
@@ -207,9 +208,9 @@ double iteration_seconds(const Surface& surface) {
     return (times.first.front() - times.second.front()) / 40.0;
 }
 
-/// What an iteration by itself cannot do without: each position read once and written once, each
-/// offset and each neighbour index read once. Iterations that share a pass through the memory move
-/// less, so the rate may exceed the triad's.
+/// Least memory traffic of a single iteration: each position is read and written once, each offset
+/// and each neighbour index read once. Iterations that share a pass through the memory move less,
+/// so the rate may exceed the triad's.
 double iteration_bytes(const Topology& topology) {
     return static_cast<double>(topology.vertex_count() * 2 * sizeof(Vec3) +
                                topology.rings().bytes());
@@ -222,7 +223,7 @@ Run one_rings(const Surface& surface) {
     });
 }
 
-/// A figure of /proc/self/status [bytes]; 0 where there is none.
+/// A figure of /proc/self/status [bytes]; 0 if there is none.
 double process_bytes(const std::string& key) {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;)
@@ -230,10 +231,10 @@ double process_bytes(const std::string& key) {
     return 0.0;
 }
 
-/// Memory that 20 iterations take at most beside their input, neighbour arrays and result included.
+/// Peak memory of 20 iterations in addition to their input, neighbour arrays and result included.
 double peak_bytes(const Surface& surface) {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << "5";  // the peak starts anew
+    std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
     const double before = process_bytes("VmRSS");
     ours(surface, twenty_laplace)();
     return process_bytes("VmHWM") - before;

@@ -1,4 +1,4 @@
-// Times the exhaustive search for parameters beside the filter alone, and prints a row each.
+// Times the exhaustive search for parameters against the filter alone, and prints a row each.
 //   bench_suggestion
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::optional<SmoothingChoice> laplace_choice(std::span<const double> values) {
     return SmoothingChoice{LaplaceParameters{values[0]}, nullptr};
 }
 
-/// The 11 x 11 sets of thesis 6.5.5, from an engine that is made for them.
+/// The 11 x 11 sets of thesis 6.5.5, with a new engine.
 double search_seconds(const Surface& surface, Fidelity fidelity) {
     const Stopwatch watch;
     QualityTable table(make_cpu_engine({.topology = surface.topology, .start = surface.positions}),

@@ -1,7 +1,6 @@
-// Times our trees beside CGAL's AABB tree and, where its header is installed, nanoflann: building,
-// and the nearest triangle or vertex of points near the surface, one thread. Prints how many of the
-// answers are other triangles or vertices than ours: at edges and corners, where several are
-// equally near.
+// Times our trees against CGAL's AABB tree and, if its header is installed, nanoflann: building,
+// and finding the nearest triangle or vertex of points near the surface, on one thread. Prints how
+// many answers differ from ours: at edges and corners, where several are equally near.
 
 #include <algorithm>
 #include <cstdio>
@@ -40,7 +39,7 @@ using Answers = std::vector<std::uint32_t>;
 constexpr int kRepeats = 5;
 constexpr std::size_t kQueries = 200'000;
 
-/// The shortest of some repeats, as others use the machine as well.
+/// The shortest of several repeats, because the machine is shared.
 struct Times {
     double build = 1e300, search = 1e300;  ///< [s]
 };
@@ -69,7 +68,8 @@ void row(const char* name, const std::pair<Times, Answers>& found, const Answers
     std::fflush(stdout);
 }
 
-/// Vertices of the surface, moved by up to half an edge: where smoothing and remeshing ask from.
+/// Vertices of the surface, moved by up to half an edge: typical queries of smoothing and
+/// remeshing.
 Positions queries_near(const Surface& surface) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> shift(-0.5, 0.5);

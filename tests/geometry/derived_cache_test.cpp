@@ -25,7 +25,7 @@ using namespace vesselbench::test;
 
 namespace {
 
-/// The same content in arrays of its own.
+/// The same content in new arrays.
 Surface copy_of(const Surface& surface) {
     return make_surface(surface.points(), {surface.triangles().begin(), surface.triangles().end()},
                         *surface.patch_labels, surface.patches);
@@ -35,7 +35,7 @@ ContentKey number_key(std::uint64_t number) {
     return {0, number};
 }
 
-/// Derives `number` from itself, at `bytes` a piece.
+/// Derives `number` from itself, at `bytes` each.
 std::shared_ptr<const int> number_in(DerivedCache& cache, int number, std::size_t bytes,
                                      int& made) {
     return cache.find_or_make<int>(
@@ -184,7 +184,7 @@ SCENARIO("The cache holds what was used last within its bytes", "[geometry][deri
     CHECK(made == 5);
     WHEN("something is larger than the whole cache") {
         CHECK(*number_in(cache, 5, 101, made) == 5);
-        CHECK(cache.bytes() == 90);  // it drives nothing out
+        CHECK(cache.bytes() == 90);  // it evicts nothing
     }
     WHEN("the budget shrinks") {
         cache.set_budget(40);

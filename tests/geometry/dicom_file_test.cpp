@@ -26,7 +26,7 @@ struct Slice {
     std::string series = "1.2.3.4";
     int columns = 4;
     int rows = 3;
-    short first = 0;  ///< value of the first pixel; the others count on
+    short first = 0;  ///< value of the first pixel; the others count up
 };
 
 constexpr double kColumnSpacing = 0.5, kRowSpacing = 0.75, kSlope = 2.0, kIntercept = -1000.0;
@@ -75,7 +75,7 @@ void write_slice(const std::string& path, const Slice& slice) {
     REQUIRE(writer.Write());
 }
 
-/// Six oblique slices, 1.25 mm apart, in files whose names run against their positions.
+/// Six oblique slices, 1.25 mm apart, in files whose names are in reverse order of position.
 std::vector<Slice> oblique_series() {
     const Eigen::Matrix3d turn = skew_rotation();
     std::vector<Slice> slices;

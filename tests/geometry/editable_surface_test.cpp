@@ -61,8 +61,8 @@ Surface shifted(const Surface& surface, double z) {
     return mapped(surface, [&](const Vec3& p) { return Vec3(p + z * Vec3::UnitZ()); });
 }
 
-/// Three triangles on one edge, a fourth that is turned over, one that names a vertex twice, and
-/// two that only share a vertex.
+/// Three triangles on one edge, a fourth that is reversed, one that names a vertex twice, and two
+/// that only share a vertex.
 Surface nasty_fan() {
     return make_surface(
         {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(2, 1, 0),

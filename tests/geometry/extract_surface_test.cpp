@@ -27,7 +27,7 @@ double ball_volume(double radius) {
     return 4.0 / 3.0 * kPi * radius * radius * radius;
 }
 
-/// A tube of 100 along the k axis through the whole grid, 3 mm thick, in 0.
+/// A tube of value 100 along the k axis through the whole grid, 3 mm thick; 0 elsewhere.
 Image tube_image(bool mirrored) {
     const auto matrix = oblique_matrix(Vec3(0.5, 0.5, 1.0), Vec3(5, -60, 20), mirrored);
     Image grid;

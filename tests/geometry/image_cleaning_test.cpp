@@ -64,7 +64,7 @@ SCENARIO("Topology of voxel sets is counted", "[images][topology]") {
               return block(i, j, k) && !(i == 3 && j == 3 && k == 3);
           })) == Facts{1, 0, 1, 2});
     CHECK(facts(box_mask({5, 2, 2}, [](int i, int, int) { return i != 2; })) == Facts{2, 0, 0, 2});
-    // Two boxes that share a corner hang together in the 26-neighbourhood only.
+    // Two boxes that share a corner are connected in the 26-neighbourhood only.
     const Image corner = box_mask({2, 2, 2}, [](int i, int j, int k) {
         return (i == 0 && j == 0 && k == 0) || (i == 1 && j == 1 && k == 1);
     });

@@ -17,7 +17,7 @@ using namespace vesselbench::test;
 
 namespace {
 
-/// Vertices that one of them takes for a cap's and the other not.
+/// Number of vertices that only one of them assigns to a cap.
 std::size_t differing(const std::vector<Cap>& a, const std::vector<Cap>& b, std::size_t count) {
     const auto in_a = cap_vertices(a, count), in_b = cap_vertices(b, count);
     std::size_t others = 0;
@@ -30,7 +30,8 @@ Surface smoothed(const Surface& surface, int iterations) {
         laplace(*surface.topology, surface.points(), {.lambda = 0.5}, {.iterations = iterations}));
 }
 
-/// With the ends, the slices' steps and the voxels' facets of masks; raw; smoothed a little.
+/// Surfaces with flat ends, with the slice steps and voxel facets of masks; raw and slightly
+/// smoothed.
 std::vector<NamedSurface> surfaces_with_ends() {
     std::vector<NamedSurface> all = varied_surfaces();
     all.push_back({"closed tube", closed_tube(3.0, 20.0, 48, 60)});

@@ -18,7 +18,7 @@ using namespace vesselbench::test;
 
 namespace {
 
-/// Largest difference from the CPU's distances, by the diagonal of the surface.
+/// Largest difference from the CPU's distances, over the diagonal of the surface.
 double largest_difference(const TestDevice& test, const Surface& surface,
                           const std::vector<Surface>& neighbours) {
     const auto wanted = neighbour_distances(surface.points(), neighbours);

@@ -14,7 +14,7 @@ namespace vesselbench::test {
 
 namespace {
 
-/// Without triangles that lie on each other, whose normals are what rounding leaves of their sum.
+/// Without coincident triangles, whose summed normals are rounding errors only.
 Surface repaired(const Surface& surface) {
     return repair(surface).surface;
 }

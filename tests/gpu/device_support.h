@@ -11,30 +11,31 @@
 
 namespace vesselbench::test {
 
-/// A context for the length of a test.
+/// A context for the duration of a test.
 struct TestDevice {
     OffscreenContext context;
     Device device = current_device();
 };
 
-/// Nothing where there is no usable OpenGL: the scenario counts as skipped.
+/// Empty without usable OpenGL: the scenario counts as skipped.
 [[nodiscard]] std::optional<TestDevice> test_device();
 
 /// The surface on the device.
 [[nodiscard]] std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test,
                                                             const Surface& surface);
 
-/// A surface and what it is called.
+/// A surface and its name.
 struct NamedSurface {
     std::string name;
     Surface surface;
 };
 
-/// A noisy sphere far from the origin, an open tube, and repaired surfaces from ../shared/data
-/// where they are.
+/// A noisy sphere far from the origin, an open tube, and repaired surfaces from ../shared/data if
+/// present.
 [[nodiscard]] std::vector<NamedSurface> varied_surfaces();
 
-/// Distances of corresponding vertices by the diagonal of the first one's bounding box, ascending.
+/// Distances of corresponding vertices over the diagonal of the first one's bounding box,
+/// ascending.
 [[nodiscard]] std::vector<double> relative_distances(const Positions& a, const Positions& b);
 
 }  // namespace vesselbench::test

@@ -29,7 +29,7 @@ std::vector<double> some_changes(std::size_t count, double share) {
     return changes;
 }
 
-/// What the device finds, with how many vertices it left to the CPU.
+/// The device's result, and the number of vertices it left to the CPU.
 struct OnDevice {
     std::vector<float> distances;
     double farthest;

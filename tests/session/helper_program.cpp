@@ -1,5 +1,5 @@
-// The other process of the workbench tests: a worker, an editor that is going to be killed, a
-// holder of a project.
+// The other process of the workbench tests: a worker, an editor to be killed, a holder of a
+// project.
 
 #include <cstdio>
 #include <iostream>
@@ -22,7 +22,7 @@ SessionOptions options() {
     return made;
 }
 
-/// Edits without end; tells the number of edits after each commit.
+/// Edits endlessly; prints the number of edits after each commit.
 int edit(const char* project) {
     Session session = Session::open(project, options());
     for (auto made = session.snapshot()->history->entries().size();; ++made) {

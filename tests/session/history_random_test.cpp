@@ -34,8 +34,8 @@ struct PlainResult {
     std::string stale_reason;
 };
 
-/// What DESIGN 1 says of the history in the plainest form: every state keeps a list of its own, and
-/// everything is looked for from front to back. Each action returns false where it is impossible.
+/// The history of DESIGN 1 in its simplest form: every state keeps its own list, and every search
+/// is linear. Each action returns false if it is impossible.
 class PlainHistory {
 public:
     std::vector<PlainState> states{1};
@@ -159,7 +159,7 @@ private:
 };
 
 auto facts(const HistoryEntry& entry) {
-    // What a pending edit behind another one would run on has no meaning.
+    // The input of a pending edit after another one is undefined.
     const ResultId input = entry.status == EditStatus::Pending ? 0 : entry.input;
     return std::tuple(entry.edit, entry.place.step, entry.place.variant, entry.status, entry.result,
                       input, entry.reason);
@@ -211,8 +211,7 @@ History rebuilt(const History& history) {
     return {history.edits(), std::move(states), std::move(results), history.current()};
 }
 
-/// Does a random thing to both. \return whether both could, or both could not and stayed as they
-/// were
+/// Does a random action on both. \return whether both succeeded, or both failed and are unchanged
 class RandomUser {
 public:
     explicit RandomUser(unsigned seed) : random_(seed) {}
@@ -232,7 +231,7 @@ public:
 private:
     int below(std::size_t end) { return static_cast<int>(random_() % end); }
 
-    /// An id that was given out, or one too many.
+    /// An id that was assigned, or the next one.
     EditId some_edit(const PlainHistory& plain) { return 1 + below(plain.revisions.size()); }
 
     /// Mostly one that the state holds.
@@ -299,7 +298,7 @@ private:
         return true;
     }
 
-    /// A result on any input, again on the same one too.
+    /// A result on any input, possibly again on the same one.
     bool run_somewhere(History& history, PlainHistory& plain) {
         if (plain.revisions.size() == 1) return true;
         const EditId id = 1 + below(plain.revisions.size() - 1);
@@ -336,7 +335,7 @@ SCENARIO("A history does what a plain list of states does", "[session][history]"
         history = rebuilt(history);
         REQUIRE(same_everywhere(history, plain));
     }
-    CHECK(edits > 8);  // the actions went somewhere
+    CHECK(edits > 8);  // the actions had an effect
     CHECK(plain.states.size() > 2000);
     CHECK(std::ranges::count_if(plain.results,
                                 [](const auto& r) { return !r.stale_reason.empty(); }) > 200);

@@ -152,7 +152,7 @@ SCENARIO("A project survives SIGKILL at any moment", "[session][project]") {
         Session session = Session::open(file, options());
         REQUIRE(session.read_only_reason().empty());
         const std::size_t found = session.log().size();
-        // What was committed, but not told any more, may be there as well.
+        // Commits not printed in time may be there as well.
         REQUIRE(found >= told);
         REQUIRE(found <= told + 1);
         told = found;

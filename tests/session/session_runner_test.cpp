@@ -38,8 +38,8 @@ double seconds(Call call) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Of the 30 s that kStubborn takes: 0.3 s is the aim (DESIGN 1) on a machine that does nothing
-// else, which tests cannot count on.
+// Of the 30 s that kStubborn takes: 0.3 s is the aim (DESIGN 1) on an idle machine, which tests
+// cannot count on.
 constexpr double kPrompt = 3.0;
 
 const Arguments kStubborn = {{"seconds", 30.0}};

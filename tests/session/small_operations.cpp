@@ -186,7 +186,7 @@ Outcome hang(const Scene&, const Arguments&, Progress& progress) {
     return {};
 }
 
-/// Asks nobody whether it should stop, and says that it goes back and forth.
+/// Never checks for a cancel, and reports progress back and forth.
 Outcome stubborn(const Scene& scene, const Arguments& arguments, Progress& progress) {
     progress.report(0.6, "digging in");
     progress.report(0.2, "digging in");

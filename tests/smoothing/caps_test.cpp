@@ -54,7 +54,7 @@ bool same(const std::vector<Cap>& a, const std::vector<Cap>& b) {
 }
 
 /// A tube of radius 5 along z from -10 to 10 with a square plate of half width 8 around its middle,
-/// as an image of cubic voxels gives it.
+/// as extracted from an image of cubic voxels.
 Surface tube_with_plate() {
     const auto shape = [](const Vec3& p) {
         const double tube = std::max(std::hypot(p.x(), p.y()) - 5.0, std::abs(p.z()) - 10.0);

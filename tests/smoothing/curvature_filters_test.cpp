@@ -64,7 +64,7 @@ Surface irregular_plane(int cells) {
     return make_surface(std::move(points), std::move(triangles));
 }
 
-/// A box' raw iso-surface with noise: sharp edges of 90 degrees.
+/// A box's raw iso-surface with noise: sharp edges of 90 degrees.
 Surface noisy_box() {
     const auto box = [](const Vec3& p) { return (p.cwiseAbs() - Vec3(8, 8, 8)).maxCoeff(); };
     return with_noise(iso_surface(box, {Vec3(-10, -10, -10), Vec3(10, 10, 10)}, 0.503), 0.05);

@@ -307,7 +307,7 @@ SCENARIO("No vertex leaves the cell of a position constraint", "[smoothing][cons
 
 SCENARIO("No filter reads memory that it has not written", "[smoothing]") {
     const Surface sphere = icosphere(1.0, 4);
-    {  // leaves memory behind that is no number
+    {  // leaves NaN in freed memory
         std::vector<std::vector<double>> rubbish;
         for (int i = 0; i < 40; ++i) rubbish.emplace_back(4 * 2562 + 8 * i, std::nan(""));
     }

@@ -1,4 +1,4 @@
-// The checks of our reading of thesis Sec. 5.3: a transcription of its text, without a thought of
+// The checks of our reading of thesis Sec. 5.3: a transcription of its text, without regard to
 // speed, must agree with what smoothing/ computes.
 
 #include <cmath>
@@ -183,7 +183,7 @@ Surface without_patches(const Surface& surface) {
 }  // namespace
 
 SCENARIO("Staircase weights are those of Sec. 5.3 as printed", "[smoothing][staircases]") {
-    const auto ball = [](const Vec3& p) {  // in slices 3 mm apart, as binary masks give it
+    const auto ball = [](const Vec3& p) {  // in slices 3 mm apart, as in a binary mask
         const double z = 3.0 * std::round(p.z() / 3.0);
         return std::max(Vec3(p.x(), p.y(), z).norm() - 9.0, std::abs(p.z()) - 9.0);
     };

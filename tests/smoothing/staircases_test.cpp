@@ -49,7 +49,7 @@ Surface folded_sheet(const std::vector<std::pair<double, double>>& profile, int 
     return make_surface(std::move(points), std::move(triangles));
 }
 
-/// A ball sampled by slices 3 mm apart, as binary masks give it.
+/// A ball in slices 3 mm apart, as extracted from a binary mask.
 Surface terraced_ball(double radius) {
     const auto shape = [&](const Vec3& p) {
         const double z = 3.0 * std::round(p.z() / 3.0);

@@ -11,8 +11,8 @@ struct CommandRun {
     std::string output;  ///< stdout and stderr
 };
 
-/// Runs an outside program with OpenFOAM's environment, in `folder` if one is given. Empty if there
-/// is no such program: the scenario counts as skipped.
+/// Runs an external program with OpenFOAM's environment, in `folder` if one is given. Empty if
+/// there is no such program: the scenario counts as skipped.
 [[nodiscard]] std::optional<CommandRun> run_command(const std::string& program,
                                                     const std::vector<std::string>& arguments,
                                                     const std::string& folder = {});

@@ -9,7 +9,8 @@ namespace vesselbench::test {
 /// A function that is negative inside, in [mm].
 using ImplicitShape = std::function<double(const Vec3&)>;
 
-/// The raw iso-surface at 0 as an image gives it (vtkFlyingEdges3D, slivers and all), outward.
+/// The raw iso-surface at 0 as extracted from an image (vtkFlyingEdges3D, slivers included),
+/// outward.
 /// \param cell edge of the sampling grid [mm]
 [[nodiscard]] Surface iso_surface(const ImplicitShape& shape, const Eigen::AlignedBox3d& box,
                                   double cell);

@@ -12,9 +12,8 @@ struct NastyShape {
     Surface surface;
 };
 
-/// Small surfaces that are broken in one way each: without area, not manifold, open, with vertices
-/// in the air, turned over, flat, all cap, tiny, huge, through themselves. All positions are
-/// finite.
+/// Small surfaces, each broken in one way: without area, non-manifold, open, with isolated
+/// vertices, inverted, flat, all cap, tiny, huge, self-intersecting. All positions are finite.
 [[nodiscard]] std::vector<NastyShape> nasty_shapes();
 
 }  // namespace vesselbench::test

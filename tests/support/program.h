@@ -5,7 +5,7 @@
 
 namespace vesselbench::test {
 
-/// What a run of the program left.
+/// The result of a run of the program.
 struct ProgramRun {
     int exit_code = -1;  ///< 128 + signal if it was killed
     std::string out;

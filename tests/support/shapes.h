@@ -9,8 +9,8 @@ namespace vesselbench::test {
 /// Geodesic sphere: an icosahedron divided `levels` times, 20 * 4^levels triangles, outward.
 [[nodiscard]] Surface icosphere(double radius, int levels, const Vec3& centre = Vec3::Zero());
 
-/// A sphere and a smaller one in it that faces inward and is turned, `thickness` apart; of
-/// icospheres as above.
+/// A sphere with a smaller one inside that faces inward and is rotated, `thickness` apart; both are
+/// icospheres.
 [[nodiscard]] Surface sphere_shell(double radius, double thickness, int levels);
 
 /// Cylinder wall along +z from z = 0 to `length`, both ends open, outward.
@@ -30,7 +30,7 @@ namespace vesselbench::test {
 /// The surface with every position mapped.
 [[nodiscard]] Surface mapped(const Surface& surface, const std::function<Vec3(const Vec3&)>& map);
 
-/// A rotation that is parallel to no axis.
+/// A rotation about an oblique axis.
 [[nodiscard]] Eigen::Matrix3d skew_rotation();
 
 /// Path of ../shared/data/<name> beside the checkout, or empty if it is not there: the

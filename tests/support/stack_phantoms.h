@@ -7,7 +7,7 @@
 namespace vesselbench::test {
 
 // The phantoms of thesis Tables 5.6 and 5.7. Shapes, voxels and removed parts were chosen before
-// the estimator was tuned, and are not to be tuned to it.
+// the estimator was tuned, and must not be tuned to it.
 
 constexpr double kSlices = 3.0;  ///< distance of the slices [mm], along z
 
@@ -21,10 +21,10 @@ constexpr double kSlices = 3.0;  ///< distance of the slices [mm], along z
 /// Ball of a random radius at a random place among the voxels.
 [[nodiscard]] PhantomDescription random_sphere(std::uint64_t seed, const Vec3& spacing);
 
-/// Table 5.7: a sphere of which a part of the topmost slice is removed, 1/16 to all of it.
+/// Table 5.7: a sphere without a part of its topmost slice, 1/16 to all of it.
 struct CutSphere {
     PhantomDescription description;
-    double share = 0.0;  ///< of the topmost slice that is removed
+    double share = 0.0;  ///< fraction of the topmost slice removed
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< for the surface
 };
 
@@ -45,7 +45,7 @@ struct CutSphere {
 /// Angle between two axes, whichever way they point [deg].
 [[nodiscard]] double degrees_between(const Vec3& a, const Vec3& b);
 
-/// Share of the faces within 1 degree of the z axis.
+/// Fraction of the faces within 1 degree of the z axis.
 [[nodiscard]] double share_of_flat_faces(const Surface& surface);
 
 }  // namespace vesselbench::test

@@ -38,8 +38,8 @@ Session tube_session() {
 
 }  // namespace
 
-// Without a cancel the operations run on for a multiple of this; 0.3 s is the aim (DESIGN 1) on a
-// machine that does nothing else, which tests cannot count on.
+// Without a cancel the operations run on for a multiple of this; 0.3 s is the aim (DESIGN 1) on an
+// idle machine, which tests cannot count on.
 constexpr double kPrompt = 2.0;
 
 SCENARIO("A cancel ends a long operation at once", "[workbench][cancel]") {

@@ -32,7 +32,7 @@ std::vector<std::string> commands() {
     return names;
 }
 
-/// Wrong usage: exit code 2, nothing on stdout, a text that says all of `parts`.
+/// Wrong usage: exit code 2, nothing on stdout, a text that contains all of `parts`.
 void check_usage_error(const std::vector<std::string>& arguments,
                        const std::vector<std::string>& parts) {
     const ProgramRun result = run(arguments);

@@ -135,7 +135,7 @@ bool may_use(const std::string& room, const std::string& other) {
            });
 }
 
-/// Names that lead back to themselves over `next`, and what leads to them.
+/// Names that lead back to themselves via `next`, and those that lead to them.
 Names circles(std::map<std::string, Names> next) {
     const auto leads_nowhere = [&](const auto& entry) {
         return std::ranges::none_of(entry.second,

@@ -245,7 +245,7 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
             const std::vector<double> dab = any_dab(random);
             dabs.insert(dabs.end(), dab.begin(), dab.end());
         }
-        if (i % 4 == 3) {  // the last dab lies in the air: none of them is brushed
+        if (i % 4 == 3) {  // the last dab is off the surface: none is brushed
             const Outcome before = live->outcome(progress);
             dabs[dabs.size() - 10] += 50.0;
             CHECK_THROWS_AS(live->add({{"dabs", dabs}}, progress), AlgorithmFailure);

@@ -21,7 +21,7 @@ namespace {
 const std::vector<std::string> kFilters = {
     "laplace", "laplace-hc", "taubin", "mean-curvature-flow", "anisotropic", "curvature-triggered"};
 
-/// Arguments of `smooth` without sense, and what the error has to say.
+/// Invalid arguments of `smooth`, and what the error must contain.
 struct Nonsense {
     std::vector<std::string> arguments;
     std::vector<std::string> parts;
@@ -179,7 +179,7 @@ SCENARIO("smooth accepts broken foreign files", "[workbench][smooth]") {
         try {
             surface = read_surface(folder + "/" + file).surface;
         } catch (const InvalidInput&) {
-            continue;  // what cannot be read is refused before
+            continue;  // unreadable input is rejected earlier
         }
         if (surface.vertex_count() > 5000) continue;
         check_smooths(file, surface);

@@ -348,7 +348,7 @@ SCENARIO("A GPU finds the same context as the CPU", "[workbench][smooth][device]
             const Json& found = gpu.report->at(name);
             if (value.is_number_float())
                 CHECK(found.get<double>() == Approx(value.get<double>()).epsilon(1e-4));
-            else if (name != "vertices_moved")  // some by less than single precision tells
+            else if (name != "vertices_moved")  // some by less than single precision resolves
                 CHECK(found == value);
         }
     }

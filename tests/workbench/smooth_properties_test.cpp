@@ -1,4 +1,4 @@
-// The properties of the thesis' Sec. 7.1, through the operation that users call.
+// The properties of the thesis's Sec. 7.1, through the operation that users call.
 
 #include <cmath>
 
@@ -66,7 +66,7 @@ Surface wavy_tube(bool patches) {
     return make_surface(tube.points(), {tube.triangles().begin(), tube.triangles().end()});
 }
 
-/// 1 for the vertices of every triangle that is no wall: caps with their rims.
+/// 1 for the vertices of every triangle that is not wall: caps with their rims.
 std::vector<bool> of_patches(const Surface& surface) {
     std::vector<bool> chosen(surface.vertex_count(), false);
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
@@ -75,7 +75,7 @@ std::vector<bool> of_patches(const Surface& surface) {
     return chosen;
 }
 
-/// What may stand beside caps=keep.
+/// Arguments that can be combined with caps=keep.
 std::vector<Arguments> contexts() {
     return {{},
             {{"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}, {"beta_min", 0.4}},

@@ -10,7 +10,7 @@
 
 namespace vesselbench {
 
-using EditId = std::int64_t;    ///< lasting; 1, 2, ... in the order the edits were first made
+using EditId = std::int64_t;    ///< permanent; 1, 2, ... in the order the edits were first made
 using StateId = std::int64_t;   ///< 0 is the empty case every history starts from
 using ResultId = std::int64_t;  ///< 0 is the empty scene
 
@@ -67,7 +67,7 @@ struct HistoryEntry {
     EditPlace place;
     EditStatus status = EditStatus::Pending;
     ResultId result = 0;  ///< Done: its result. Stale: the result with the reason. Pending: 0
-    ResultId input = 0;   ///< the result it ran on or would run on; undefined behind a pending edit
+    ResultId input = 0;   ///< the result it ran on or would run on; undefined after a pending edit
     std::string reason;   ///< of a stale edit
 };
 
@@ -113,7 +113,7 @@ public:
     /// The newest result of this revision that is not stale, on any input.
     [[nodiscard]] const HistoryResult* newest_result_of(EditRef edit) const;
 
-    /// Adds a new edit behind the edits of its step: a child state. \return the new edit
+    /// Adds a new edit after the edits of its step: a child state. \return the new edit
     EditRef apply(const EditPlace& place);
 
     /// A new revision of an edit in its old place: a child state.

@@ -164,7 +164,7 @@ Value checked(const Parameter& parameter, const Value& value) {
     return *typed;
 }
 
-/// \param whole fills in defaults, and misses what is required
+/// \param whole fills in defaults and demands required arguments
 Arguments checked_values(const Operation& operation, const Arguments& given, bool whole) {
     for (const auto& [name, value] : given.values())
         static_cast<void>(find_parameter(operation, name));

@@ -45,8 +45,8 @@ std::string export_footer() {
 }
 
 constexpr const char* kChangeFooter =
-    "The edits behind it become pending: they run again when their result is shown, exported or\n"
-    "built upon. 'undo' goes back.";
+    "Later edits become pending: they run again when their result is shown, exported or built\n"
+    "upon. 'undo' reverts the change.";
 
 constexpr const char* kPictureFooter =
     "Patient coordinates are LPS: y points backwards, z to the head. --view 0,1,0 looks from the\n"

@@ -45,8 +45,7 @@ struct ChangeOptions {
     bool json = false;
 };
 
-/// Runs an earlier edit with other arguments, as its next revision; the edits behind it become
-/// pending.
+/// Runs an earlier edit with other arguments, as its next revision; later edits become pending.
 void change_edit(const ChangeOptions& options, const Progress& progress);
 
 struct RemoveOptions {
@@ -55,7 +54,7 @@ struct RemoveOptions {
     bool json = false;
 };
 
-/// Leaves an edit out; the edits behind it become pending.
+/// Leaves an edit out; later edits become pending.
 void remove_edit(const RemoveOptions& options);
 
 struct LogOptions {

@@ -10,13 +10,13 @@
 
 namespace vesselbench {
 
-/// A format that a scene is exported in.
+/// A format that a scene can be exported in.
 struct ExportFormat : Format {
     /// \throw InvalidInput if the scene has no such content
     std::function<void(const Scene&, const std::string& path, const CfdParameters&)> write;
 };
 
-/// The rows of all rooms whose formats are written from a scene: surfaces, then volume meshes, then
+/// The formats that can be written from a scene, of all rooms: surfaces, then volume meshes, then
 /// solvers' cases.
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 

@@ -30,8 +30,8 @@ namespace vesselbench {
 /// \throw UsageError that lists the suffixes unless export_scene can write such a file
 void check_export_name(const std::filesystem::path& file);
 
-/// Writes one file or folder in the format of export_formats() that its name asks for.
-/// \throw UsageError that lists the suffixes for another one
+/// Writes one file or folder in the format of export_formats() that matches its name.
+/// \throw UsageError that lists the suffixes if none matches
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
                   const CfdParameters& flow);
 

@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 /// A negative strength deflates and removes weight; there is no negative smoothing.
 constexpr double kWeakest = -1.0, kSmoothWeakest = 0.0;
 
-/// By how much a surface grew whose boundary, if any, stayed [mm^3].
+/// Growth in volume of a surface whose boundary, if any, is unchanged [mm^3].
 double volume_change(const Surface& before, const Surface& after) {
     const Vec3 origin = before.points().front();
     const auto six_fold = [&](const Positions& x, const Triangle& t) {
@@ -103,7 +103,7 @@ public:
         read.resolved = more;
         const auto dabs = resolved_dabs(use_, surface_of(before_), *places_, read);
         if (dabs.size() == 1)
-            brush(*stroke_, dabs, progress);  // which leaves the stroke as it was if it throws
+            brush(*stroke_, dabs, progress);  // leaves the stroke unchanged if it throws
         else {
             auto longer = std::make_unique<Stroke>(*stroke_);
             brush(*longer, dabs, progress);
@@ -147,7 +147,7 @@ public:
     }
 
 private:
-    /// A stroke and what is said of it.
+    /// A stroke with its arguments and warnings.
     struct Stroke {
         BrushStroke brush;
         Arguments resolved;
@@ -189,7 +189,7 @@ private:
     Scene before_;
     std::shared_ptr<const SurfaceDistance> places_;
     std::unique_ptr<Stroke> stroke_;
-    mutable std::optional<Scene> scene_;  ///< made when it is asked for
+    mutable std::optional<Scene> scene_;  ///< made on request
 };
 
 /// The arguments that say where to brush, or the others.

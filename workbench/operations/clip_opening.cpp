@@ -221,8 +221,8 @@ Operation clip_opening_operation() {
               .type = List,
               .unit = "mm",
               .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
-                      "plane, unit normal out of the vessel, 1 if a good cap was kept; nothing is "
-                      "chosen again then"},
+                      "plane, unit normal out of the vessel, 1 if a good cap was kept; they are "
+                      "used as they are"},
              {.name = "names",
               .type = Text,
               .help = "with planes: kind:name of each opening, separated by commas"}},

@@ -104,8 +104,9 @@ Operation repair_operation() {
             {{.name = "close_holes_up_to",
               .type = Real,
               .unit = "mm",
-              .help = "close holes up to this radius; default: close holes that are no vessel "
-                      "ends, because they are much narrower than the lumen behind them, or ragged",
+              .help = "close holes up to this radius; default: close holes that are not "
+                      "vessel ends, because they are much narrower than the lumen behind them, or "
+                      "ragged",
               .minimum = 0.0},
              {.name = "keep_components",
               .type = Integer,

@@ -18,7 +18,7 @@ namespace vesselbench {
 /// The built-in phantom of this name. \throw UsageError that lists the names if there is none
 [[nodiscard]] PhantomDescription builtin_phantom(const std::string& name);
 
-/// The phantom of a description's file (.json), or the built-in one of this name.
+/// The phantom described in a .json file, or the built-in one of this name.
 /// \throw IoError if the file cannot be read; InvalidInput; UsageError
 [[nodiscard]] PhantomDescription phantom_named(const std::string& name);
 

@@ -90,12 +90,12 @@ std::vector<LogEntry> edits_of(const Session& session, const std::string& varian
     return edits;
 }
 
-/// What the edit's operation is to a recipe.
+/// The role of the edit's operation in a recipe.
 const RecipePart& part_of(const LogEntry& entry) {
     return find_operation(entry.edit.operation).recipe;
 }
 
-/// \param part that the edit's operation plays
+/// \param part role of the edit's operation
 std::optional<EditId> last_edit(const std::vector<LogEntry>& edits, bool RecipePart::*part) {
     std::optional<EditId> last;
     for (const LogEntry& entry : edits)

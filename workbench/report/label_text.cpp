@@ -25,7 +25,7 @@ const stbtt_fontinfo& font() {
     return info;
 }
 
-/// Pixels a font unit, for digits of this height.
+/// Pixels per font unit, for digits of this height.
 double scale_of(double size) {
     int left = 0, bottom = 0, right = 0, top = 0;
     stbtt_GetCodepointBox(&font(), '1', &left, &bottom, &right, &top);

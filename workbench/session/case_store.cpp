@@ -8,7 +8,7 @@ namespace vesselbench {
 
 namespace {
 
-/// The result behind the last of these edits; empty if one of them is pending.
+/// The result of the last of these edits; empty if one of them is pending.
 std::optional<ResultId> end_of(const std::vector<HistoryEntry>& line) {
     ResultId end = 0;
     for (const HistoryEntry& entry : line) {

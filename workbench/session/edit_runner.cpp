@@ -10,10 +10,11 @@ namespace vesselbench {
 
 namespace {
 
-// Measuring what changed and, of a pending edit, storing it come behind its run.
+// Fraction of the progress for an edit's run; measuring the change and, for a pending edit, storing
+// it take the rest.
 constexpr double kRunShare = 0.9;
 
-/// The part of a progress that the i-th of several equal tasks has.
+/// The part of a progress for the i-th of several equal tasks.
 Progress part_of(const Progress& progress, std::size_t i, std::size_t count) {
     const auto whole = static_cast<double>(count);
     return progress.part(static_cast<double>(i) / whole, static_cast<double>(i + 1) / whole);

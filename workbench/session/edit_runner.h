@@ -22,7 +22,7 @@ public:
 
     /// Runs the pending ones among the entries, from the first on, and enters each result as it
     /// arrives: after a cancel or an error, earlier results are kept.
-    /// \return the result behind them
+    /// \return the result after them
     ResultId evaluate(const std::vector<HistoryEntry>& entries, const Progress& progress);
 
     /// The same in memory, without entering anything.

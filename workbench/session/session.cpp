@@ -28,7 +28,7 @@ bool refers_to_image(const Scene& scene, std::size_t embed_limit) {
     return large(scene.image) || large(scene.mask);
 }
 
-/// The share of a new edit's progress that the pending edits before it have [-].
+/// The fraction of a new edit's progress for the pending edits before it [-].
 double share_of_pending(const std::vector<HistoryEntry>& before) {
     const auto pending =
         std::ranges::count(before, EditStatus::Pending, [](const auto& e) { return e.status; });
@@ -112,7 +112,7 @@ struct Session::Parts {
     }
 
     /// The edits that precede the previewed one now.
-    /// \throw UsageError if they are others than those it ran on
+    /// \throw UsageError if they are not those it ran on
     void check_same_input(const Preview::Data& data) const {
         const EditRecord& edit = data.edit;
         const auto now = edit.edit.id == 0 ? entries_before(store.history(), edit.place)

@@ -48,8 +48,8 @@ public:
     LogEntry apply(const std::string& operation, const Arguments& given,
                    const EditOptions& options = {}, Progress progress = {});
 
-    /// Runs an edit of the current state with other arguments: its next revision. The edits behind
-    /// it become pending.
+    /// Runs an edit of the current state with other arguments: its next revision. Later edits
+    /// become pending.
     /// \param given all its arguments; for files read before, the names suffice
     /// \throw as apply()
     LogEntry change_edit(EditId id, const Arguments& given, const EditOptions& options = {},
@@ -64,7 +64,7 @@ public:
                                          const EditOptions& options = {}, Progress progress = {});
 
     /// Enters a previewed edit without running it again.
-    /// \throw UsageError if other edits precede it by now than those it ran on; IoError if the
+    /// \throw UsageError if the edits before it are no longer those it ran on; IoError if the
     /// session only reads or the project cannot be written
     LogEntry commit(const Preview& preview);
 
@@ -76,7 +76,7 @@ public:
     /// The result of everything added to a live edit, with its figures; the live edit may continue.
     [[nodiscard]] Preview preview(LiveEdit& live, Progress progress = {});
 
-    /// Leaves an edit out; the edits behind it become pending.
+    /// Leaves an edit out; later edits become pending.
     /// \throw UsageError if there is no such edit
     void remove_edit(EditId id);
 
@@ -90,7 +90,7 @@ public:
     void jump(StateId state);
 
     /// The scene of a variant. Pending edits run first; those that no longer apply become stale. A
-    /// session that only reads runs them for itself.
+    /// read-only session keeps their results in memory.
     [[nodiscard]] Scene scene(const std::string& variant = "cfd", Progress progress = {});
 
     /// The scene right after one edit of the current state; pending edits up to it run first.

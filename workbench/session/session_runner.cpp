@@ -81,7 +81,7 @@ void SessionRunner::run(Request request) {
         }
         publish();
     }
-    request.call = nullptr;  // what it holds goes before anybody hears of the end
+    request.call = nullptr;  // frees what it holds before the end is reported
     {
         const std::lock_guard lock(mutex_);
         running_.reset();

@@ -75,7 +75,8 @@ public:
     using Live = std::shared_ptr<LiveEdit>;
     Job<Live> start_live(std::string operation, Arguments given, EditOptions options = {});
     /// \param supersede not empty for operations whose arguments are replaced: waiting ones are
-    /// skipped. A brush's dabs add up: none may be skipped \return the scene after it
+    /// skipped. A brush's dabs add up: none may be skipped
+    /// \return the scene after it
     Job<Scene> add(Live live, Arguments more, std::string supersede = {});
     Job<LogEntry> commit(Live live);
 

@@ -15,7 +15,7 @@ namespace vesselbench {
 [[nodiscard]] std::vector<std::string> searched_operations();
 
 /// Compact if the operation is meant to change the number of triangles; else default.
-/// \throw UsageError that lists the operations that can be searched, if it cannot
+/// \throw UsageError that lists the operations that can be searched, if this one cannot
 [[nodiscard]] ScoreForm usual_score_of(const Operation& operation);
 
 /// The grid of an operation's parameters on a surface.
@@ -30,7 +30,7 @@ namespace vesselbench {
                                      const Arguments& arguments, const SearchSpace& space,
                                      const ParameterSet& set, const Progress& progress);
 
-/// The measures of these results. Sets with which the operation fails are left out.
+/// The measures of these results. Sets for which the operation fails are left out.
 [[nodiscard]] std::shared_ptr<MeasureSource> processing_table(const Operation& operation,
                                                               const Scene& scene,
                                                               const Arguments& arguments,
@@ -41,7 +41,7 @@ namespace vesselbench {
                                           const Arguments& arguments, const SearchSpace& space,
                                           const Progress& progress);
 
-/// Puts a set's values among arguments.
+/// Enters a set's values into arguments.
 void set_values(Arguments& arguments, const Operation& operation, const SearchSpace& space,
                 const ParameterSet& set);
 

@@ -38,8 +38,8 @@ struct SearchSubject {
 /// of triangles.
 [[nodiscard]] ScoreForm usual_score(const SearchSubject& subject);
 
-/// \param chosen as engine_for gave it The search space; a given parameter keeps its
-/// value.
+/// The search space; a given parameter keeps its value.
+/// \param chosen as from engine_for
 /// \param all_parameters for graphs, which start from the given values
 [[nodiscard]] SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
                                     bool all_parameters = false);
@@ -47,7 +47,7 @@ struct SearchSubject {
 /// The engine of `smooth`; none for other operations, which run on the CPU.
 [[nodiscard]] ChosenEngine engine_for(const SearchSubject& subject, bool planes = false);
 
-/// \param chosen as engine_for gave it; used on this thread only, if it is a GPU's
+/// \param chosen as from engine_for; a GPU's is used on this thread only
 [[nodiscard]] ParameterSearch search_for(const SearchSubject& subject, const ChosenEngine& chosen,
                                          const SearchSpace& space, ScoreSettings settings);
 

@@ -8,7 +8,7 @@ bool uses_gpu(const Arguments& checked) {
     return checked.optional_text("device") == "gpu";
 }
 
-/// What would have run here has the time and the memory it would have had here.
+/// Operations that could run in this process get the same time and memory in a worker.
 WorkerOptions without_limits(WorkerOptions worker) {
     worker.memory_limit = 0;
     worker.time_limit = std::chrono::hours(24 * 365);

@@ -15,7 +15,7 @@ using OperationLookup = std::function<const Operation&(const std::string&)>;
 
 /// How worker processes are started and bounded.
 struct WorkerOptions {
-    /// Command that runs worker_main(); empty: this very program with --worker.
+    /// Command that runs worker_main(); empty: this program with --worker.
     std::vector<std::string> command;
     std::chrono::seconds time_limit{3600};            ///< then the worker is killed
     std::size_t memory_limit = std::size_t{8} << 30;  ///< [bytes] of address space; 0: no limit

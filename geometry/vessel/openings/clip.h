@@ -14,9 +14,9 @@ struct OpenedSurface {
     std::vector<VertexId> rim;
 };
 
-/// Cuts off everything behind the one curve in which the plane meets the vessel at the plane's
-/// point; other vessels that happen to cross the plane stay whole. Vertices near the plane are
-/// moved onto it along their edges, and short rim edges are collapsed, to avoid slivers.
+/// Cuts off everything beyond the curve in which the plane meets the vessel at the plane's point;
+/// other vessels that cross the plane stay whole. Vertices near the plane are moved onto it along
+/// their edges, and short rim edges are collapsed, to avoid slivers.
 /// \param plane its normal points to the part to be removed
 /// \throw AlgorithmFailure if there is no closed section at the plane's point, or if it does not
 /// separate a part from the rest (a loop of vessels): the text names the point

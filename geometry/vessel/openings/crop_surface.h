@@ -17,7 +17,8 @@ namespace vesselbench {
 /// \param radius [mm], > 0
 [[nodiscard]] Surface crop_to_sphere(const Surface& surface, const Vec3& centre, double radius);
 
-/// Its connected piece (over shared vertices) of largest area, and the number of pieces there were.
+/// A surface's connected piece (over shared vertices) of largest area, and the number of all
+/// pieces.
 struct LargestPiece {
     Surface surface;
     std::size_t pieces = 0;

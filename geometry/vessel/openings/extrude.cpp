@@ -98,7 +98,7 @@ struct Probes {
     std::vector<int> layers;  ///< from 1, of each triangle
 };
 
-/// \param margins share of the free space (kFreeInFront, kFreeAtSides) that is wanted, 0 or 1
+/// \param margins fraction of the free space (kFreeInFront, kFreeAtSides) to keep, 0 or 1
 Probes probes_of(const Tube& tube, int layers, double layer_height, double margins) {
     const auto shares = tube.shares(2);
     const std::vector<Triangle> band = band_between(shares, shares);
@@ -125,7 +125,7 @@ Probes probes_of(const Tube& tube, int layers, double layer_height, double margi
 }
 
 /// Length that is free in front of the opening [mm].
-/// \param margins as probes_of takes them
+/// \param margins as in probes_of
 double free_length(const Surface& without_cap, const Tube& tube, double wanted, double margins) {
     const double in_front = margins * kFreeInFront * tube.diameter();
     const double end = wanted + in_front;

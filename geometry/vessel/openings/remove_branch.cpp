@@ -28,7 +28,7 @@ constexpr double kLargestAngle = 0.9 * std::numbers::pi;
 /// wide [branch radii].
 constexpr double kFilletHeight = 0.02;
 constexpr double kWidestFillet = 1.2;
-/// The renewed wall extends at most this far beyond the foot [parent radii].
+/// The rebuilt wall extends at most this far beyond the foot [parent radii].
 constexpr double kWidestMargin = 0.4;
 
 /// Distance from the tubes' walls [mm], negative inside.
@@ -171,8 +171,8 @@ double length_of(const Surface& surface, const std::vector<VertexId>& loop) {
     return mean_edge(surface.points(), loop) * static_cast<double>(loop.size());
 }
 
-/// What hangs together with a rim of the hole, over triangles that stay; none if that is where the
-/// largest rim lies, too.
+/// The part connected to a rim of the hole by triangles that stay; none if the largest rim is
+/// connected to it, too.
 std::optional<std::vector<TriangleId>> island_at(const Surface& surface,
                                                  const std::vector<VertexId>& rim,
                                                  const std::vector<VertexId>& largest,

@@ -15,14 +15,14 @@ struct BranchRemoval {
 };
 
 struct BranchRemovalParameters {
-    /// Width of the parent's wall to renew beyond the branch's foot, in radii of the branch [-].
+    /// Width of the parent's wall to rebuild beyond the branch's foot, in radii of the branch [-].
     double margin = 0.4;
     int continuity = 1;  ///< at the new wall's rim: 1 tangent, 2 curvature
 };
 
-/// Removes a branch (or an aneurysm's sac) with everything at its end and renews the parent's wall.
-/// The cut follows the parent's wall: what is closer to the branch's tube than to those of the
-/// other vessels is removed. On a single parent the hole is filled in the coordinates of the
+/// Removes a branch (or an aneurysm's sac) with everything at its end and rebuilds the parent's
+/// wall. The cut follows the parent's wall: what is closer to the branch's tube than to those of
+/// the other vessels is removed. On a single parent the hole is filled in the coordinates of the
 /// parent's tube (out, around, along), in which a tube is flat: neither a bump nor a flat disc
 /// remains.
 /// \param tip node of the graph with one branch, on the centerline of `surface`

@@ -40,7 +40,8 @@ Shape shape_of(const Corners& corners) {
     return shape;
 }
 
-/// Works on what is manifold by now; a vertex' triangles and neighbours are the half-edges' matter.
+/// Works on a surface that is already manifold; the half-edges give a vertex's triangles and
+/// neighbours.
 class SliverRemover {
 public:
     SliverRemover(EditableSurface& surface, double smallest, RepairReport& report)

@@ -7,8 +7,8 @@ namespace vesselbench {
 
 /// Removes edges and triangle heights below `smallest_feature` [mean edges] from a manifold: short
 /// edges collapse into one of their ends (rims and patch borders stay where they are), flat caps
-/// swap their longest edge. Nothing moves farther than that at a time. What cannot go without
-/// spoiling the manifold stays.
+/// swap their longest edge. No step moves a vertex farther than that. Slivers stay if removing them
+/// would break the manifold.
 void remove_slivers(TriangleSoup& soup, double smallest_feature, RepairReport& report);
 
 }  // namespace vesselbench

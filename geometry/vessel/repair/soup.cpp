@@ -93,7 +93,7 @@ void check_main_part(const std::vector<Part>& order, double whole) {
         "the triangles fall into " + std::to_string(order.size()) +
         " unconnected pieces, the largest of which has only " +
         std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
-        " % of the area: this is no connected surface; export it again with shared points");
+        " % of the area: this is not a connected surface; export it again with shared points");
 }
 
 }  // namespace

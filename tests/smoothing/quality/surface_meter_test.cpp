@@ -23,7 +23,7 @@ std::vector<PackRow> packed(const Positions& positions) {
     return packs;
 }
 
-/// A vessel with slivers, as an image gives it.
+/// A vessel with slivers, as extracted from an image.
 Surface raw_vessel() {
     const auto shape = [](const Vec3& p) {
         return capsule(p, Vec3(0, 0, -6), Vec3(0.7, 0.4, 6), 2.1);

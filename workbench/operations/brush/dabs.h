@@ -32,8 +32,8 @@ struct DabUse {
 /// True for the names of dab_parameters.
 [[nodiscard]] bool is_dab_argument(const std::string& name);
 
-/// Appends the resolved dabs of `more` to those of a stroke; where it had none, `at` and what
-/// belongs to it come along.
+/// Appends the resolved dabs of `more` to those of a stroke; if it had none, also copies `at` and
+/// its companions.
 void append_dabs(Arguments& stroke, const Arguments& more);
 
 /// \throw UsageError that says how dabs are given

@@ -74,7 +74,7 @@ std::vector<Parameter> context_parameter_table() {
     add({{.name = "beta_min",
           .unit = "-",
           .help = "fraction of the smoothing applied outside staircases: 0 leaves the rest "
-                  "unchanged, 1 are smoothed in full like staircases; default: the preset's",
+                  "unchanged, 1 smooths it in full like staircases; default: the preset's",
           .minimum = 0.0,
           .maximum = 1.0,
           .only_with = when_staircase},
@@ -107,7 +107,7 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Ar
     check_stack_axis(arguments, "smooth");
     SmoothingContext context;
     context.constraint = constraint_part(scene, arguments);
-    static_cast<void>(surface.topology->rings());  // what making them has taken is not needed again
+    static_cast<void>(surface.topology->rings());  // before their scratch memory is freed
     release_freed_memory();
     const std::vector<Cap> caps = caps_of(finder, arguments);
     std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());

@@ -57,7 +57,7 @@ void check_mu(const Arguments& arguments) {
     throw UsageError(text.str());
 }
 
-/// What the filters are set by.
+/// The parameters of the filters.
 std::vector<Parameter> strength_parameters() {
     return {
         {.name = "lambda",
