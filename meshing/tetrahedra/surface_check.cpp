@@ -132,7 +132,7 @@ void Finder::find_defects() {
     for (const VertexId v : defects.vertices) vertices.push_back(surface_.points()[v]);
     add(Kind::NonManifoldEdge, {}, edges, "more than two triangles share an edge", "run `repair`");
     add(Kind::NonManifoldVertex, {}, vertices, "parts of the surface touch at a single vertex",
-        "run `repair` or `separate`");
+        "run `repair`");
     add(Kind::Orientation, {}, turned, "two adjacent triangles have opposite orientations",
         "run `repair`");
 }
