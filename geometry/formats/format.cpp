@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "geometry/formats/image_bytes.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -41,15 +41,6 @@ bool content_fits(const Format& format, const std::string& path) {
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(in.gcount()));
     return format.sniff(head);
-}
-
-std::string enumerated(const std::vector<std::string>& words, const std::string& last) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
-        text += words[i];
-    }
-    return text;
 }
 
 std::string lower_suffix(const std::string& path) {

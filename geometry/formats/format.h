@@ -94,10 +94,6 @@ std::vector<std::string> read_names(const std::vector<Row>& rows) {
     return names;
 }
 
-/// "a, b and c", or with another last word "a, b or c".
-[[nodiscard]] std::string enumerated(const std::vector<std::string>& words,
-                                     const std::string& last = "and");
-
 /// The path's suffix in lower case, with the dot; empty if it has none.
 [[nodiscard]] std::string lower_suffix(const std::string& path);
 

@@ -6,6 +6,7 @@
 #include "geometry/formats/image_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
@@ -144,9 +143,6 @@ public:
             TetgenResult result = run_tetgen(surface_, rung.switches, too_large);
             std::string failure = result.error;
             if (failure.empty()) failure = loss(result.mesh, surface_, rung.keeps_surface);
-            char note[160];
-            std::snprintf(note, sizeof note, "%s (%s), size %.4g: ", rung.switches.c_str(),
-                          rung.remedy, factor);
             report_.attempts.push_back(
                 note + (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
                                         : failure));
@@ -241,18 +237,15 @@ constexpr double kFineLumen = 0.6;
 
 void warn_of_number(double wanted, TetrahedralizeReport& report) {
     const auto reached = static_cast<double>(report.quality.cells);
-    char text[200] = "";
+    const std::string cells = formatted(wanted, "%.0f cells");
     if (std::abs(reached / wanted - 1.0) > 0.1)
-        std::snprintf(text, sizeof text,
-                      "%.0f cells requested, %.0f reached: the surface's edge length limits the "
-                      "number; change it with `remesh`",
-                      wanted, reached);
+        report.warnings.push_back(cells + " requested, " + formatted(reached, "%.0f") +
+                                  " reached: the surface's edge length limits the number; change "
+                                  "it with `remesh`");
     else if (report.size < kFineLumen)
-        std::snprintf(text, sizeof text,
-                      "the lumen's edges are %.2g of the surface's: to resolve the wall as well "
-                      "with %.0f cells, `remesh` with an edge length scaled by about that factor",
-                      report.size, wanted);
-    if (text[0] != 0) report.warnings.emplace_back(text);
+        report.warnings.push_back("the lumen's edges are " + formatted(report.size, "%.2g") +
+                                  " of the surface's: to resolve the wall as well with " + cells +
+                                  ", `remesh` with an edge length scaled by about that factor");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
