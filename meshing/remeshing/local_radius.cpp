@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 #include "meshing/remeshing/vertex_fields.h"
 
@@ -63,12 +64,6 @@ bool is_blind(const CenterlineNode& node, const std::vector<Opening>& openings) 
                return (o.centroid - node.position).norm() <=
                       kBlindTip * std::max(o.radius, node.radius);
            });
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Largest radius of a branch: for a blind branch (a sac) that of its parent vessel, for a vessel a

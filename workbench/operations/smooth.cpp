@@ -6,6 +6,7 @@
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/crossing_warning.h"
@@ -13,7 +14,6 @@
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
-#include "workbench/operations/smooth/mean.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
