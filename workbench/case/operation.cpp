@@ -202,6 +202,12 @@ std::string to_string(const Condition& condition) {
     return text;
 }
 
+std::vector<std::string> step_names(const std::vector<Step>& steps) {
+    std::vector<std::string> names;
+    for (const Step step : steps) names.push_back(to_string(step));
+    return names;
+}
+
 const Parameter& find_parameter(const Operation& operation, const std::string& name) {
     std::vector<std::string> names;
     for (const Parameter& parameter : operation.parameters) {

@@ -33,6 +33,8 @@ enum class Step : int {
 
 [[nodiscard]] std::string to_string(Step step);  ///< "source", "branches", "local-repair" ...
 
+[[nodiscard]] std::vector<std::string> step_names(const std::vector<Step>& steps);
+
 enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
 
 /// An argument without which another one has no effect: "distance=margin".
