@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "geometry/kernel/wording.h"
-
 namespace vesselbench {
 
 namespace {
@@ -25,12 +23,12 @@ bool is_folder(const std::string& path) {
 }  // namespace
 
 bool is_named_for_reading(const Format& format, const std::string& path) {
-    if (is_folder(path)) return format.folder;
+    if (is_folder(path)) return !format.folder.empty();
     return ends_in_one_of(path, format.suffixes) || ends_in_one_of(path, format.also_read);
 }
 
 bool is_named_for_writing(const Format& format, const std::string& path) {
-    if (is_folder(path) || lower_suffix(path).empty()) return format.folder;
+    if (is_folder(path) || lower_suffix(path).empty()) return !format.folder.empty();
     return ends_in_one_of(path, format.suffixes);
 }
 

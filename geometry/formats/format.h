@@ -4,13 +4,15 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/kernel/wording.h"
+
 namespace vesselbench {
 
 /// What a file of a format holds.
 enum class FormatKind { Surface, Image, VolumeMesh, Centerlines };
 
-/// What every row of the tables of formats says about its format. Choice of a reader or writer,
-/// help texts and error texts come from these rows; no other place names a suffix.
+/// What every row of the tables of formats says about its format. Which reader or writer a file's
+/// name chooses, and what help and error texts list, comes from these rows.
 struct Format {
     std::string name;  ///< "STL"
     FormatKind kind = FormatKind::Surface;
@@ -18,7 +20,9 @@ struct Format {
     std::string content;                 ///< what a file holds, for help texts
     std::string unit = "mm";             ///< of the lengths in a written file
     std::vector<std::string> also_read;  ///< suffixes of files that are read, but never written
-    bool folder = false;                 ///< a folder without a suffix is of this format
+    /// What a folder of this format is, "of DICOM slices"; empty: it is no folder. Folders have no
+    /// suffix.
+    std::string folder = {};
     /// Whether a file that begins with these bytes (at most kSniffedBytes) is of this format.
     /// Needed where formats share a suffix.
     bool (*sniff)(std::string_view head) = nullptr;
@@ -92,6 +96,15 @@ std::vector<std::string> read_names(const std::vector<Row>& rows) {
     for (const Row& row : rows)
         if (row.read && (names.empty() || names.back() != row.name)) names.push_back(row.name);
     return names;
+}
+
+/// The folders among the rows: "a folder of DICOM slices". \param noun "a folder" or "folders"
+template <class Row>
+std::string folder_text(const std::vector<Row>& rows, const std::string& noun = "a folder") {
+    std::vector<std::string> texts;
+    for (const Row& row : rows)
+        if (!row.folder.empty()) texts.push_back(noun + " " + row.folder);
+    return enumerated(texts);
 }
 
 /// The path's suffix in lower case, with the dot; empty if it has none.
