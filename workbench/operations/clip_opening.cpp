@@ -10,6 +10,7 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/replacing_stepper.h"
