@@ -13,6 +13,7 @@
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/size_field.h"
 #include "meshing/tetrahedra/surface_check.h"
+#include "meshing/tetrahedra/tetgen_failure.h"
 #include "meshing/tetrahedra/tetgen_run.h"
 
 namespace vesselbench {
@@ -144,14 +145,16 @@ public:
             std::string failure = result.error;
             if (failure.empty()) failure = loss(result.mesh, surface_, rung.keeps_surface);
             report_.attempts.push_back(
-                note + (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
-                                        : failure));
+                rung.switches + " (" + rung.remedy + "), size " + formatted(factor, "%.4g") + ": " +
+                (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
+                                 : failure));
             if (!failure.empty()) continue;
             report_.switches = rung.switches;
             report_.surface_kept = rung.keeps_surface;
             return std::move(result.mesh);
         }
-        fail();
+        throw AlgorithmFailure(
+            tetgen_failure_text(surface_, report_.attempts, tetgen_intersecting_facets(surface_)));
     }
 
     // Distribution of the lumen's volume over the target sizes: samples of a coarse filling.
@@ -175,22 +178,6 @@ public:
     }
 
 private:
-    [[noreturn]] void fail() {
-        std::string text = "tetrahedralize: TetGen cannot fill the surface; tried:";
-        for (const std::string& attempt : report_.attempts) text += "\n  " + attempt;
-        const auto culprits = tetgen_intersecting_facets(surface_);
-        for (std::size_t i = 0; i < culprits.size() && i < 5; ++i) {
-            const auto& [a, b, c] = surface_.triangles()[culprits[i]];
-            const Vec3 centre =
-                (surface_.points()[a] + surface_.points()[b] + surface_.points()[c]) / 3.0;
-            text += "\n  facet " + std::to_string(culprits[i]) + " at " + place_text(centre) +
-                    " intersects another one";
-        }
-        throw AlgorithmFailure(text +
-                               "\nrun `repair` and `remesh` before it, with a smaller edge length "
-                               "where walls are close");
-    }
-
     const Surface& surface_;
     SizeField sizes_;
     std::vector<Rung> rungs_;
