@@ -157,7 +157,7 @@ std::vector<double> radii_from_rays(const Surface& surface, double limit) {
 
 /// On caps, rays and lines say nothing about the wall: the rim's mean is used.
 void take_from_rims(const Surface& surface, std::vector<double>& radii) {
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     std::vector<double> sum(surface.patches.size(), 0.0), count(surface.patches.size(), 0.0);
     for (std::size_t v = 0; v < radii.size(); ++v)
         if (caps.patch[v] > 0 && caps.on_rim[v]) {
