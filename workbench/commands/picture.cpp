@@ -10,7 +10,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {

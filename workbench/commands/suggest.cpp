@@ -12,7 +12,7 @@
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 

@@ -13,7 +13,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/point_json.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

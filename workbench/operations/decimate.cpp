@@ -12,8 +12,8 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
-#include "workbench/operations/context_weights.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/context_weights.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

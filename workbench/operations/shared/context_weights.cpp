@@ -1,4 +1,4 @@
-#include "workbench/operations/context_weights.h"
+#include "workbench/operations/shared/context_weights.h"
 
 #include <algorithm>
 #include <numeric>
