@@ -9,6 +9,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/distance_tree.h"
+#include "geometry/kernel/surface_distance.h"
 #include "smoothing/context/distance_weights.h"
 
 namespace vesselbench {
@@ -42,7 +43,8 @@ struct DeviceTree {
     Buffer nodes, corners, dipoles;
 
     DeviceTree(const DeviceSurface& surface, const Surface& neighbour) {
-        const DistanceTree tree(neighbour.points(), neighbour.triangles());
+        const SurfaceDistance distance = distance_to(neighbour);
+        const DistanceTree& tree = distance.tree();
         const Device& device = surface.device();
         const Vec3& centre = surface.centre();
         std::vector<DeviceNode> boxes;

@@ -59,7 +59,7 @@ void silence_openmesh() {
 
 /// Mean length of a closed loop's sides. \param point of a vertex
 template <class Point>
-double mean_side(std::span<const VertexId> loop, const Point& point) {
+double mean_loop_edge(std::span<const VertexId> loop, const Point& point) {
     double sum = 0.0;
     for (std::size_t i = 0; i < loop.size(); ++i)
         sum += (point(loop[(i + 1) % loop.size()]) - point(loop[i])).norm();
@@ -450,11 +450,11 @@ Surface EditableSurface::to_surface(std::vector<VertexId>* new_ids) const {
 }
 
 double mean_edge(const EditableSurface& surface, std::span<const VertexId> loop) {
-    return mean_side(loop, [&](VertexId v) { return surface.point(v); });
+    return mean_loop_edge(loop, [&](VertexId v) { return surface.point(v); });
 }
 
 double mean_edge(const Positions& points, std::span<const VertexId> loop) {
-    return mean_side(loop, [&](VertexId v) { return points[v]; });
+    return mean_loop_edge(loop, [&](VertexId v) { return points[v]; });
 }
 
 }  // namespace vesselbench

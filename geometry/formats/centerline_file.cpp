@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include "geometry/formats/vtk_xml.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -25,30 +23,6 @@ namespace {
 
 /// Line ends closer than this fraction of the extent are merged into one node.
 constexpr double kSamePlace = 1e-6;
-
-/// VTK's XML parser prints messages about a truncated file, so this is checked first.
-void check_whole(const std::string& path, const std::string& name) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) throw IoError("cannot read " + name);
-    const auto size = static_cast<std::streamoff>(file.tellg());
-    const std::streamoff tail = std::min<std::streamoff>(size, 64);
-    std::string end(static_cast<std::size_t>(tail), ' ');
-    file.seekg(size - tail);
-    file.read(end.data(), tail);
-    if (end.find("</VTKFile>") == std::string::npos) {
-        throw InvalidInput(name + " is not a VTP file, or truncated");
-    }
-}
-
-/// Records VTK's complaints instead of letting it print them.
-class Complaint : public vtkCommand {
-public:
-    static Complaint* New() { return new Complaint; }
-
-    void Execute(vtkObject*, unsigned long, void*) override { raised = true; }
-
-    bool raised = false;
-};
 
 template <class Array>
 vtkSmartPointer<Array> named(const char* name) {
@@ -201,18 +175,9 @@ void write_centerlines(const CenterlineGraph& graph, const std::string& path) {
 }
 
 CenterlineGraph read_centerlines(const std::string& path) {
-    const std::string name = std::filesystem::path(path).filename().string();
-    check_whole(path, name);
-    vtkNew<vtkXMLPolyDataReader> reader;
-    vtkNew<Complaint> complaint;
-    reader->AddObserver(vtkCommand::ErrorEvent, complaint.Get());
-    reader->AddObserver(vtkCommand::WarningEvent, complaint.Get());
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    vtkPolyData* data = reader->GetOutput();
-    if (complaint->raised || reader->GetErrorCode() != 0 || data == nullptr) {
-        throw InvalidInput(name + " is not a VTP file, or damaged");
-    }
+    const std::string name = bare_name(path);
+    require_vtk_xml(file_content(path), name);
+    const vtkSmartPointer<vtkPolyData> data = read_poly_data(path);
     CenterlineGraph graph;
     graph.branches = lines_of(data);
     for (const CenterlineBranch& b : graph.branches) {

@@ -1,7 +1,6 @@
 #include "geometry/formats/file_parts.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -98,8 +97,7 @@ Surface with_parts(const Surface& surface, const RawSurface& raw, std::vector<Pa
 }  // namespace
 
 std::optional<PatchKind> kind_of_name(const std::string& name) {
-    std::string lower = name;
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string lower = lower_case(name);
     for (const PatchKind kind :
          {PatchKind::Wall, PatchKind::Inlet, PatchKind::Outlet, PatchKind::Cut})
         if (lower.rfind(to_string(kind), 0) == 0) return kind;

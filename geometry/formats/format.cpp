@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "geometry/formats/image_bytes.h"
-
 namespace vesselbench {
 
 namespace {
@@ -25,12 +23,12 @@ bool is_folder(const std::string& path) {
 }  // namespace
 
 bool is_named_for_reading(const Format& format, const std::string& path) {
-    if (is_folder(path)) return format.folder;
+    if (is_folder(path)) return !format.folder.empty();
     return ends_in_one_of(path, format.suffixes) || ends_in_one_of(path, format.also_read);
 }
 
 bool is_named_for_writing(const Format& format, const std::string& path) {
-    if (is_folder(path) || lower_suffix(path).empty()) return format.folder;
+    if (is_folder(path) || lower_suffix(path).empty()) return !format.folder.empty();
     return ends_in_one_of(path, format.suffixes);
 }
 
@@ -41,15 +39,6 @@ bool content_fits(const Format& format, const std::string& path) {
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(in.gcount()));
     return format.sniff(head);
-}
-
-std::string enumerated(const std::vector<std::string>& words, const std::string& last) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
-        text += words[i];
-    }
-    return text;
 }
 
 std::string lower_suffix(const std::string& path) {

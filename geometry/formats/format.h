@@ -4,13 +4,15 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/kernel/wording.h"
+
 namespace vesselbench {
 
 /// The content of a file.
 enum class FormatKind { Surface, Image, VolumeMesh, Centerlines };
 
-/// A row of a table of formats. The choice of reader or writer, help texts and error texts follow
-/// from these rows; suffixes are named nowhere else.
+/// What every row of the tables of formats says about its format: a file's name chooses its reader
+/// or writer, and help and error texts list formats, by these rows.
 struct Format {
     std::string name;  ///< "STL"
     FormatKind kind = FormatKind::Surface;
@@ -18,9 +20,11 @@ struct Format {
     std::string content;                 ///< what a file holds, for help texts
     std::string unit = "mm";             ///< of the lengths in a written file
     std::vector<std::string> also_read;  ///< suffixes of files that are read, but never written
-    bool folder = false;                 ///< a folder without a suffix has this format
-    /// Whether a file that begins with these bytes (at most kSniffedBytes) has this format. Needed
-    /// where formats share a suffix.
+    /// What a folder of this format is, "of DICOM slices"; empty: it is no folder. Folders have no
+    /// suffix.
+    std::string folder = {};
+    /// Whether a file that begins with these bytes (at most kSniffedBytes) is has this format.
+    /// Needed where formats share a suffix.
     bool (*sniff)(std::string_view head) = nullptr;
     bool any_name = false;  ///< such files may have any name: `sniff` decides
 };
@@ -94,9 +98,14 @@ std::vector<std::string> read_names(const std::vector<Row>& rows) {
     return names;
 }
 
-/// "a, b and c", or with another last word "a, b or c".
-[[nodiscard]] std::string enumerated(const std::vector<std::string>& words,
-                                     const std::string& last = "and");
+/// The folders among the rows: "a folder of DICOM slices". \param noun "a folder" or "folders"
+template <class Row>
+std::string folder_text(const std::vector<Row>& rows, const std::string& noun = "a folder") {
+    std::vector<std::string> texts;
+    for (const Row& row : rows)
+        if (!row.folder.empty()) texts.push_back(noun + " " + row.folder);
+    return enumerated(texts);
+}
 
 /// The path's suffix in lower case, with the dot; empty if it has none.
 [[nodiscard]] std::string lower_suffix(const std::string& path);

@@ -356,10 +356,4 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower;
-}
-
 }  // namespace vesselbench

@@ -81,6 +81,4 @@ struct ImageHeader {
 /// The text's words.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
 
-[[nodiscard]] std::string lower_case(std::string_view text);
-
 }  // namespace vesselbench

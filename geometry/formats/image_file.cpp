@@ -6,12 +6,13 @@
 #include "geometry/formats/image_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
 std::string image_formats_text() {
     return enumerated(read_names(image_formats())) + " (" +
-           enumerated(read_suffixes(image_formats())) + "), or a folder of DICOM slices";
+           enumerated(read_suffixes(image_formats())) + "), or " + folder_text(image_formats());
 }
 
 ImageFile read_image_file(const std::string& path) {

@@ -46,7 +46,7 @@ const std::vector<ImageFormat>& image_formats() {
           .kind = Image,
           .suffixes = {".dcm", ".ima"},
           .content = "several frames, or a folder of slices",
-          .folder = true,
+          .folder = "of DICOM slices",
           .sniff = is_dicom,
           .any_name = true},
          read_dicom}};

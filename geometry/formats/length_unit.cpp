@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -89,12 +89,9 @@ double implausibility(const Figures& figures, double factor) {
 
 std::string reason_text(const Figures& figures, LengthUnit unit) {
     const double factor = millimetres_per(unit);
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
-        "guessed from the size: in %s it is %.3g mm long with a typical radius of %.3g mm",
-        to_string(unit).c_str(), factor * figures.extent, factor * figures.radius);
-    return text;
+    return "guessed from the size: in " + to_string(unit) + " it is " +
+           formatted(factor * figures.extent) + " mm long with a typical radius of " +
+           formatted(factor * figures.radius) + " mm";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

@@ -4,6 +4,7 @@
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 

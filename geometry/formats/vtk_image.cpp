@@ -16,6 +16,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "geometry/formats/image_bytes.h"
+#include "geometry/formats/vtk_xml.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -81,7 +82,7 @@ void check_vti_header(std::string_view bytes, const std::string& name) {
         size[i] = static_cast<long long>(*high) - static_cast<long long>(*low) + 1;
     }
     (void)checked_voxel_count(size, name);
-    if (bytes.find("</VTKFile>") == std::string_view::npos) damaged(name);
+    require_vtk_xml(bytes, name);
 }
 
 void check_legacy_header(std::string_view bytes, const std::string& name) {

@@ -7,51 +7,23 @@
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include "geometry/formats/vtk_mesh.h"
+#include "geometry/formats/vtk_xml.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// Records VTK's complaints instead of letting it print them.
-class Complaint : public vtkCommand {
-public:
-    static Complaint* New() { return new Complaint; }
-
-    void Execute(vtkObject*, unsigned long, void*) override { raised = true; }
-
-    bool raised = false;
-};
-
-template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(Reader* reader, const std::string& path) {
-    vtkNew<Complaint> complaint;
-    reader->AddObserver(vtkCommand::ErrorEvent, complaint.Get());
-    reader->AddObserver(vtkCommand::WarningEvent, complaint.Get());
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
-    if (complaint->raised || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
-        throw InvalidInput(
-            bare_name(path) +
-            " is damaged, truncated, or not a VTK surface (poly data): VTK cannot read it");
-    return data;
-}
 
 RawSurface points_of(vtkPolyData* data, const std::string& file) {
     RawSurface raw;
@@ -203,19 +175,12 @@ void check_components(const std::string& bytes, const std::string& file) {
 
 RawSurface read_vtp(const std::string& path) {
     const std::string bytes = file_content(path), file = bare_name(path);
-    if (bytes.find("<VTKFile") == std::string::npos)
-        throw InvalidInput(file + " is not a VTK XML file: '<VTKFile' is missing");
+    require_vtk_xml(bytes, file);
     if (bytes.find("\"PolyData\"") == std::string::npos)
         throw InvalidInput(file + " contains no surface (type PolyData)");
-    if (bytes.rfind("</VTKFile>") == std::string::npos)
-        throw InvalidInput(
-            file + " ends without '</VTKFile>': it is truncated; copy or download it again");
     check_components(bytes, file);
-    vtkLogger::SetStderrVerbosity(
-        vtkLogger::VERBOSITY_OFF);  // the error is reported by our own text
-    vtkNew<vtkXMLPolyDataReader> reader;
     try {
-        return raw_from(read_with(reader.Get(), path), file);
+        return raw_from(read_poly_data(path), file);
     } catch (const std::bad_alloc&) {
         throw InvalidInput(file + " announces more data than it can hold: it is damaged");
     }

@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/image/flying_edges.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -100,8 +101,7 @@ void press_to_border(GridSurface& mesh, const std::array<int, 3>& size) {
     }
     for (Triangle& t : mesh.triangles)
         for (VertexId& v : t) v = new_id[v];
-    std::erase_if(mesh.triangles,
-                  [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    std::erase_if(mesh.triangles, names_vertex_twice);
     mesh.points = std::move(kept);
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/image/clean_image.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/statistics.h"
 
 namespace vesselbench {
 
@@ -53,12 +54,6 @@ double border_above_zero(const Image& image) {
                     above += image.at(i, j, k) > 0.0f ? 1 : 0;
                 }
     return static_cast<double>(above) / static_cast<double>(border);
-}
-
-double median(std::vector<float> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
 }
 
 /// Values of the voxels where 0.5 <= mask and the other mask is below.

@@ -19,10 +19,6 @@ struct HalfEdge {
     }
 };
 
-bool names_vertex_twice(const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 /// Vertices whose triangles, connected across shared edges only, form several fans.
 std::vector<VertexId> several_fans(const Topology& topology, const EdgeTable& edges) {
     // A corner (triangle, k) is joined with the corner at the same vertex across an edge.

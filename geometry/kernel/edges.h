@@ -12,6 +12,10 @@ namespace vesselbench {
     return triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2;
 }
 
+[[nodiscard]] inline bool names_vertex_twice(const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// Every edge once, with its half-edges (triangle corners).
 struct EdgeTable {
     std::vector<std::array<VertexId, 2>> edges;  ///< {low, high}, ascending

@@ -103,7 +103,6 @@ struct SurfaceMeasures {
 };
 
 /// \throw InvalidInput if the surface has no triangle
-/// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] SurfaceMeasures measure(const Surface& surface,
                                       DerivedCache& cache = derived_cache());
 

@@ -270,6 +270,10 @@ std::vector<double> SurfaceDistance::signed_distances(std::span<const Vec3> poin
     return found;
 }
 
+const DistanceTree& SurfaceDistance::tree() const {
+    return *data_;
+}
+
 std::size_t SurfaceDistance::bytes() const {
     return std::as_bytes(data_->tree.nodes()).size() + std::as_bytes(data_->tree.items()).size() +
            std::as_bytes(std::span(data_->corners)).size() +

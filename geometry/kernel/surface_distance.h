@@ -11,6 +11,8 @@
 
 namespace vesselbench {
 
+struct DistanceTree;
+
 /// A point on a surface.
 struct SurfacePoint {
     Vec3 point = Vec3::Zero();  ///< [mm]
@@ -69,6 +71,9 @@ public:
     /// The same for many points, in parallel; results in the order of the points.
     [[nodiscard]] std::vector<SurfacePoint> closest_points(std::span<const Vec3> points) const;
     [[nodiscard]] std::vector<double> signed_distances(std::span<const Vec3> points) const;
+
+    /// The tree, for searches elsewhere; it lives as long as this object.
+    [[nodiscard]] const DistanceTree& tree() const;
 
     /// Memory [bytes].
     [[nodiscard]] std::size_t bytes() const;

@@ -10,7 +10,8 @@ namespace vesselbench {
 namespace fs = std::filesystem;
 
 std::string bare_name(const fs::path& path) {
-    return (path.has_filename() ? path : path.parent_path()).filename().string();
+    const fs::path normal = path.lexically_normal();
+    return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
 }
 
 std::string file_content(const fs::path& path) {

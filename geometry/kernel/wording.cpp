@@ -1,5 +1,6 @@
 #include "geometry/kernel/wording.h"
 
+#include <cctype>
 #include <cstdio>
 
 namespace vesselbench {
@@ -23,6 +24,21 @@ std::string joined(std::span<const std::string> names, const std::string& separa
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
     return text;
+}
+
+std::string enumerated(const std::vector<std::string>& words, const std::string& last) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower;
 }
 
 std::string xml_escaped(const std::string& text) {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "geometry/kernel/vec3.h"
 
@@ -22,6 +24,13 @@ namespace vesselbench {
 /// "a, b, c"
 [[nodiscard]] std::string joined(std::span<const std::string> names,
                                  const std::string& separator = ", ");
+
+/// "a, b and c", or with another last word "a, b or c".
+[[nodiscard]] std::string enumerated(const std::vector<std::string>& words,
+                                     const std::string& last = "and");
+
+/// ASCII letters only; other bytes stay.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 /// The text escaped for XML and HTML, also in attributes.
 [[nodiscard]] std::string xml_escaped(const std::string& text);

@@ -50,7 +50,7 @@ const std::vector<CaseFormat>& case_formats() {
                                                    .kind = FormatKind::VolumeMesh,
                                                    .content = "a case for simpleFoam",
                                                    .unit = "m",
-                                                   .folder = true},
+                                                   .folder = "for an OpenFOAM case"},
                                                   write_openfoam_case}};
     return rows;
 }

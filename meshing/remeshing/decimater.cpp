@@ -201,7 +201,7 @@ bool Decimater::folds(const Collapse& collapse) const {
 
 /// Penalties beyond the quadrics: bad triangles, turned normals, and a vertex of tiny triangles
 /// that also belongs to large ones.
-double Decimater::dearness(const Collapse& collapse) const {
+double Decimater::penalty(const Collapse& collapse) const {
     const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
     double worst = 1.0, least_cosine = 1.0, area = 0.0;
     for (const auto& [end, other] : {std::pair(a, b), std::pair(b, a)})
@@ -221,7 +221,7 @@ double Decimater::dearness(const Collapse& collapse) const {
 
 double Decimater::full_cost(const Collapse& collapse) const {
     const VertexId a = mesh_.origin(collapse.edge), b = mesh_.target(collapse.edge);
-    const double cost = collapse.cost * dearness(collapse);
+    const double cost = collapse.cost * penalty(collapse);
     if (keep_[a] == 0 && keep_[b] == 0) return cost;
     const double square = (mesh_.points[a] - mesh_.points[b]).squaredNorm();
     return cost + kKept * (areas_[a] + areas_[b]) * square;

@@ -62,7 +62,7 @@ private:
     [[nodiscard]] bool is_current(const Entry& entry) const;
     [[nodiscard]] std::optional<Collapse> best_collapse(HalfEdge h);
     [[nodiscard]] Vec3 place_inside(VertexId a, VertexId b, const Quadric& sum) const;
-    [[nodiscard]] double dearness(const Collapse& collapse) const;
+    [[nodiscard]] double penalty(const Collapse& collapse) const;
     [[nodiscard]] double full_cost(const Collapse& collapse) const;
     [[nodiscard]] Vec3 facing(TriangleId t, VertexId v) const;
     [[nodiscard]] bool folds(const Collapse& collapse) const;

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 #include "meshing/remeshing/vertex_fields.h"
 
@@ -63,12 +64,6 @@ bool is_blind(const CenterlineNode& node, const std::vector<Opening>& openings) 
                return (o.centroid - node.position).norm() <=
                       kBlindTip * std::max(o.radius, node.radius);
            });
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Largest radius of a branch: for a blind branch (a sac) that of its parent vessel, for a vessel a
@@ -162,7 +157,7 @@ std::vector<double> radii_from_rays(const Surface& surface, double limit) {
 
 /// On caps, rays and lines say nothing about the wall: the rim's mean is used.
 void take_from_rims(const Surface& surface, std::vector<double>& radii) {
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     std::vector<double> sum(surface.patches.size(), 0.0), count(surface.patches.size(), 0.0);
     for (std::size_t v = 0; v < radii.size(); ++v)
         if (caps.patch[v] > 0 && caps.on_rim[v]) {

@@ -35,7 +35,7 @@ void require_parameters(const SizingParameters& p) {
 /// mesh cannot represent.
 Positions smoothed_normals(const Surface& surface, double edge) {
     const CompressedRows& rings = surface.topology->rings();
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     Positions now = wall_normals(surface), next = now;
     const double reach = 0.7 * edge / mean_edge_length(surface);
     const int passes = std::clamp(static_cast<int>(reach * reach), 1, 60);
@@ -56,7 +56,7 @@ Positions smoothed_normals(const Surface& surface, double edge) {
 std::vector<double> curvatures(const Surface& surface, double edge) {
     const Positions normals = smoothed_normals(surface, edge);
     const CompressedRows& rings = surface.topology->rings();
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     const Positions& points = surface.points();
     std::vector<double> result(points.size(), 0.0);
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t v) {
@@ -81,7 +81,7 @@ std::vector<double> outer_gaps(const Surface& surface, double reach) {
     const SurfaceDistance search = distance_to(surface);
     const double skin = 1e-6 * reach;  // skips the wall that the ray starts on
     const Positions normals = wall_normals(surface);
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     std::vector<double> gaps(surface.vertex_count(), std::numeric_limits<double>::infinity());
     tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t v) {
         if (caps.patch[v] > 0 || normals[v].isZero()) return;

@@ -7,9 +7,9 @@
 
 namespace vesselbench {
 
-CapVertices cap_vertices(const Surface& surface) {
+VertexCaps caps_of_vertices(const Surface& surface) {
     const std::size_t count = surface.vertex_count();
-    CapVertices caps{std::vector<std::uint16_t>(count, 0), std::vector<std::uint8_t>(count, 0)};
+    VertexCaps caps{std::vector<std::uint16_t>(count, 0), std::vector<std::uint8_t>(count, 0)};
     std::vector<std::uint8_t> on_wall(count, 0);
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const bool is_wall = surface.patch_of(t).kind == PatchKind::Wall;
@@ -25,7 +25,7 @@ CapVertices cap_vertices(const Surface& surface) {
 }
 
 Positions wall_normals(const Surface& surface) {
-    const CapVertices caps = cap_vertices(surface);
+    const VertexCaps caps = caps_of_vertices(surface);
     Positions normals(surface.vertex_count(), Vec3::Zero());
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const bool is_wall = surface.patch_of(t).kind == PatchKind::Wall;

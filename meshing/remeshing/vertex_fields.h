@@ -18,12 +18,12 @@ namespace vesselbench {
 [[nodiscard]] Vec3 barycentric(const Positions& points, const Triangle& triangle, const Vec3& at);
 
 /// Which cap each vertex belongs to.
-struct CapVertices {
+struct VertexCaps {
     std::vector<std::uint16_t> patch;  ///< index of the cap's patch; 0: on the wall only
     std::vector<std::uint8_t> on_rim;  ///< 1 if wall and cap meet
 };
 
-[[nodiscard]] CapVertices cap_vertices(const Surface& surface);
+[[nodiscard]] VertexCaps caps_of_vertices(const Surface& surface);
 
 /// Sets every vertex of value 0 to the value of the nearest other one, counted in edges.
 void fill_zeros(const Topology& topology, std::vector<double>& values);

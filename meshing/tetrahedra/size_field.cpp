@@ -5,18 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/kernel/statistics.h"
+
 namespace vesselbench {
 
 namespace {
 
 constexpr double kLargestGrid = 4e6;  // nodes; 32 MiB
 constexpr float kUnset = std::numeric_limits<float>::max();
-
-double mean(const std::vector<double>& values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
-}
 
 struct Offset {
     int i, j, k;

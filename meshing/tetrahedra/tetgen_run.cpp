@@ -5,6 +5,7 @@
 
 #include <tetgen.h>
 
+#include "meshing/tetrahedra/tetgen_failure.h"
 #include "meshing/tetrahedra/tetgen_guard.h"
 
 namespace vesselbench {
@@ -19,25 +20,6 @@ bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL* /*metric*/, REAL /*vol
         pd(d[0], d[1], d[2]);
     const double volume = std::abs((pb - pa).cross(pc - pa).dot(pd - pa)) / 6.0;
     return (*current_wish)((pa + pb + pc + pd) / 4.0, volume);
-}
-
-std::string meaning_of(int code) {
-    switch (code) {
-        case 1:
-            return "out of memory";
-        case 2:
-            return "internal error of TetGen";
-        case 3:
-            return "two facets of the surface intersect";
-        case 4:
-            return "a feature of the surface is too small for the tolerance";
-        case 5:
-            return "two facets of the surface nearly coincide";
-        case 10:
-            return "TetGen does not accept the surface as input";
-        default:
-            return "TetGen stopped with code " + std::to_string(code);
-    }
 }
 
 void fill_input(const Surface& surface, tetgenio& input) {
@@ -144,7 +126,7 @@ TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
         result.mesh = mesh_of(output, surface);
     } catch (int code) {
         result.error_code = code;
-        result.error = meaning_of(code);
+        result.error = tetgen_error_text(code);
     }
     current_wish = nullptr;
     return result;

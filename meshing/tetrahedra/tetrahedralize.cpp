@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
@@ -14,6 +13,7 @@
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/size_field.h"
 #include "meshing/tetrahedra/surface_check.h"
+#include "meshing/tetrahedra/tetgen_failure.h"
 #include "meshing/tetrahedra/tetgen_run.h"
 
 namespace vesselbench {
@@ -144,18 +144,17 @@ public:
             TetgenResult result = run_tetgen(surface_, rung.switches, too_large);
             std::string failure = result.error;
             if (failure.empty()) failure = loss(result.mesh, surface_, rung.keeps_surface);
-            char note[160];
-            std::snprintf(note, sizeof note, "%s (%s), size %.4g: ", rung.switches.c_str(),
-                          rung.remedy, factor);
             report_.attempts.push_back(
-                note + (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
-                                        : failure));
+                rung.switches + " (" + rung.remedy + "), size " + formatted(factor, "%.4g") + ": " +
+                (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
+                                 : failure));
             if (!failure.empty()) continue;
             report_.switches = rung.switches;
             report_.surface_kept = rung.keeps_surface;
             return std::move(result.mesh);
         }
-        fail();
+        throw AlgorithmFailure(
+            tetgen_failure_text(surface_, report_.attempts, tetgen_intersecting_facets(surface_)));
     }
 
     // Distribution of the lumen's volume over the target sizes: samples of a coarse filling.
@@ -179,22 +178,6 @@ public:
     }
 
 private:
-    [[noreturn]] void fail() {
-        std::string text = "tetrahedralize: TetGen cannot fill the surface; tried:";
-        for (const std::string& attempt : report_.attempts) text += "\n  " + attempt;
-        const auto culprits = tetgen_intersecting_facets(surface_);
-        for (std::size_t i = 0; i < culprits.size() && i < 5; ++i) {
-            const auto& [a, b, c] = surface_.triangles()[culprits[i]];
-            const Vec3 centre =
-                (surface_.points()[a] + surface_.points()[b] + surface_.points()[c]) / 3.0;
-            text += "\n  facet " + std::to_string(culprits[i]) + " at " + place_text(centre) +
-                    " intersects another one";
-        }
-        throw AlgorithmFailure(text +
-                               "\nrun `repair` and `remesh` before it, with a smaller edge length "
-                               "where walls are close");
-    }
-
     const Surface& surface_;
     SizeField sizes_;
     std::vector<Rung> rungs_;
@@ -241,18 +224,15 @@ constexpr double kFineLumen = 0.6;
 
 void warn_of_number(double wanted, TetrahedralizeReport& report) {
     const auto reached = static_cast<double>(report.quality.cells);
-    char text[200] = "";
+    const std::string cells = formatted(wanted, "%.0f cells");
     if (std::abs(reached / wanted - 1.0) > 0.1)
-        std::snprintf(text, sizeof text,
-                      "%.0f cells requested, %.0f reached: the surface's edge length limits the "
-                      "number; change it with `remesh`",
-                      wanted, reached);
+        report.warnings.push_back(cells + " requested, " + formatted(reached, "%.0f") +
+                                  " reached: the surface's edge length limits the number; change "
+                                  "it with `remesh`");
     else if (report.size < kFineLumen)
-        std::snprintf(text, sizeof text,
-                      "the lumen's edges are %.2g of the surface's: to resolve the wall as well "
-                      "with %.0f cells, `remesh` with an edge length scaled by about that factor",
-                      report.size, wanted);
-    if (text[0] != 0) report.warnings.emplace_back(text);
+        report.warnings.push_back("the lumen's edges are " + formatted(report.size, "%.2g") +
+                                  " of the surface's: to resolve the wall as well with " + cells +
+                                  ", `remesh` with an edge length scaled by about that factor");
 }
 
 }  // namespace

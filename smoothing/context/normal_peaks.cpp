@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/statistics.h"
 #include "smoothing/context/gauss_map.h"
 
 namespace vesselbench {
@@ -74,13 +75,6 @@ Neighbourhood neighbourhood(const FaceNormals& faces, const Vec3& axis) {
         near.areas.push_back(faces.areas[f]);
     }
     return near;
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Directions of a mask's faces [mm^-1, relative]: sums of the axes over the edges, each added,

@@ -10,6 +10,7 @@
 
 #include "geometry/formats/dicom.h"
 #include "geometry/kernel/errors.h"
+#include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -96,15 +97,6 @@ std::string write_series(const std::vector<Slice>& slices) {
         write_slice(folder + "/slice" + std::to_string(9 - s) + ".dcm", slices[s]);
     std::ofstream(folder + "/LICENSE.txt") << "not a slice";
     return folder;
-}
-
-std::string message_of(const std::string& path) {
-    try {
-        (void)read_image(path);
-    } catch (const InvalidInput& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -30,7 +31,7 @@ void check_rows(const std::vector<Row>& rows, FormatKind kind) {
         CHECK(row.kind == kind);
         CHECK_FALSE(row.content.empty());
         CHECK((row.read || row.write));
-        CHECK((row.folder || !row.suffixes.empty()));
+        CHECK((!row.folder.empty() || !row.suffixes.empty()));
         for (const std::string& suffix : row.suffixes) {
             CAPTURE(suffix);
             CHECK(suffix.ends_with(lower_suffix("x" + suffix)));  // lower case, with its dot
@@ -79,6 +80,13 @@ SCENARIO("Errors about a suffix list all suffixes of the table", "[geometry][for
         CHECK_THROWS_WITH(read_image(written("a.docx", "x")), Contains(suffix));
     CHECK_THROWS_AS(check_centerline_name("lines.stl"), UsageError);
     CHECK_THROWS_WITH(write_surface(cube(1.0), "a.docx"), !Contains(".vtk"));  // only read
+}
+
+SCENARIO("Texts about folders follow from the rows", "[geometry][formats]") {
+    CHECK(folder_text(image_formats()) == "a folder of DICOM slices");
+    CHECK(folder_text(image_formats(), "folders") == "folders of DICOM slices");
+    CHECK(folder_text(surface_formats()) == "");
+    CHECK_THAT(image_formats_text(), Contains(folder_text(image_formats())));
 }
 
 SCENARIO("Words are enumerated as in a sentence", "[geometry][formats]") {

@@ -63,15 +63,6 @@ void put(std::string& bytes, std::size_t at, T value) {
     std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
-std::string message_of(const std::string& path) {
-    try {
-        (void)read_image(path);
-    } catch (const InvalidInput& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
 }  // namespace
 
 SCENARIO("An image keeps its place, direction and values through every written format",

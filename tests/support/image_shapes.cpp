@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/formats/image_file.h"
+#include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {
@@ -40,6 +42,15 @@ Image ball_image(double radius, int size, const Vec3& spacing, bool mirrored) {
     return image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
         return 100.0 * std::clamp(0.5 + 0.5 * (radius - (p - middle).norm()), 0.0, 1.0);
     });
+}
+
+std::string message_of(const std::string& path) {
+    try {
+        (void)read_image(path);
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "no error";
 }
 
 }  // namespace vesselbench::test

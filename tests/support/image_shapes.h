@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "geometry/image/image.h"
 
@@ -21,5 +22,8 @@ namespace vesselbench::test {
 
 /// Middle of an image [mm].
 [[nodiscard]] Vec3 middle_of(const Image& image);
+
+/// Why an image file is refused: the text of the InvalidInput, or "no error".
+[[nodiscard]] std::string message_of(const std::string& path);
 
 }  // namespace vesselbench::test

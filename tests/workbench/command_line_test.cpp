@@ -223,6 +223,7 @@ SCENARIO("A picture shows a surface, or its deviation", "[workbench][command-lin
     check_usage_error({"picture", file, out, "--view", "0,0,0"}, {"--view", "no direction"});
     check_usage_error({"picture", file, out, "--view", "1,0"}, {"--view"});
     check_usage_error({"picture", file, out, "--size", "0"}, {"--size", "8192"});
+    check_usage_error({"picture", file, folder + "/ball.PNG", "--size", "0"}, {"--size", "8192"});
     check_usage_error({"picture", file, out, "--full-colour", "1"}, {"needs --reference"});
     const ProgramRun plain = run({"picture", file, out, "--size", "64", "--view=-1,0,0"});
     if (plain.exit_code == 1 && plain.err.find("no pictures:") != std::string::npos) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -16,154 +14,6 @@ namespace {
 /// Share of a live form's batch run that its scene takes; figures take the rest.
 constexpr double kLiveShare = 0.8;
 
-std::string allowed_range(const Parameter& parameter) {
-    const std::string unit =
-        parameter.unit.empty() || parameter.unit == "-" ? "" : " " + parameter.unit;
-    const bool below = std::isfinite(parameter.minimum), above = std::isfinite(parameter.maximum);
-    const std::string from = to_text(Value(parameter.minimum));
-    const std::string to = to_text(Value(parameter.maximum));
-    if (below && above)
-        return (parameter.above_minimum ? "above " + from + " and at most " + to
-                                        : from + " to " + to) +
-               unit;
-    if (below) return (parameter.above_minimum ? "above " : "at least ") + from + unit;
-    if (above) return "at most " + to + unit;
-    return "";
-}
-
-std::string wanted(const Parameter& parameter) {
-    const std::string range = allowed_range(parameter);
-    const std::string in_range = range.empty() ? "" : " (" + range + ")";
-    switch (parameter.type) {
-        case ParameterType::Flag:
-            return "true or false";
-        case ParameterType::Integer:
-            return "an integer" + in_range;
-        case ParameterType::Real:
-            return "a number" + in_range;
-        case ParameterType::Choice:
-            return "one of " + joined(parameter.choices);
-        case ParameterType::Point:
-            return "three numbers x,y,z" + in_range;
-        case ParameterType::List:
-            return "numbers separated by commas" + in_range;
-        case ParameterType::Text:
-            return "a text";
-        case ParameterType::File:
-            return "a file name";
-    }
-    return "";
-}
-
-[[noreturn]] void refuse(const Parameter& parameter, const std::string& text) {
-    const std::string near = parameter.type == ParameterType::Choice
-                                 ? did_you_mean(text, parameter.choices)
-                                 : std::string();
-    throw UsageError("parameter '" + parameter.name + "' = '" + text +
-                     "' is not allowed: it must be " + wanted(parameter) + near);
-}
-
-template <class Number>
-std::optional<Number> number_from(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-std::optional<std::vector<double>> numbers_from(std::string_view text) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const auto number = number_from<double>(text.substr(begin, comma - begin));
-        if (!number) return std::nullopt;
-        numbers.push_back(*number);
-        begin = comma + 1;
-    }
-    return numbers;
-}
-
-std::optional<Value> value_from_text(const Parameter& parameter, const std::string& text) {
-    const auto value_of = [](const auto& number) {
-        return number ? std::optional<Value>(*number) : std::nullopt;
-    };
-    switch (parameter.type) {
-        case ParameterType::Flag:
-            if (text == "true") return Value(true);
-            if (text == "false") return Value(false);
-            return std::nullopt;
-        case ParameterType::Integer:
-            return value_of(number_from<std::int64_t>(text));
-        case ParameterType::Real:
-            return value_of(number_from<double>(text));
-        case ParameterType::List:
-            return value_of(numbers_from(text));
-        case ParameterType::Point: {
-            const auto numbers = numbers_from(text);
-            if (!numbers || numbers->size() != 3) return std::nullopt;
-            return Value(Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]));
-        }
-        case ParameterType::File:
-            if (text.empty()) return std::nullopt;
-            return Value(text);
-        case ParameterType::Choice:
-        case ParameterType::Text:
-            return Value(text);
-    }
-    return std::nullopt;
-}
-
-std::vector<double> numbers_of(const Value& value) {
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*whole)};
-    if (const auto* real = std::get_if<double>(&value)) return {*real};
-    if (const auto* p = std::get_if<Vec3>(&value)) return {p->x(), p->y(), p->z()};
-    if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
-    return {};
-}
-
-/// The value in the parameter's own type: integers are accepted as real numbers, three numbers as a
-/// point, a text is parsed.
-std::optional<Value> in_type(const Parameter& parameter, const Value& value) {
-    if (const auto* text = std::get_if<std::string>(&value))
-        return value_from_text(parameter, *text);
-    if (std::holds_alternative<bool>(value))
-        return parameter.type == ParameterType::Flag ? std::optional(value) : std::nullopt;
-    const std::vector<double> numbers = numbers_of(value);
-    switch (parameter.type) {
-        case ParameterType::Integer:
-            if (numbers.size() != 1 || numbers[0] != std::floor(numbers[0]) ||
-                std::abs(numbers[0]) > 9e15)
-                return std::nullopt;
-            return Value(static_cast<std::int64_t>(numbers[0]));
-        case ParameterType::Real:
-            return numbers.size() == 1 ? std::optional<Value>(numbers[0]) : std::nullopt;
-        case ParameterType::Point:
-            if (numbers.size() != 3) return std::nullopt;
-            return Value(Vec3(numbers[0], numbers[1], numbers[2]));
-        case ParameterType::List:
-            return Value(numbers);
-        case ParameterType::Text:
-            return Value(to_text(value));
-        default:
-            return std::nullopt;
-    }
-}
-
-bool in_range(const Parameter& parameter, const Value& value) {
-    if (parameter.type == ParameterType::Choice)
-        return std::ranges::count(parameter.choices, std::get<std::string>(value)) > 0;
-    return std::ranges::all_of(numbers_of(value), [&](double number) {
-        return std::isfinite(number) && number <= parameter.maximum &&
-               (parameter.above_minimum ? number > parameter.minimum : number >= parameter.minimum);
-    });
-}
-
-Value checked(const Parameter& parameter, const Value& value) {
-    const std::optional<Value> typed = in_type(parameter, value);
-    if (!typed || !in_range(parameter, *typed)) refuse(parameter, to_text(value));
-    return *typed;
-}
-
 /// \param whole fills in defaults and demands required arguments
 Arguments checked_values(const Operation& operation, const Arguments& given, bool whole) {
     for (const auto& [name, value] : given.values())
@@ -173,9 +23,9 @@ Arguments checked_values(const Operation& operation, const Arguments& given, boo
         const auto found = given.values().find(parameter.name);
         try {
             if (found != given.values().end())
-                result.set(parameter.name, checked(parameter, found->second));
+                result.set(parameter.name, checked_value(parameter, found->second));
             else if (whole && parameter.default_value)
-                result.set(parameter.name, checked(parameter, *parameter.default_value));
+                result.set(parameter.name, checked_value(parameter, *parameter.default_value));
             else if (whole && parameter.required)
                 throw UsageError("parameter '" + parameter.name +
                                  "' is required: " + parameter.help);
@@ -195,11 +45,10 @@ std::string to_string(Step step) {
     return names.at(static_cast<std::size_t>(step) - 1);
 }
 
-std::string to_string(const Condition& condition) {
-    std::string text = condition.parameter + "=";
-    for (std::size_t i = 0; i < condition.values.size(); ++i)
-        text += (i > 0 ? " or " : "") + condition.values[i];
-    return text;
+std::vector<std::string> step_names(const std::vector<Step>& steps) {
+    std::vector<std::string> names;
+    for (const Step step : steps) names.push_back(to_string(step));
+    return names;
 }
 
 const Parameter& find_parameter(const Operation& operation, const std::string& name) {
@@ -211,10 +60,6 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
     const std::string takes = names.empty() ? "it has none" : "its parameters are " + joined(names);
     throw UsageError(operation.name + " has no parameter '" + name + "'" +
                      did_you_mean(name, names) + " (" + takes + ")");
-}
-
-Value parse_value(const Parameter& parameter, const std::string& text) {
-    return checked(parameter, Value(text));
 }
 
 Arguments checked_arguments(const Operation& operation, const Arguments& given) {

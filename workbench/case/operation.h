@@ -1,19 +1,13 @@
 #pragma once
 
-#include <limits>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include "geometry/kernel/progress.h"
-#include "workbench/case/arguments.h"
 #include "workbench/case/operation_search.h"
+#include "workbench/case/parameter.h"
 #include "workbench/case/recipe_part.h"
-#include "workbench/case/scene.h"
+#include "workbench/case/stepper.h"
 
 namespace vesselbench {
 
@@ -33,73 +27,12 @@ enum class Step : int {
 
 [[nodiscard]] std::string to_string(Step step);  ///< "source", "branches", "local-repair" ...
 
-enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
-
-/// An argument without which another one has no effect: "distance=margin".
-struct Condition {
-    std::string parameter;
-    std::vector<std::string> values;  ///< any of them, in the command line's form
-};
-
-[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
-
-/// One documented parameter: the command line's option, the check and its error text, the recipe's
-/// key and the page docs/operations.md are all generated from this.
-struct Parameter {
-    std::string name;
-    ParameterType type = ParameterType::Real;
-    std::string unit = {};  ///< "mm", "-", "deg" ...; empty for texts
-    std::optional<Value> default_value =
-        {};            ///< none: the operation decides by itself, or `required`
-    std::string help;  ///< one sentence; states the default decision if it is absent
-    double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
-    double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
-    std::vector<std::string> choices = {};                      ///< for Choice
-    bool required = false;
-    bool above_minimum = false;               ///< the minimum itself is not allowed
-    std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
-};
-
-/// An operation's figures about its findings and results: a JSON object with units in the keys
-/// (`volume_mm3`).
-using Report = std::shared_ptr<const nlohmann::ordered_json>;
-
-/// The outcome of an operation: a new scene, its figures, and the arguments with all its decisions
-/// filled in.
-struct Outcome {
-    Scene scene;
-    Report report;
-    Arguments resolved;
-    std::vector<std::string> warnings;
-};
+[[nodiscard]] std::vector<std::string> step_names(const std::vector<Step>& steps);
 
 /// A pure function: same scene, same arguments, same outcome, bit for bit.
 /// \throw UsageError, InvalidInput, AlgorithmFailure, Cancelled; the scene is never touched
 using OperationFunction = Outcome (*)(const Scene& scene, const Arguments& arguments,
                                       Progress& progress);
-
-/// An operation that is driven live: started on a scene, then given arguments as they arrive. Its
-/// batch form is start plus everything added, so the preview and the committed result have the same
-/// bits. Not thread-safe.
-class Stepper {
-public:
-    virtual ~Stepper() = default;
-
-    /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \param more as from checked_changes()
-    /// \throw as the operation's batch form; everything is then unchanged
-    virtual void add(const Arguments& more, Progress& progress) = 0;
-
-    /// The scene after everything added so far.
-    [[nodiscard]] virtual const Scene& scene() const = 0;
-
-    /// The arguments after everything added so far, with the operation's decisions filled in.
-    [[nodiscard]] virtual const Arguments& resolved() const = 0;
-
-    /// The batch form's outcome for everything added so far, including figures. More may be added
-    /// afterwards.
-    [[nodiscard]] virtual Outcome outcome(Progress& progress) = 0;
-};
 
 /// Starts an operation live. \param checked arguments as checked_arguments() returns them
 using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene, const Arguments& checked,
@@ -129,10 +62,6 @@ struct Operation {
 
 /// \throw UsageError that lists similar names and all names if the operation has no such parameter
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
-
-/// Parses the command line's text of one argument.
-/// \throw UsageError that names the parameter, the text and the range
-[[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
 
 /// Fills in defaults and checks types, ranges, choices, unknown names. Absent optional arguments
 /// stay absent.

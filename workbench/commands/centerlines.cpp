@@ -11,7 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 
 namespace vesselbench {
 

@@ -9,7 +9,7 @@
 #include "workbench/case/measure_json.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 
 namespace vesselbench {
 

@@ -39,12 +39,6 @@ std::string to_string(ParameterType type) {
     return "";
 }
 
-std::vector<std::string> step_names(const Operation& operation) {
-    std::vector<std::string> names;
-    for (const Step step : operation.allowed) names.push_back(to_string(step));
-    return names;
-}
-
 Json json_of(const Parameter& parameter) {
     Json json = {{"name", parameter.name},
                  {"type", to_string(parameter.type)},
@@ -65,7 +59,7 @@ Json json_of(const Parameter& parameter) {
 Json json_of(const Operation& operation) {
     Json json = {{"name", operation.name},
                  {"step", to_string(operation.usual_step)},
-                 {"allowed_steps", step_names(operation)},
+                 {"allowed_steps", step_names(operation.allowed)},
                  {"summary", operation.summary},
                  {"thesis", operation.thesis},
                  {"parameters", Json::array()}};
@@ -125,7 +119,7 @@ std::vector<std::string> parameter_row(const Parameter& parameter) {
 
 void print_one(const Operation& operation) {
     std::cout << operation.name << ": " << operation.summary << "\n\n";
-    std::cout << "steps: " << joined(step_names(operation)) << " (usually "
+    std::cout << "steps: " << joined(step_names(operation.allowed)) << " (usually "
               << to_string(operation.usual_step) << ")\n";
     if (!operation.thesis.empty()) std::cout << "thesis: " << operation.thesis << "\n";
     std::cout << "\n";
@@ -155,7 +149,7 @@ std::string escaped(const std::string& text) {
 
 void print_markdown(const Operation& operation) {
     std::cout << "\n### " << operation.name << "\n\n" << operation.summary << "\n\n";
-    std::cout << "Steps: " << joined(step_names(operation)) << ".";
+    std::cout << "Steps: " << joined(step_names(operation.allowed)) << ".";
     if (!operation.thesis.empty()) std::cout << " Thesis: " << operation.thesis << ".";
     std::cout << "\n";
     if (operation.parameters.empty()) return;

@@ -5,11 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/format.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {
@@ -19,7 +20,7 @@ namespace {
 constexpr int kLargestSide = 8192;  ///< limit of gpu/picture.h
 
 void check(const PictureArguments& arguments) {
-    if (!arguments.out.ends_with(".png"))
+    if (lower_suffix(arguments.out) != ".png")
         throw UsageError("OUT '" + arguments.out + "' does not end in .png");
     if (arguments.size < 1 || arguments.size > kLargestSide)
         throw UsageError("--size: " + std::to_string(arguments.size) +

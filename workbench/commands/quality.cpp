@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/format.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
@@ -30,11 +31,15 @@ BarOrder order_from(const std::string& name) {
     throw UsageError("--sort: '" + name + "' is unknown: use parameter or measure");
 }
 
+bool is_gallery(const std::string& out) {
+    return lower_suffix(out) == ".png";
+}
+
 void check(const QualityOptions& options) {
     if (options.out.empty() && !options.json)
         throw UsageError("give an output: --out graphs.svg, bars.svg or gallery.png, or --json");
     for (const std::string& out : options.out)
-        if (!out.ends_with(".svg") && !out.ends_with(".png"))
+        if (lower_suffix(out) != ".svg" && !is_gallery(out))
             throw UsageError("--out: '" + out + "' ends neither in .svg nor in .png");
     static_cast<void>(order_from(options.sort));
 }
@@ -154,10 +159,10 @@ void draw_quality(const QualityOptions& options, const Progress& progress) {
     PendingFiles files;
     for (const std::string& out : options.out) {
         const QualityTitle title = title_of(subject, options.tau);
-        files.add_text(
-            out, out.ends_with(".png") ? gallery_of(subject, options, progress.part(0.6, 0.9))
-                 : wants_bars(out) ? quality_bars_svg(figures(), title, order_from(options.sort))
-                                   : quality_graphs_svg(figures(), title));
+        files.add_text(out, is_gallery(out) ? gallery_of(subject, options, progress.part(0.6, 0.9))
+                            : wants_bars(out)
+                                ? quality_bars_svg(figures(), title, order_from(options.sort))
+                                : quality_graphs_svg(figures(), title));
     }
     if (options.json) std::cout << json_of(figures()).dump(2) << "\n";
     files.commit();

@@ -12,7 +12,7 @@
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 
@@ -68,7 +68,7 @@ double distance_from(const SurfaceDistance& truth, const Surface& surface) {
 Json grid_json(SuggestionSearch& search, const SuggestOptions& options, const Progress& progress) {
     std::optional<SurfaceDistance> truth;
     if (!options.truth.empty())
-        truth.emplace(read_foreign_surface(options.truth, options.subject.units));
+        truth = distance_to(read_foreign_surface(options.truth, options.subject.units));
     Json list = Json::array();
     for (const ParameterSet& set : search.coarse_sets()) {
         const auto measures = search.measures(set, progress);

@@ -60,7 +60,7 @@ const std::vector<ExportFormat>& export_formats() {
 std::string export_formats_text() {
     std::string text;
     for (const ExportFormat& row : export_formats())
-        text += "  " + padded(row.folder ? "folder" : joined(row.suffixes, " "), 8) +
+        text += "  " + padded(row.folder.empty() ? joined(row.suffixes, " ") : "folder", 8) +
                 padded(row.kind == FormatKind::Surface ? "surface" : "volume mesh", 13) +
                 padded(row.unit, 4) + row.name + ": " + row.content + "\n";
     return text;
@@ -68,8 +68,8 @@ std::string export_formats_text() {
 
 std::string input_formats_text() {
     return "Surfaces: " + joined(read_suffixes(surface_formats()), " ") +
-           "\nImages: " + joined(read_suffixes(image_formats()), " ") +
-           " and folders of DICOM slices";
+           "\nImages: " + joined(read_suffixes(image_formats()), " ") + " and " +
+           folder_text(image_formats(), "folders");
 }
 
 }  // namespace vesselbench

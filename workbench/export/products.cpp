@@ -59,8 +59,8 @@ void check_export_name(const fs::path& file) {
     const std::string suffix = lower_suffix(without_last_slash(file).string());
     const std::vector<std::string> suffixes = written_suffixes(export_formats());
     throw UsageError("'" + file.filename().string() + "': there is no format for '" + suffix + "'" +
-                     did_you_mean(suffix, suffixes) + " (there are " + joined(suffixes) +
-                     ", and a folder for an OpenFOAM case)");
+                     did_you_mean(suffix, suffixes) + " (there are " + joined(suffixes) + ", and " +
+                     folder_text(export_formats()) + ")");
 }
 
 void export_scene(PendingFiles& files, const fs::path& file, const Scene& scene,

@@ -10,7 +10,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/operations/brush/dabs.h"
-#include "workbench/operations/crossing_warning.h"
+#include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

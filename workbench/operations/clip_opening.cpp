@@ -10,9 +10,10 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/point_json.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

@@ -8,11 +8,12 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
-#include "workbench/operations/context_weights.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/context_weights.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -83,9 +84,7 @@ void add_split(Json& report, const std::string& prefix, const Surface& before, c
 /// The gain of the weights: the same figures for as many triangles without them.
 void add_gain(Json& report, const Surface& before, const Surface& after,
               const std::vector<double>& weights, const Progress& progress) {
-    double sum = 0.0;
-    for (const double weight : weights) sum += weight;
-    report["mean_weight"] = sum / static_cast<double>(weights.size());
+    report["mean_weight"] = mean(weights);
     const std::vector<double> parts = stretched(weights);
     add_split(report, "", before, after, parts);
     progress.report(0.0, "decimating without weights, for comparison");

@@ -9,7 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

@@ -5,7 +5,7 @@
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
-#include "workbench/operations/surface_argument.h"
+#include "workbench/operations/shared/surface_argument.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

@@ -3,8 +3,9 @@
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/point_json.h"
-#include "workbench/operations/surface_argument.h"
+#include "workbench/operations/shared/surface_argument.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

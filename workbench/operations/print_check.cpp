@@ -1,7 +1,5 @@
 #include "meshing/products/print_check.h"
 
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
@@ -37,9 +35,8 @@ Json problems_json(const PrintCheck& check) {
 void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const std::string& what,
                    Outcome& outcome) {
     if (!places || places->distance >= limit) return;
-    char text[64];
-    std::snprintf(text, sizeof text, " is %.3g mm, below %.3g mm, at ", places->distance, limit);
-    outcome.warnings.push_back(what + text + place_text(places->from));
+    outcome.warnings.push_back(what + " is " + formatted(places->distance) + " mm, below " +
+                               formatted(limit) + " mm, at " + place_text(places->from));
 }
 
 Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress& progress) {

@@ -6,14 +6,14 @@
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "smoothing/filters/new_crossings.h"
-#include "workbench/operations/context_weights.h"
-#include "workbench/operations/crossing_warning.h"
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/context_weights.h"
+#include "workbench/operations/shared/crossing_warning.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
-#include "workbench/operations/smooth/mean.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

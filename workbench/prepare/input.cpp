@@ -8,7 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/phantoms/phantom.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
 

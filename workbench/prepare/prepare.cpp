@@ -1,7 +1,6 @@
 #include "workbench/prepare/prepare.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
@@ -89,8 +88,7 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
 }
 
 std::string told(const LogEntry& entry) {
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%.1f s", entry.result ? entry.result->duration : 0.0);
+    const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
     const std::string change = entry.result ? change_text(entry.result->change) : "";
     return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
            (change.empty() ? "" : ": " + change);

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "workbench/project/content_hash.h"
 
 namespace vesselbench {
@@ -11,11 +12,6 @@ namespace vesselbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bare_name(const std::string& path) {
-    const fs::path normal = fs::path(path).lexically_normal();
-    return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
-}
 
 /// Calls `visit(parameter name, path)` for every file argument.
 template <class Visit>

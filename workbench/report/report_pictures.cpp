@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/wording.h"
 #include "gpu/png.h"
 
 namespace vesselbench {
@@ -97,9 +97,7 @@ DeviationColours deviation_colours(const Surface& surface, const Surface& source
 }
 
 std::string deviation_legend(double full_colour) {
-    char text[64];
-    std::snprintf(text, sizeof text, "blue %.2g mm inside, red outside", full_colour);
-    return text;
+    return formatted(full_colour, "blue %.2g mm inside, red outside");
 }
 
 }  // namespace vesselbench

@@ -3,25 +3,16 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
-
-namespace {
-
-std::string step_names(const std::vector<Step>& steps) {
-    std::string names;
-    for (const Step step : steps) names += (names.empty() ? "" : ", ") + to_string(step);
-    return names;
-}
-
-}  // namespace
 
 EditPlace place_of(const Operation& operation, const EditOptions& options) {
     EditPlace place{options.step.value_or(operation.usual_step), {}};
     if (std::find(operation.allowed.begin(), operation.allowed.end(), place.step) ==
         operation.allowed.end())
         throw UsageError(operation.name + " is not allowed in step " + to_string(place.step) +
-                         " (only in: " + step_names(operation.allowed) + ")");
+                         " (only in: " + joined(step_names(operation.allowed)) + ")");
     if (!belongs_to_variant(place.step)) return place;
     if (options.variant.empty())
         throw UsageError("step " + to_string(place.step) +

@@ -4,7 +4,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"

@@ -43,13 +43,4 @@ struct OpeningPlanOptions {
                                     const std::optional<Vec3>& inlet = std::nullopt,
                                     std::vector<std::size_t>* left_out = nullptr);
 
-/// Orders the patches (wall, inlet, outlets by descending area, the rest) and assigns a kind and a
-/// name to those of kind Cut that are listed in `unnamed`: the inlet as above, the others outlet_1,
-/// outlet_2 ... by descending area.
-[[nodiscard]] Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                                    const std::optional<Vec3>& inlet = std::nullopt);
-
-/// The opening whose centroid is nearest to a point; empty if there is no opening.
-[[nodiscard]] std::optional<std::size_t> nearest_opening(const Surface& surface, const Vec3& point);
-
 }  // namespace vesselbench

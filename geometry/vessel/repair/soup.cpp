@@ -18,10 +18,6 @@ namespace {
 /// A surface whose largest piece has less than this fraction of the area [-] is scattered.
 constexpr double kSmallestMainPart = 0.1;
 
-bool names_vertex_twice(const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 std::size_t weld_equal_points(TriangleSoup& mesh) {
     PointWelder welder(mesh.points.size());
     std::vector<VertexId> first, target(mesh.points.size());

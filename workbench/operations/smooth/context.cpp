@@ -7,7 +7,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/freed_memory.h"
 #include "smoothing/context/cap_rounding.h"
-#include "workbench/operations/context_weights.h"
+#include "workbench/operations/shared/context_weights.h"
 
 namespace vesselbench {
 

@@ -1,4 +1,4 @@
-#include "workbench/operations/context_weights.h"
+#include "workbench/operations/shared/context_weights.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/stack_orientation.h"
 #include "workbench/case/point_json.h"
@@ -19,9 +20,7 @@ using Json = nlohmann::ordered_json;
 
 /// Multiplies by one more kind of weights, and reports its mean.
 void weigh(std::vector<double>& weights, std::vector<double> by, const char* kind, Json& report) {
-    const double sum = std::accumulate(by.begin(), by.end(), 0.0);
-    report["mean_weight_" + std::string(kind)] =
-        by.empty() ? 0.0 : sum / static_cast<double>(by.size());
+    report["mean_weight_" + std::string(kind)] = mean(by);
     if (weights.empty())
         weights = std::move(by);
     else

@@ -1,4 +1,4 @@
-#include "workbench/operations/replacing_stepper.h"
+#include "workbench/operations/shared/replacing_stepper.h"
 
 namespace vesselbench {
 

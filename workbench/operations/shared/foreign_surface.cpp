@@ -1,4 +1,4 @@
-#include "workbench/operations/foreign_surface.h"
+#include "workbench/operations/shared/foreign_surface.h"
 
 #include "geometry/formats/length_unit.h"
 #include "workbench/operations/table.h"

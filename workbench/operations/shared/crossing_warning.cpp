@@ -1,4 +1,4 @@
-#include "workbench/operations/crossing_warning.h"
+#include "workbench/operations/shared/crossing_warning.h"
 
 #include "geometry/kernel/wording.h"
 

@@ -1,4 +1,4 @@
-#include "workbench/operations/surface_argument.h"
+#include "workbench/operations/shared/surface_argument.h"
 
 #include <filesystem>
 

@@ -1,0 +1,54 @@
+#include "geometry/formats/vtk_xml.h"
+
+#include <vtkCommand.h>
+#include <vtkErrorCode.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Records VTK's complaints instead of letting it print them.
+class Complaint : public vtkCommand {
+public:
+    static Complaint* New() { return new Complaint; }
+
+    void Execute(vtkObject*, unsigned long, void*) override { raised = true; }
+
+    bool raised = false;
+};
+
+}  // namespace
+
+void require_vtk_xml(std::string_view bytes, const std::string& name) {
+    if (bytes.find("<VTKFile") == std::string_view::npos)
+        throw InvalidInput(name + " is not a VTK XML file: '<VTKFile' is missing");
+    if (bytes.rfind("</VTKFile>") == std::string_view::npos)
+        throw InvalidInput(
+            name + " ends without '</VTKFile>': it is truncated; copy or download it again");
+}
+
+vtkSmartPointer<vtkPolyData> read_poly_data(const std::string& path) {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    vtkNew<Complaint> complaint;
+    reader->AddObserver(vtkCommand::ErrorEvent, complaint.Get());
+    reader->AddObserver(vtkCommand::WarningEvent, complaint.Get());
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkSmartPointer<vtkPolyData> data = reader->GetOutput();
+    if (complaint->raised || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
+        throw InvalidInput(
+            bare_name(path) +
+            " is damaged, truncated, or not a VTK surface (poly data): VTK cannot read it");
+    return data;
+}
+
+}  // namespace vesselbench

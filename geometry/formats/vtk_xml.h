@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+class vtkPolyData;
+template <class T>
+class vtkSmartPointer;
+
+namespace vesselbench {
+
+// VTK's parser prints messages about damaged files, and allocates what they announce: what can be
+// checked without it is checked first. `name` is the file's name without its folder.
+
+/// \throw InvalidInput if the bytes are no VTK XML file, or end before it does
+void require_vtk_xml(std::string_view bytes, const std::string& name);
+
+/// The poly data of a VTK XML file, as VTK reads them; nothing is printed.
+/// \throw InvalidInput if VTK reports an error
+[[nodiscard]] vtkSmartPointer<vtkPolyData> read_poly_data(const std::string& path);
+
+}  // namespace vesselbench

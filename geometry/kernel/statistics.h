@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace vesselbench {
+
+/// Mean of values, added up in their order; 0 if there are none.
+[[nodiscard]] inline double mean(std::span<const double> values) {
+    if (values.empty()) return 0.0;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The value in the middle, of an even number the upper of the two; 0 if there are none.
+template <class Number>
+[[nodiscard]] double median(std::vector<Number> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,44 @@
+#include "meshing/tetrahedra/tetgen_failure.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/wording.h"
+
+namespace vesselbench {
+
+std::string tetgen_error_text(int code) {
+    switch (code) {
+        case 1:
+            return "out of memory";
+        case 2:
+            return "internal error of TetGen";
+        case 3:
+            return "two facets of the surface intersect";
+        case 4:
+            return "a feature of the surface is too small for the tolerance";
+        case 5:
+            return "two facets of the surface nearly coincide";
+        case 10:
+            return "TetGen does not accept the surface as input";
+        default:
+            return "TetGen stopped with code " + std::to_string(code);
+    }
+}
+
+std::string tetgen_failure_text(const Surface& surface, std::span<const std::string> attempts,
+                                std::span<const TriangleId> intersecting) {
+    constexpr std::size_t kMostListed = 5;
+    std::string text = "tetrahedralize: TetGen cannot fill the surface; tried:";
+    for (const std::string& attempt : attempts) text += "\n  " + attempt;
+    for (const TriangleId t : intersecting.first(std::min(kMostListed, intersecting.size()))) {
+        const auto& [a, b, c] = surface.triangles()[t];
+        const Vec3 centre = (surface.points()[a] + surface.points()[b] + surface.points()[c]) / 3.0;
+        text += "\n  facet " + std::to_string(t) + " at " + place_text(centre) +
+                " intersects another one";
+    }
+    return text +
+           "\nrun `repair` and `remesh` before it, with a smaller edge length where walls are "
+           "close";
+}
+
+}  // namespace vesselbench

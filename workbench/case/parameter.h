@@ -1,0 +1,49 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/case/arguments.h"
+
+namespace vesselbench {
+
+enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
+
+/// An argument without which another one has no effect: "distance=margin".
+struct Condition {
+    std::string parameter;
+    std::vector<std::string> values;  ///< any of them, in the command line's form
+};
+
+[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
+
+/// One documented parameter: the command line's option, the check and its error text, the recipe's
+/// key and the page docs/operations.md are all generated from this.
+struct Parameter {
+    std::string name;
+    ParameterType type = ParameterType::Real;
+    std::string unit = {};  ///< "mm", "-", "deg" ...; empty for texts
+    std::optional<Value> default_value =
+        {};            ///< none: the operation decides by itself, or `required`
+    std::string help;  ///< one sentence; states the default decision if it is absent
+    double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
+    double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
+    std::vector<std::string> choices = {};                      ///< for Choice
+    bool required = false;
+    bool above_minimum = false;               ///< the minimum itself is not allowed
+    std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
+};
+
+/// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
+/// point, a text is parsed.
+/// \throw UsageError that names the parameter, the value and what is allowed, if the value is of
+/// another type or out of range
+[[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value);
+
+/// Parses the command line's text of one argument.
+/// \throw UsageError that names the parameter, the text and the range
+[[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
+
+}  // namespace vesselbench
