@@ -136,12 +136,13 @@ private:
     std::vector<double> heights_;
 };
 
-std::unique_ptr<Stepper> start_stroke(const Scene& scene, const Arguments& checked, Progress&) {
-    return std::make_unique<Stroke>(scene, checked);
+std::unique_ptr<Stepper> start_stroke(const Scene& scene, const CheckedArguments& arguments,
+                                      Progress&) {
+    return std::make_unique<Stroke>(scene, arguments);
 }
 
 Outcome stroke(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    return start_stroke(scene, arguments, progress)->outcome(progress);
+    return Stroke(scene, arguments).outcome(progress);
 }
 
 Outcome scale(const Scene& scene, const Arguments& arguments, Progress&) {

@@ -23,7 +23,8 @@ Scene sphere() {
 
 Outcome run(const std::string& name, const Scene& scene, const Arguments& given,
             WorkerOptions worker = test::test_worker(), Progress progress = {}) {
-    return run_operation(test::find_test_operation(name), scene, given, progress, worker);
+    const Operation& operation = test::find_test_operation(name);
+    return run_operation(operation, scene, checked_arguments(operation, given), progress, worker);
 }
 
 std::string text_of(const std::function<void()>& call) {

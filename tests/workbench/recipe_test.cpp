@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> operations_of(const Recipe& recipe) {
     std::vector<std::string> names;
-    for (const RecipeEntry& entry : recipe) names.push_back(entry.operation);
+    for (const RecipeEntry& entry : recipe) names.push_back(entry.given.operation().name);
     return names;
 }
 
@@ -34,8 +34,8 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     const Recipe recipe = recipe_from_json(list, {"surface", "cfd"});
     REQUIRE(operations_of(recipe) ==
             std::vector<std::string>{"smooth", "extrude-opening", "fill-hole"});
-    CHECK(recipe[0].given.integer("iterations") == 5);
-    CHECK(recipe[0].given.real("lambda") == 0.25);
+    CHECK(recipe[0].given->integer("iterations") == 5);
+    CHECK(recipe[0].given->real("lambda") == 0.25);
     CHECK(recipe[0].step == Step::Source);
     CHECK(recipe[1].optional);
     CHECK_FALSE(recipe[1].unless_closed);
@@ -64,8 +64,8 @@ SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
         Json::parse(R"([{"operation": "smooth"}, {"operation": "smooth", "step": "source"}])"), {});
     const std::vector<std::string> texts = {"smooth.iterations=7"};
     set_arguments(recipe, texts);
-    CHECK(recipe[0].given.integer("iterations") == 7);
-    CHECK(recipe[1].given.integer("iterations") == 7);
+    CHECK(recipe[0].given->integer("iterations") == 7);
+    CHECK(recipe[1].given->integer("iterations") == 7);
     const auto wrong = [&](const std::string& text, const std::string& why) {
         const std::vector<std::string> one = {text};
         CHECK_THROWS_AS(set_arguments(recipe, one), UsageError);

@@ -31,7 +31,7 @@ SCENARIO("A search weighs staircases as smooth does", "[workbench][suggest]") {
                                           others};
         texts.insert(texts.end(), thresholds.begin(), thresholds.end());
         const Operation& smooth = find_operation("smooth");
-        Arguments arguments = checked_arguments(smooth, arguments_from_texts(smooth, texts));
+        Arguments arguments = checked_arguments(arguments_from_texts(smooth, texts));
         return smoothing_subject(scene, arguments);
     };
     INFO(caps << ", " << scaling << ", " << others);

@@ -183,8 +183,8 @@ SCENARIO("Arguments without effect are reported with what they need", "[workbenc
     for (const Parameter& parameter : operation.parameters)
         if (parameter.only_with)
             for (const std::string& value : parameter.only_with->values)
-                CHECK_NOTHROW(
-                    parse_value(find_parameter(operation, parameter.only_with->parameter), value));
+                CHECK_NOTHROW(checked_value(
+                    find_parameter(operation, parameter.only_with->parameter), value));
 }
 
 SCENARIO("A neighbour that is loaded later changes no smoothing made before",

@@ -158,34 +158,6 @@ bool in_range(const Parameter& parameter, const Value& value) {
     });
 }
 
-Value checked(const Parameter& parameter, const Value& value) {
-    const std::optional<Value> typed = in_type(parameter, value);
-    if (!typed || !in_range(parameter, *typed)) refuse(parameter, to_text(value));
-    return *typed;
-}
-
-/// \param whole fills in defaults, and misses what is required
-Arguments checked_values(const Operation& operation, const Arguments& given, bool whole) {
-    for (const auto& [name, value] : given.values())
-        static_cast<void>(find_parameter(operation, name));
-    Arguments result;
-    for (const Parameter& parameter : operation.parameters) {
-        const auto found = given.values().find(parameter.name);
-        try {
-            if (found != given.values().end())
-                result.set(parameter.name, checked(parameter, found->second));
-            else if (whole && parameter.default_value)
-                result.set(parameter.name, checked(parameter, *parameter.default_value));
-            else if (whole && parameter.required)
-                throw UsageError("parameter '" + parameter.name +
-                                 "' is required: " + parameter.help);
-        } catch (const UsageError& error) {
-            throw UsageError(operation.name + ": " + error.what());
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string to_string(Step step) {
@@ -213,23 +185,17 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
                      did_you_mean(name, names) + " (" + takes + ")");
 }
 
-Value parse_value(const Parameter& parameter, const std::string& text) {
-    return checked(parameter, Value(text));
+Value checked_value(const Parameter& parameter, const Value& value) {
+    const std::optional<Value> typed = in_type(parameter, value);
+    if (!typed || !in_range(parameter, *typed)) refuse(parameter, to_text(value));
+    return *typed;
 }
 
-Arguments checked_arguments(const Operation& operation, const Arguments& given) {
-    return checked_values(operation, given, true);
-}
-
-Arguments checked_changes(const Operation& operation, const Arguments& more) {
-    return checked_values(operation, more, false);
-}
-
-Outcome run_here(const Operation& operation, const Scene& scene, const Arguments& checked,
+Outcome run_here(const Operation& operation, const Scene& scene, const CheckedArguments& arguments,
                  Progress& progress) {
-    if (operation.run != nullptr) return operation.run(scene, checked, progress);
+    if (operation.run != nullptr) return operation.run(scene, arguments, progress);
     Progress starting = progress.part(0.0, kLiveShare), figures = progress.part(kLiveShare, 1.0);
-    return operation.start(scene, checked, starting)->outcome(figures);
+    return operation.start(scene, arguments, starting)->outcome(figures);
 }
 
 std::vector<std::string> arguments_without_effect(const Operation& operation,

@@ -11,6 +11,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "workbench/case/arguments.h"
+#include "workbench/case/checked_arguments.h"
 #include "workbench/case/operation_search.h"
 #include "workbench/case/recipe_part.h"
 #include "workbench/case/scene.h"
@@ -86,7 +87,7 @@ public:
     virtual ~Stepper() = default;
 
     /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \param more as from checked_changes()
+    /// \param more as given_arguments() checks them
     /// \throw as the operation's batch form; everything is then unchanged
     virtual void add(const Arguments& more, Progress& progress) = 0;
 
@@ -101,8 +102,9 @@ public:
     [[nodiscard]] virtual Outcome outcome(Progress& progress) = 0;
 };
 
-/// Starts an operation live. \param checked arguments as checked_arguments() returns them
-using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene, const Arguments& checked,
+/// Starts an operation live.
+using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene,
+                                                     const CheckedArguments& arguments,
                                                      Progress& progress);
 
 /// One row of the operation table.
@@ -122,27 +124,18 @@ struct Operation {
     OperationSearch search = {};
 };
 
-/// Runs an operation's batch form in this process. \param checked as from checked_arguments()
+/// Runs an operation's batch form in this process.
 /// \throw what the operation throws
 [[nodiscard]] Outcome run_here(const Operation& operation, const Scene& scene,
-                               const Arguments& checked, Progress& progress);
+                               const CheckedArguments& arguments, Progress& progress);
 
 /// \throw UsageError that lists similar names and all names if the operation has no such parameter
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
 
-/// Parses the command line's text of one argument.
-/// \throw UsageError that names the parameter, the text and the range
-[[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
-
-/// Fills in defaults and checks types, ranges, choices, unknown names. Absent optional arguments
-/// stay absent.
-/// \throw UsageError that names the operation, the parameter, the value and what is allowed
-[[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
-
-/// The same checks for arguments added to others: no defaults are filled in, and required ones may
-/// be absent.
-/// \throw UsageError as checked_arguments
-[[nodiscard]] Arguments checked_changes(const Operation& operation, const Arguments& more);
+/// The value in the parameter's own type: integers are accepted as real numbers, three numbers as a
+/// point; a text is parsed.
+/// \throw UsageError that names the parameter, the value and the range
+[[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value);
 
 /// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
 /// \param resolved the arguments that the operation finally ran with

@@ -36,7 +36,7 @@ CfdParameters take_flow_parameters(std::vector<std::string>& texts) {
     for (const std::string& text : texts)
         if (text.starts_with(prefix)) own.push_back(text.substr(prefix.size()));
     std::erase_if(texts, [&](const std::string& text) { return text.starts_with(prefix); });
-    return flow_from(checked_arguments(table, arguments_from_texts(table, own)));
+    return flow_from(checked_arguments(arguments_from_texts(table, own)));
 }
 
 std::vector<std::string> product_names(const std::string& purpose) {

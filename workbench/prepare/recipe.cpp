@@ -51,11 +51,11 @@ bool is_used(const Json& entry, const RecipeUse& use) {
 RecipeEntry entry_from_json(const Json& json) {
     if (!json.contains("operation")) throw UsageError("it has no \"operation\"");
     const Operation& operation = find_operation(json["operation"].get<std::string>());
-    RecipeEntry entry{.operation = operation.name,
+    RecipeEntry entry{.given = GivenArguments(operation),
                       .optional = json.value("optional", false),
                       .unless_closed = json.value("unless_closed", false)};
     if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
-    if (json.contains("otherwise"))
+    if (json.contains("otherwise") && !json["otherwise"].empty())
         entry.otherwise = arguments_from_json(operation, json["otherwise"]);
     if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
     return entry;
@@ -101,12 +101,12 @@ void set_arguments(Recipe& recipe, std::span<const std::string> texts) {
             throw UsageError("--set '" + text + "' is not of the form operation.parameter=value");
         const Operation& operation = find_operation(text.substr(0, dot));
         const std::vector<std::string> argument = {text.substr(dot + 1)};
-        const Arguments given = arguments_from_texts(operation, argument);
+        const GivenArguments given = arguments_from_texts(operation, argument);
         bool found = false;
         for (RecipeEntry& entry : recipe) {
-            if (entry.operation != operation.name) continue;
+            if (&entry.given.operation() != &operation) continue;
             found = true;
-            for (const auto& [name, value] : given.values()) entry.given.set(name, value);
+            entry.given.set(given);
         }
         if (!found) throw UsageError("--set '" + text + "': the recipe has no " + operation.name);
     }

@@ -48,6 +48,10 @@ public:
     LogEntry apply(const std::string& operation, const Arguments& given,
                    const EditOptions& options = {}, Progress progress = {});
 
+    /// The same for arguments that are checked already: texts of a command line, a recipe.
+    LogEntry apply(const GivenArguments& given, const EditOptions& options = {},
+                   Progress progress = {});
+
     /// Runs an edit of the current state with other arguments: its next revision. The edits behind
     /// it become pending.
     /// \param given all its arguments; for files read before, the names suffice

@@ -90,7 +90,9 @@ Surface processed_with(const Operation& operation, const Scene& scene, const Arg
     if (does_nothing(space, set)) return surface_of(scene);
     Arguments changed = arguments;
     set_values(changed, operation, space, set);
-    return surface_of(run_without_figures(operation, scene, changed, progress).scene);
+    return surface_of(
+        run_without_figures(operation, scene, checked_arguments(operation, changed), progress)
+            .scene);
 }
 
 std::shared_ptr<MeasureSource> processing_table(const Operation& operation, const Scene& scene,
@@ -121,7 +123,9 @@ ParameterSet processing_set(const Operation& operation, const Scene& scene,
     for (const SearchParameter& parameter : space.parameters) {
         std::optional<double> value = arguments.optional_real(parameter.name);
         if (!value) {
-            if (!outcome) outcome = run_without_figures(operation, scene, arguments, progress);
+            if (!outcome)
+                outcome = run_without_figures(operation, scene,
+                                              checked_arguments(operation, arguments), progress);
             value = outcome->resolved.optional_real(parameter.name);
         }
         // Only decimate leaves its share open, if max_error alone decides.

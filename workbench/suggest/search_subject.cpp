@@ -41,7 +41,7 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
     subject.scene = session.scene_after(last->edit.edit.id, progress);
 }
 
-Arguments given_arguments(const Operation& operation, const SubjectOptions& options) {
+GivenArguments given_by(const Operation& operation, const SubjectOptions& options) {
     std::vector<std::string> texts = options.arguments;
     if (!options.filter.empty()) {
         if (!searched_by_filter(operation))
@@ -59,8 +59,9 @@ SearchSubject search_subject(const SubjectOptions& options, const Progress& prog
     const Operation& operation = find_operation(options.operation);
     subject.operation = &operation;
     if (!searched_by_filter(operation)) static_cast<void>(usual_score_of(operation));
-    subject.given = given_arguments(operation, options);
-    subject.arguments = checked_arguments(operation, subject.given);
+    const GivenArguments given = given_by(operation, options);
+    subject.given = given;
+    subject.arguments = checked_arguments(given);
     if (options.source.ends_with(".vbench") || is_project_file(options.source))
         take_project(options, subject, progress);
     else

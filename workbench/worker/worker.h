@@ -29,12 +29,11 @@ struct WorkerOptions {
 /// and outcome out in the project's blob format. Cancelling kills it; the caller survives whatever
 /// it does. Parts of the scene that the operation did not change are shared with `scene`
 /// afterwards.
-/// \param checked arguments as from checked_arguments()
 /// \throw what the operation throws (UsageError, InvalidInput, IoError, AlgorithmFailure,
 /// Cancelled); InvalidInput if the worker crashed or exceeded its limits while reading a foreign
 /// file, otherwise AlgorithmFailure
 [[nodiscard]] Outcome run_in_worker(const Operation& operation, const Scene& scene,
-                                    const Arguments& checked, const Progress& progress,
+                                    const CheckedArguments& arguments, const Progress& progress,
                                     const WorkerOptions& options = {});
 
 /// The worker's side: reads one request, runs it, writes the outcome. \return the exit code
