@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
@@ -202,6 +203,14 @@ Outcome greedy(const Scene& scene, const Arguments& arguments, Progress&) {
     return result;
 }
 
+/// Its warning is the number of the process, its device a GPU's.
+Outcome where(const Scene& scene, const Arguments& arguments, Progress&) {
+    Outcome result = made(scene, arguments);
+    result.warnings.push_back(std::to_string(getpid()));
+    result.device = "gpu";
+    return result;
+}
+
 Outcome refuse(const Scene&, const Arguments& arguments, Progress&) {
     const std::string as = arguments.text("as");
     if (as == "usage") throw UsageError("refused as usage");
@@ -277,6 +286,9 @@ std::vector<Operation> make_operations() {
     all.push_back(operation("stroke", Step::LocalRepair, stroke, {heights}));
     all.back().start = start_stroke;
     all.push_back(operation("stubborn", Step::LocalRepair, stubborn, {real("seconds", 30.0)}));
+    all.push_back(
+        operation("where", Step::Smoothing, where, {typed("here", ParameterType::Flag, true)}));
+    all.back().stays_here = [](const Arguments& arguments) { return arguments.flag("here"); };
     all[3].allowed = {Step::Source, Step::LocalRepair, Step::Smoothing, Step::Remeshing};
     return all;
 }

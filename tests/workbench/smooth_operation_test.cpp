@@ -298,7 +298,9 @@ SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU i
     const auto distance = replay_distance(*plain.scene.surface, *on_gpu.scene.surface);
     REQUIRE(distance);
     CHECK(distance->allowed);
-    if (on_gpu.resolved.text("device") == "gpu") {
+    CHECK(plain.device == "cpu");
+    CHECK(on_gpu.device == on_gpu.resolved.text("device"));
+    if (on_gpu.device == "gpu") {
         CHECK(on_gpu.warnings.empty());
         CHECK(distance->largest > 0.0);  // single precision
     } else {

@@ -48,7 +48,7 @@ struct ResultRecord {
     double duration = 0.0;        ///< [s]
     std::string time;             ///< when it ran, UTC
     std::string program_version;  ///< of vesselbench
-    std::string device;           ///< "cpu" or "gpu"
+    std::string device;           ///< "cpu" or "gpu", as Outcome::device
 };
 
 }  // namespace vesselbench

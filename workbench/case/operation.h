@@ -72,6 +72,7 @@ struct Outcome {
     Report report;
     Arguments resolved;
     std::vector<std::string> warnings;
+    std::string device = "cpu";  ///< that computed the scene: "cpu" or "gpu"
 };
 
 /// A pure function: same scene, same arguments, same outcome, bit for bit.
@@ -119,6 +120,9 @@ struct Operation {
     StepperFunction start = nullptr;
     bool isolated =
         false;  ///< run in a worker process: it reads foreign files, or may crash or hang
+    /// True for arguments with which it runs in the program's own process, even where all others
+    /// run in workers: on a GPU. Null: for none.
+    bool (*stays_here)(const Arguments& arguments) = nullptr;
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};

@@ -123,10 +123,7 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
 
 ChosenEngine smoothing_engine(const SmoothingSubject& subject, const Arguments& arguments,
                               bool planes) {
-    const std::string& device = arguments.text("device");
-    const DeviceChoice choice = device == "gpu"   ? DeviceChoice::Gpu
-                                : device == "cpu" ? DeviceChoice::Cpu
-                                                  : DeviceChoice::Auto;
+    const DeviceChoice choice = device_choice_from(arguments.text("device"));
     return make_engine(choice, subject.ground, planes, offscreen_device, subject.staircase_ground);
 }
 

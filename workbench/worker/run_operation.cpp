@@ -4,8 +4,8 @@ namespace vesselbench {
 
 namespace {
 
-bool uses_gpu(const Arguments& checked) {
-    return checked.optional_text("device") == "gpu";
+bool stays_here(const Operation& operation, const Arguments& arguments) {
+    return operation.stays_here != nullptr && operation.stays_here(arguments);
 }
 
 /// What would have run here has the time and the memory it would have had here.
@@ -19,7 +19,7 @@ Outcome outcome_of(const Operation& operation, const Scene& scene,
                    const CheckedArguments& arguments, Progress& progress,
                    const WorkerOptions& worker) {
     if (operation.isolated) return run_in_worker(operation, scene, arguments, progress, worker);
-    if (worker.every_operation && !uses_gpu(arguments))
+    if (worker.every_operation && !stays_here(operation, arguments))
         return run_in_worker(operation, scene, arguments, progress, without_limits(worker));
     return run_here(operation, scene, arguments, progress);
 }

@@ -13,8 +13,8 @@ namespace vesselbench {
                                     const CheckedArguments& arguments, Progress& progress,
                                     const WorkerOptions& worker = {});
 
-/// The same scene and resolved arguments without a report: for searches, because the figures of an
-/// operation with a live form would double the time.
+/// The same scene and resolved arguments alone: for searches, because the figures of an operation
+/// with a live form would double the time.
 /// \throw as run_operation
 [[nodiscard]] Outcome run_without_figures(const Operation& operation, const Scene& scene,
                                           const CheckedArguments& arguments, Progress progress);

@@ -142,6 +142,7 @@ Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known)
     writer.put_text(outcome.report ? stored_text(*outcome.report) : "");
     writer.put_text(stored_text(outcome.resolved));
     writer.put_text(stored_text(Json(outcome.warnings)));
+    writer.put_text(outcome.device);
     writer.append(encode_scene(outcome.scene, known));
     return writer.take();
 }
@@ -152,6 +153,7 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known) {
     if (!report.empty()) outcome.report = std::make_shared<const Json>(Json::parse(report));
     outcome.resolved = arguments_from_stored(reader.get_text());
     outcome.warnings = Json::parse(reader.get_text()).get<std::vector<std::string>>();
+    outcome.device = reader.get_text();
     outcome.scene = decode_scene(reader.get_bytes(reader.left()), known);
     return outcome;
 }

@@ -20,8 +20,9 @@ struct WorkerOptions {
     std::chrono::seconds time_limit{3600};            ///< then the worker is killed
     std::size_t memory_limit = std::size_t{8} << 30;  ///< [bytes] of address space; 0: no limit
     /// Also run operations that are not `isolated` in a worker, without limits: a cancel then ends
-    /// them at once, whatever they are doing. GPU work still runs in this process: its driver needs
-    /// more address space and start-up time than a worker can offer, and it polls often.
+    /// them at once, whatever they are doing. What declares that it stays here (GPU work) still
+    /// runs in this process: its driver needs more address space and start-up time than a worker
+    /// can offer, and it polls often.
     bool every_operation = false;
 };
 
