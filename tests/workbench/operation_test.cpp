@@ -191,9 +191,10 @@ SCENARIO("Operations declare what others ask of them", "[workbench][operation]")
     for (const Operation& operation : operation_table()) {
         INFO(operation.name);
         const OperationSearch& search = operation.search;
-        CHECK((search.by == OperationSearch::By::Runs) == (search.parameters != nullptr));
-        if (search.by == OperationSearch::By::Filter)
-            CHECK_NOTHROW(find_parameter(operation, "filter"));
+        CHECK_FALSE((search.parameters != nullptr && search.smoothing != nullptr));
+        CHECK((search.smoothing != nullptr) == !search.filter_parameter.empty());
+        if (search.smoothing != nullptr)
+            CHECK_NOTHROW(find_parameter(operation, search.filter_parameter));
         if (search.parameters == nullptr) continue;
         for (const bool all : {false, true})
             for (const SearchedParameter& searched : search.parameters(icosphere(5.0, 3), all)) {

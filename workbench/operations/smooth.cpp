@@ -14,6 +14,7 @@
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/smooth/mean.h"
+#include "workbench/operations/smooth/search.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -156,7 +157,9 @@ Operation smooth_operation() {
             .stays_here = &asks_for_gpu,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
-            .search = {.by = OperationSearch::By::Filter}};
+            .search = {.smoothing = &smoothing_subject,
+                       .filter_parameter = "filter",
+                       .hint = "staircase=true searches its thresholds, too"}};
 }
 
 }  // namespace vesselbench

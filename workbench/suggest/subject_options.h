@@ -9,9 +9,9 @@ namespace vesselbench {
 struct SubjectOptions {
     std::string source;                  ///< a project or a surface file
     std::string units;                   ///< of a surface file; empty: mm
-    std::string operation = "smooth";    ///< smooth, remesh, decimate or subdivide
+    std::string operation;               ///< empty: the first of searched_operations()
     std::string variant = "cfd";         ///< of a project, for operations of steps 6-8
-    std::string filter;                  ///< for smooth; empty: as `smooth` decides
+    std::string filter;                  ///< for operations with filters; empty: as they decide
     std::vector<std::string> arguments;  ///< "parameter=value" of the operation, which are kept
 };
 
