@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/purposes.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;
@@ -57,6 +58,17 @@ SCENARIO("A recipe that cannot be followed is refused before anything is done",
     refused(R"([{"operation": "smooth", "when": "today"}])", "today");
     refused(R"([{"operation": 7}])", "entry 1");
     refused(R"([7])", "entry 1");
+}
+
+SCENARIO("Every purpose is a word of recipes", "[workbench][recipe]") {
+    for (const Purpose& purpose : purposes()) {
+        const Json list = {{{"operation", "smooth"}, {"when", purpose.name}}};
+        CHECK(recipe_from_json(list, {"surface", purpose.name}).size() == 1);
+        CHECK(recipe_from_json(list, {"surface"}).empty());
+        CHECK(&find_purpose(purpose.name) == &purpose);
+    }
+    CHECK_THROWS_WITH(find_purpose("cdf"),
+                      Contains("--for 'cdf'") && Contains("did you mean 'cfd'"));
 }
 
 SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {

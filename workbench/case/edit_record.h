@@ -22,6 +22,9 @@ struct SurfaceChange {
     bool operator==(const SurfaceChange&) const = default;
 };
 
+/// The variant of edits of steps 6-8, and of scenes, where none is named.
+inline constexpr const char* kDefaultVariant = "cfd";
+
 /// The user's request: one revision of an edit.
 struct EditRecord {
     EditRef edit;

@@ -10,6 +10,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
 #include "workbench/export/export_formats.h"
@@ -25,15 +26,34 @@ namespace {
 constexpr const char* kDescription =
     "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
 
+/// What `prepare` writes for the purposes with products of their own.
+std::string product_lines() {
+    std::string lines;
+    for (const Purpose& purpose : purposes())
+        if (!purpose.products.empty())
+            lines += "  for " + purpose.name + ": " + joined(product_names(purpose.name)) + "\n";
+    return lines;
+}
+
+/// "flow simulation (cfd), ..., or surgery simulation (simulation)"
+std::string purposes_help() {
+    std::string text;
+    for (const Purpose& purpose : purposes())
+        text += (text.empty()                     ? ""
+                 : &purpose == &purposes().back() ? ", or "
+                                                  : ", ") +
+                purpose.help;
+    return text;
+}
+
 std::string prepare_footer() {
     return input_formats_text() +
            "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
            "like\n"
            "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
-           "OUT gets project.vbench, report.json, report.html and\n"
-           "  for cfd: " +
-           joined(product_names("cfd")) + "\n  for rp: " + joined(product_names("rp")) +
-           "\n\n"
+           "OUT gets project.vbench, report.json, report.html and\n" +
+           product_lines() +
+           "\n"
            "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
            "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out "
            "print";
@@ -242,12 +262,9 @@ void add_prepare(CommandLine& line) {
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
     command.footer(prepare_footer());
-    command
-        .add_option("--for", options->purpose,
-                    "Purpose of the model: flow simulation (cfd), printing (rp), "
-                    "pictures\n(planning: keeps raw triangles), or surgery simulation (simulation)")
+    command.add_option("--for", options->purpose, "Purpose of the model: " + purposes_help())
         ->required()
-        ->type_name("cfd|rp|planning|simulation");
+        ->type_name(joined(purpose_names(), "|"));
     command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
     command
@@ -351,8 +368,10 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
                         " (default: " + searched_operations().front() + ")")
         ->type_name("NAME");
     command
-        .add_option("--variant", subject.variant,
-                    "Variant of a project, if the operation belongs to one (default: cfd)")
+        .add_option(
+            "--variant", subject.variant,
+            std::string("Variant of a project, if the operation belongs to one (default: ") +
+                kDefaultVariant + ")")
         ->type_name("NAME");
     const std::string filtering = alternatives(searched_operations(searches_filter));
     command

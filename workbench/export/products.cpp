@@ -4,6 +4,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/flow_parameters.h"
 
@@ -41,8 +42,8 @@ CfdParameters take_flow_parameters(std::vector<std::string>& texts) {
 
 std::vector<std::string> product_names(const std::string& purpose) {
     std::vector<std::string> names = {"surface.vtp", "surface.stl"};
-    if (purpose == "cfd") names.insert(names.end(), {"volume.vtu", "volume.msh", "openfoam"});
-    if (purpose == "rp") names.insert(names.end(), {"print.stl", "print.3mf"});
+    const std::vector<std::string>& own = find_purpose(purpose).products;
+    names.insert(names.end(), own.begin(), own.end());
     return names;
 }
 

@@ -10,6 +10,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/builtin_recipes.h"
 
@@ -21,8 +22,13 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kKeys = {"operation",     "arguments", "step", "optional",
                                         "unless_closed", "otherwise", "when"};
-const std::vector<std::string> kWords = {"surface", "image",    "mask",      "cfd",
-                                         "rp",      "planning", "simulation"};
+
+/// The words that "when" may contain.
+std::vector<std::string> use_words() {
+    std::vector<std::string> words = {"surface", "image", "mask"};
+    for (const Purpose& purpose : purposes()) words.push_back(purpose.name);
+    return words;
+}
 
 void refuse_unknown_keys(const Json& entry) {
     for (const auto& [key, value] : entry.items())
@@ -34,8 +40,9 @@ void refuse_unknown_keys(const Json& entry) {
 bool word_holds(const std::string& word, const RecipeUse& use) {
     const bool negated = word.starts_with("no-");
     const std::string name = negated ? word.substr(3) : word;
-    if (std::ranges::count(kWords, name) == 0)
-        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(kWords) +
+    const std::vector<std::string> words = use_words();
+    if (std::ranges::count(words, name) == 0)
+        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(words) +
                          ", each also with the prefix no-");
     return (std::ranges::count(use, name) > 0) != negated;
 }

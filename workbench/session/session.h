@@ -95,7 +95,7 @@ public:
 
     /// The scene of a variant. Pending edits run first; those that no longer apply become stale. A
     /// session that only reads runs them for itself.
-    [[nodiscard]] Scene scene(const std::string& variant = "cfd", Progress progress = {});
+    [[nodiscard]] Scene scene(const std::string& variant = kDefaultVariant, Progress progress = {});
 
     /// The scene right after one edit of the current state; pending edits up to it run first.
     [[nodiscard]] Scene scene_after(EditId id, Progress progress = {});

@@ -69,7 +69,7 @@ public:
     Job<Nothing> redo();
     Job<Nothing> redo(EditId to);
     Job<Nothing> jump(StateId state);
-    Job<Scene> scene(std::string variant = "cfd");
+    Job<Scene> scene(std::string variant = kDefaultVariant);
     Job<Scene> scene_after(EditId id);
     Job<std::vector<ReplayEntry>> replay();
     Job<Nothing> save_as(std::filesystem::path project);
