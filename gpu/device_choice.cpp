@@ -5,6 +5,13 @@
 
 namespace vesselbench {
 
+DeviceChoice device_choice_from(const std::string& text) {
+    if (text == "auto") return DeviceChoice::Auto;
+    if (text == "cpu") return DeviceChoice::Cpu;
+    if (text == "gpu") return DeviceChoice::Gpu;
+    throw UsageError("device '" + text + "' is unknown: use auto, cpu or gpu");
+}
+
 HeldDevice offscreen_device() {
     auto context = std::make_shared<OffscreenContext>();
     return {std::move(context), current_device()};

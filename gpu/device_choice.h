@@ -16,6 +16,9 @@ enum class DeviceChoice {
     Gpu  ///< on any device with OpenGL 4.3
 };
 
+/// \throw UsageError unless "auto", "cpu" or "gpu"
+[[nodiscard]] DeviceChoice device_choice_from(const std::string& text);
+
 /// A device and the owner of its context.
 struct HeldDevice {
     std::shared_ptr<void> context;

@@ -190,6 +190,43 @@ SCENARIO("A preview is entered without running again", "[session][runner]") {
     CHECK(runner.scene().result().surface->positions == preview.scene().surface->positions);
 }
 
+SCENARIO("A changed edit is previewed in the background", "[session][runner]") {
+    SessionRunner runner(sphere_session());
+    const EditId bump = runner.apply("bump", bump_by(0.5)).result().edit.edit.id;
+    runner.apply("scale", {{"factor", 2.0}});
+    const Preview preview = runner.preview_change(bump, bump_by(0.25)).result();
+    CHECK(top_of(preview.scene()) == top_of(preview.input()) + 0.25);
+    CHECK(runner.snapshot()->log[1].edit.given.real("height") == 0.5);
+    CHECK(runner.commit(preview).result().edit.given.real("height") == 0.25);
+    CHECK(runner.snapshot()->log[2].status == EditStatus::Pending);
+    CHECK_THROWS_AS(runner.preview_change(77, bump_by(0.25)).result(), UsageError);
+}
+
+SCENARIO("An edit's scene and the states around it are reached in the background",
+         "[session][runner]") {
+    SessionRunner runner(sphere_session());
+    const double top = top_of(runner.scene().result());
+    const EditId first = runner.apply("bump", bump_by(0.5)).result().edit.edit.id;
+    const EditId second = runner.apply("bump", bump_by(0.25)).result().edit.edit.id;
+    CHECK(top_of(runner.scene_after(first).result()) == top + 0.5);
+    runner.undo(first).wait();
+    CHECK(runner.snapshot()->log.size() == 1);
+    runner.redo(second).wait();
+    CHECK(runner.snapshot()->log.size() == 3);
+    CHECK_THROWS_AS(runner.undo(77).result(), UsageError);
+    CHECK_THROWS_AS(runner.redo(77).result(), UsageError);
+    CHECK_THROWS_AS(runner.scene_after(77).result(), UsageError);
+}
+
+SCENARIO("A runner says why its session only reads", "[session][runner]") {
+    const std::string file = temporary_folder() + "/case.vbench";
+    const Session writer = Session::create(file, options());
+    CHECK(SessionRunner(sphere_session()).read_only_reason().empty());
+    SessionRunner runner(Session::open(file, options()));
+    CHECK_FALSE(runner.read_only_reason().empty());
+    CHECK_THROWS_WITH(runner.undo().result(), runner.read_only_reason());
+}
+
 SCENARIO("A stroke is drawn in the background", "[session][runner]") {
     SessionRunner runner(sphere_session());
     const auto live = runner.start_live("stroke", {{"heights", std::vector<double>{0.1}}}).result();

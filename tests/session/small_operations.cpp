@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
@@ -136,12 +137,13 @@ private:
     std::vector<double> heights_;
 };
 
-std::unique_ptr<Stepper> start_stroke(const Scene& scene, const Arguments& checked, Progress&) {
-    return std::make_unique<Stroke>(scene, checked);
+std::unique_ptr<Stepper> start_stroke(const Scene& scene, const CheckedArguments& arguments,
+                                      Progress&) {
+    return std::make_unique<Stroke>(scene, arguments);
 }
 
 Outcome stroke(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    return start_stroke(scene, arguments, progress)->outcome(progress);
+    return Stroke(scene, arguments).outcome(progress);
 }
 
 Outcome scale(const Scene& scene, const Arguments& arguments, Progress&) {
@@ -198,6 +200,14 @@ Outcome greedy(const Scene& scene, const Arguments& arguments, Progress&) {
     std::vector<double> all(std::size_t{1} << 30, 1.0);
     Outcome result = made(scene, arguments);
     result.warnings.push_back(std::to_string(all.back()));
+    return result;
+}
+
+/// Its warning is the number of the process, its device a GPU's.
+Outcome where(const Scene& scene, const Arguments& arguments, Progress&) {
+    Outcome result = made(scene, arguments);
+    result.warnings.push_back(std::to_string(getpid()));
+    result.device = "gpu";
     return result;
 }
 
@@ -276,6 +286,9 @@ std::vector<Operation> make_operations() {
     all.push_back(operation("stroke", Step::LocalRepair, stroke, {heights}));
     all.back().start = start_stroke;
     all.push_back(operation("stubborn", Step::LocalRepair, stubborn, {real("seconds", 30.0)}));
+    all.push_back(
+        operation("where", Step::Smoothing, where, {typed("here", ParameterType::Flag, true)}));
+    all.back().stays_here = [](const Arguments& arguments) { return arguments.flag("here"); };
     all[3].allowed = {Step::Source, Step::LocalRepair, Step::Smoothing, Step::Remeshing};
     return all;
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "geometry/kernel/errors.h"
 #include "tests/session/small_operations.h"
@@ -23,7 +24,8 @@ Scene sphere() {
 
 Outcome run(const std::string& name, const Scene& scene, const Arguments& given,
             WorkerOptions worker = test::test_worker(), Progress progress = {}) {
-    return run_operation(test::find_test_operation(name), scene, given, progress, worker);
+    const Operation& operation = test::find_test_operation(name);
+    return run_operation(operation, scene, checked_arguments(operation, given), progress, worker);
 }
 
 std::string text_of(const std::function<void()>& call) {
@@ -50,6 +52,21 @@ SCENARIO("An isolated operation gives the same result as in process", "[session]
     THEN("what it left alone is shared with its input") {
         CHECK(far.scene.surface->topology == scene.surface->topology);
         CHECK(far.scene.surface->positions != scene.surface->positions);
+    }
+}
+
+SCENARIO("Where all operations run in workers, some stay", "[session][worker]") {
+    WorkerOptions worker = test::test_worker();
+    worker.every_operation = true;
+    const std::vector<std::string> here = {std::to_string(getpid())};
+    const Outcome near = run("where", sphere(), {{"here", true}}, worker);
+    const Outcome far = run("where", sphere(), {{"here", false}}, worker);
+    CHECK(near.warnings == here);
+    CHECK(far.warnings != here);
+    THEN("the device that computed the scene is known of both") {
+        CHECK(near.device == "gpu");
+        CHECK(far.device == "gpu");
+        CHECK(run("far-bump", sphere(), kTop).device == "cpu");
     }
 }
 

@@ -64,6 +64,11 @@ std::string error_of(const std::function<void()>& run) {
     return "";
 }
 
+Outcome batch_of(const Operation& operation, const Scene& scene, const Arguments& arguments,
+                 Progress& progress) {
+    return run_here(operation, scene, checked_arguments(operation, arguments), progress);
+}
+
 /// Random changes one after another: the live form has the bits of a batch run with all of them,
 /// or fails as it does and stays as it was.
 /// \return numbers of changes that succeeded and that failed
@@ -72,11 +77,11 @@ std::pair<int, int> check_changes(const std::string& name, const Scene& scene, c
     const Operation& operation = find_operation(name);
     Random random(7);
     Progress progress;
-    Arguments arguments = checked_arguments(operation, {});
-    const auto live = operation.start(scene, arguments, progress);
+    Arguments arguments;
+    const auto live = operation.start(scene, checked_arguments(operation, arguments), progress);
     int succeeded = 0, failed = 0;
     for (int i = 0; i < changes; ++i) {
-        const Arguments change = checked_changes(operation, any_change(pool, random));
+        const Arguments change = given_arguments(operation, any_change(pool, random));
         Arguments all = arguments;
         std::string text;
         for (const auto& [key, value] : change.values()) {
@@ -90,15 +95,15 @@ std::pair<int, int> check_changes(const std::string& name, const Scene& scene, c
         if (!error.empty()) {
             ++failed;
             CHECK(error ==
-                  error_of([&] { static_cast<void>(run_here(operation, scene, all, progress)); }));
+                  error_of([&] { static_cast<void>(batch_of(operation, scene, all, progress)); }));
             require_same(live->scene(), before);
             REQUIRE(live->resolved() == resolved);
-            require_same(live->outcome(progress), run_here(operation, scene, arguments, progress));
+            require_same(live->outcome(progress), batch_of(operation, scene, arguments, progress));
             continue;
         }
         ++succeeded;
         arguments = all;
-        const Outcome batch = run_here(operation, scene, arguments, progress);
+        const Outcome batch = batch_of(operation, scene, arguments, progress);
         require_same(live->outcome(progress), batch);
         require_same(live->scene(), batch.scene);
         REQUIRE(live->resolved() == batch.resolved);
@@ -234,8 +239,8 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
     const Operation& operation = find_operation(name);
     Random random(3);
     Progress progress;
-    Arguments arguments = checked_arguments(operation, {});
-    const auto live = operation.start(scene, arguments, progress);
+    Arguments arguments;
+    const auto live = operation.start(scene, checked_arguments(operation, arguments), progress);
     CHECK_THROWS_WITH(live->outcome(progress), Contains("give dabs"));
     require_same(live->scene(), scene);
     std::vector<double> all;
@@ -255,7 +260,7 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
         live->add({{"dabs", dabs}}, progress);
         all.insert(all.end(), dabs.begin(), dabs.end());
         arguments.set("dabs", all);
-        require_same(live->outcome(progress), run_here(operation, scene, arguments, progress));
+        require_same(live->outcome(progress), batch_of(operation, scene, arguments, progress));
     }
     WHEN("a dab is cancelled") {
         const Outcome before = live->outcome(progress);
@@ -273,7 +278,7 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
             CHECK_THROWS_WITH(live->add(dab, progress), Contains("stroke of one dab"));
             const auto other = operation.start(scene, checked_arguments(operation, dab), progress);
             const Outcome outcome = other->outcome(progress);
-            require_same(outcome, run_here(operation, scene, outcome.resolved, progress));
+            require_same(outcome, batch_of(operation, scene, outcome.resolved, progress));
             CHECK_THROWS_AS(other->add({{"dabs", any_dab(random)}}, progress), UsageError);
             require_same(other->outcome(progress), outcome);
         }

@@ -230,7 +230,8 @@ SCENARIO("a search decimates once where the operation compares with a run withou
     CHECK(std::ranges::count(done, comparing) == 0);
     Arguments same = given;
     same.set("share", 0.25);
-    const Outcome whole = run_operation(operation, scene, same, progress);
+    const Outcome whole =
+        run_operation(operation, scene, checked_arguments(operation, same), progress);
     CHECK(std::ranges::count(done, comparing) == 1);
     CHECK(whole.scene.surface->points() == found.points());
 }

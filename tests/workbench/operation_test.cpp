@@ -58,13 +58,13 @@ const Parameter& parameter(const Operation& operation, const std::string& name) 
 
 SCENARIO("Arguments given as text are read in the parameter's own type", "[workbench][operation]") {
     const Operation operation = example();
-    CHECK(parse_value(parameter(operation, "length"), "2.5") == Value(2.5));
-    CHECK(parse_value(parameter(operation, "length"), "3") == Value(3.0));
-    CHECK(parse_value(parameter(operation, "rounds"), "3") == Value(std::int64_t{3}));
-    CHECK(parse_value(parameter(operation, "place"), "1,-2.5,3e2") == Value(Vec3(1, -2.5, 300)));
-    CHECK(parse_value(parameter(operation, "labels"), "1,2") == Value(std::vector<double>{1, 2}));
-    CHECK(parse_value(parameter(operation, "flip"), "true") == Value(true));
-    CHECK(parse_value(parameter(operation, "name"), "") == Value(std::string()));
+    CHECK(checked_value(parameter(operation, "length"), "2.5") == Value(2.5));
+    CHECK(checked_value(parameter(operation, "length"), "3") == Value(3.0));
+    CHECK(checked_value(parameter(operation, "rounds"), "3") == Value(std::int64_t{3}));
+    CHECK(checked_value(parameter(operation, "place"), "1,-2.5,3e2") == Value(Vec3(1, -2.5, 300)));
+    CHECK(checked_value(parameter(operation, "labels"), "1,2") == Value(std::vector<double>{1, 2}));
+    CHECK(checked_value(parameter(operation, "flip"), "true") == Value(true));
+    CHECK(checked_value(parameter(operation, "name"), "") == Value(std::string()));
 }
 
 SCENARIO("A value that is not allowed is refused with its name and range",
@@ -73,9 +73,9 @@ SCENARIO("A value that is not allowed is refused with its name and range",
     const auto refused = [&](const std::string& name, const std::string& text,
                              const std::string& why) {
         INFO(name << "=" << text);
-        CHECK_THROWS_AS(parse_value(parameter(operation, name), text), UsageError);
+        CHECK_THROWS_AS(checked_value(parameter(operation, name), text), UsageError);
         CHECK_THROWS_WITH(
-            parse_value(parameter(operation, name), text),
+            checked_value(parameter(operation, name), text),
             Contains("'" + name + "'") && Contains("'" + text + "'") && Contains(why));
     };
     refused("length", "0", "above 0 and at most 20 mm");
@@ -96,13 +96,15 @@ SCENARIO("A value that is not allowed is refused with its name and range",
 SCENARIO("Checked arguments have their defaults and no unknown names", "[workbench][operation]") {
     const Operation operation = example();
     WHEN("only the needed one is given") {
-        const Arguments checked = checked_arguments(operation, {{"name", std::string("left")}});
+        const CheckedArguments checked =
+            checked_arguments(operation, {{"name", std::string("left")}});
         THEN("defaults are filled in and what the operation decides stays absent") {
-            CHECK(checked.real("length") == 5.0);
-            CHECK(checked.text("profile") == "keep");
-            CHECK_FALSE(checked.has("place"));
+            CHECK(checked->real("length") == 5.0);
+            CHECK(checked->text("profile") == "keep");
+            CHECK_FALSE(checked->has("place"));
         }
     }
+    static_assert(!std::is_constructible_v<CheckedArguments, Arguments>);
     CHECK_THROWS_WITH(checked_arguments(operation, {}),
                       Contains("cut-example") && Contains("'name' is required"));
     CHECK_THROWS_WITH(checked_arguments(operation, {{"lenght", 2.0}}),
@@ -110,13 +112,27 @@ SCENARIO("Checked arguments have their defaults and no unknown names", "[workben
     CHECK_THROWS_AS(checked_arguments(operation, {{"name", std::string("a")}, {"flip", 1.0}}),
                     UsageError);
     WHEN("arguments are added to others") {
-        const Arguments more = checked_changes(operation, {{"length", std::string("2")}});
+        const Arguments more = given_arguments(operation, {{"length", std::string("2")}});
         THEN("they are checked, and nothing is filled in") {
             CHECK(more == Arguments{{"length", 2.0}});
-            CHECK_THROWS_AS(checked_changes(operation, {{"length", 21.0}}), UsageError);
-            CHECK_THROWS_AS(checked_changes(operation, {{"width", 1.0}}), UsageError);
+            CHECK_THROWS_AS(given_arguments(operation, {{"length", 21.0}}), UsageError);
+            CHECK_THROWS_AS(given_arguments(operation, {{"width", 1.0}}), UsageError);
         }
     }
+}
+
+SCENARIO("Given arguments are checked one by one", "[workbench][operation]") {
+    const Operation operation = example();
+    GivenArguments given(operation), more(operation);
+    given.set("length", std::string("2"));
+    CHECK_THROWS_WITH(given.set("length", 21.0), Contains("cut-example: parameter 'length'"));
+    CHECK_THROWS_WITH(given.set("width", 1.0), Contains("no parameter 'width'"));
+    CHECK_THROWS_WITH(check_complete(given), Contains("'name' is required"));
+    more.set("length", 3.0);
+    more.set("name", std::string("left"));
+    given.set(more);
+    CHECK_NOTHROW(check_complete(given));
+    CHECK(checked_arguments(given)->real("length") == 3.0);
 }
 
 SCENARIO("Arguments survive JSON", "[workbench][operation]") {
@@ -128,7 +144,8 @@ SCENARIO("Arguments survive JSON", "[workbench][operation]") {
                              {"flip", true},
                              {"name", std::string("a b")}};
     const auto text = to_json(given).dump();
-    CHECK(arguments_from_json(operation, nlohmann::ordered_json::parse(text)) == given);
+    const Arguments read = arguments_from_json(operation, nlohmann::ordered_json::parse(text));
+    CHECK(read == given);
     CHECK_THROWS_AS(arguments_from_json(operation, {{"length", {{"a", 1}}}}), UsageError);
 }
 
@@ -160,7 +177,7 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
             CHECK(parameters.insert(p.name).second);
             CHECK(p.help.size() > 10);
             CHECK((p.type == ParameterType::Choice) == !p.choices.empty());
-            if (p.default_value) CHECK_NOTHROW(parse_value(p, to_text(*p.default_value)));
+            if (p.default_value) CHECK_NOTHROW(checked_value(p, to_text(*p.default_value)));
         }
     }
 }
@@ -174,9 +191,10 @@ SCENARIO("Operations declare what others ask of them", "[workbench][operation]")
     for (const Operation& operation : operation_table()) {
         INFO(operation.name);
         const OperationSearch& search = operation.search;
-        CHECK((search.by == OperationSearch::By::Runs) == (search.parameters != nullptr));
-        if (search.by == OperationSearch::By::Filter)
-            CHECK_NOTHROW(find_parameter(operation, "filter"));
+        CHECK_FALSE((search.parameters != nullptr && search.smoothing != nullptr));
+        CHECK((search.smoothing != nullptr) == !search.filter_parameter.empty());
+        if (search.smoothing != nullptr)
+            CHECK_NOTHROW(find_parameter(operation, search.filter_parameter));
         if (search.parameters == nullptr) continue;
         for (const bool all : {false, true})
             for (const SearchedParameter& searched : search.parameters(icosphere(5.0, 3), all)) {

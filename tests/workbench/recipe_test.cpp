@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/purposes.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;
@@ -13,7 +14,7 @@ namespace {
 
 std::vector<std::string> operations_of(const Recipe& recipe) {
     std::vector<std::string> names;
-    for (const RecipeEntry& entry : recipe) names.push_back(entry.operation);
+    for (const RecipeEntry& entry : recipe) names.push_back(entry.given.operation().name);
     return names;
 }
 
@@ -34,8 +35,8 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     const Recipe recipe = recipe_from_json(list, {"surface", "cfd"});
     REQUIRE(operations_of(recipe) ==
             std::vector<std::string>{"smooth", "extrude-opening", "fill-hole"});
-    CHECK(recipe[0].given.integer("iterations") == 5);
-    CHECK(recipe[0].given.real("lambda") == 0.25);
+    CHECK(recipe[0].given->integer("iterations") == 5);
+    CHECK(recipe[0].given->real("lambda") == 0.25);
     CHECK(recipe[0].step == Step::Source);
     CHECK(recipe[1].optional);
     CHECK_FALSE(recipe[1].unless_closed);
@@ -59,13 +60,24 @@ SCENARIO("A recipe that cannot be followed is refused before anything is done",
     refused(R"([7])", "entry 1");
 }
 
+SCENARIO("Every purpose is a word of recipes", "[workbench][recipe]") {
+    for (const Purpose& purpose : purposes()) {
+        const Json list = {{{"operation", "smooth"}, {"when", purpose.name}}};
+        CHECK(recipe_from_json(list, {"surface", purpose.name}).size() == 1);
+        CHECK(recipe_from_json(list, {"surface"}).empty());
+        CHECK(&find_purpose(purpose.name) == &purpose);
+    }
+    CHECK_THROWS_WITH(find_purpose("cdf"),
+                      Contains("--for 'cdf'") && Contains("did you mean 'cfd'"));
+}
+
 SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
     Recipe recipe = recipe_from_json(
         Json::parse(R"([{"operation": "smooth"}, {"operation": "smooth", "step": "source"}])"), {});
     const std::vector<std::string> texts = {"smooth.iterations=7"};
     set_arguments(recipe, texts);
-    CHECK(recipe[0].given.integer("iterations") == 7);
-    CHECK(recipe[1].given.integer("iterations") == 7);
+    CHECK(recipe[0].given->integer("iterations") == 7);
+    CHECK(recipe[1].given->integer("iterations") == 7);
     const auto wrong = [&](const std::string& text, const std::string& why) {
         const std::vector<std::string> one = {text};
         CHECK_THROWS_AS(set_arguments(recipe, one), UsageError);

@@ -3,8 +3,8 @@
 #include "tests/support/stack_phantoms.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/smooth/search.h"
 #include "workbench/operations/table.h"
-#include "workbench/suggest/smoothing_subject.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -31,8 +31,9 @@ SCENARIO("A search weighs staircases as smooth does", "[workbench][suggest]") {
                                           others};
         texts.insert(texts.end(), thresholds.begin(), thresholds.end());
         const Operation& smooth = find_operation("smooth");
-        Arguments arguments = checked_arguments(smooth, arguments_from_texts(smooth, texts));
-        return smoothing_subject(scene, arguments);
+        const GivenArguments given = arguments_from_texts(smooth, texts);
+        Arguments arguments = checked_arguments(given);
+        return smoothing_subject(scene, given, arguments);
     };
     INFO(caps << ", " << scaling << ", " << others);
     const SmoothingSubject searched = subject_with({});

@@ -52,6 +52,7 @@ std::string reason_of(const DeviceSource& source) {
     const ContextFilter::Result cpu = filtered("cpu", source), run = filtered("gpu", source);
     CHECK(run.positions == cpu.positions);
     CHECK(run.resolved.text("device") == "cpu");
+    CHECK(run.device == "cpu");
     CHECK(*run.report == *cpu.report);
     CHECK(cpu.reason.empty());
     return run.reason;
@@ -78,6 +79,7 @@ SCENARIO("Where the device fails half-way, the CPU finds the context again and s
     const ContextFilter::Result whole = filtered("gpu", offscreen_device);
     CHECK(whole.reason.empty());
     CHECK(whole.resolved.text("device") == "gpu");
+    CHECK(whole.device == "gpu");
     const Positions by_cpu = filtered("cpu", offscreen_device).positions;
     CHECK(relative_distances(by_cpu, whole.positions).back() <= 1e-5);
     CHECK(whole.positions != by_cpu);

@@ -183,8 +183,8 @@ SCENARIO("Arguments without effect are reported with what they need", "[workbenc
     for (const Parameter& parameter : operation.parameters)
         if (parameter.only_with)
             for (const std::string& value : parameter.only_with->values)
-                CHECK_NOTHROW(
-                    parse_value(find_parameter(operation, parameter.only_with->parameter), value));
+                CHECK_NOTHROW(checked_value(
+                    find_parameter(operation, parameter.only_with->parameter), value));
 }
 
 SCENARIO("A neighbour that is loaded later changes no smoothing made before",
@@ -298,7 +298,9 @@ SCENARIO("smooth records the device, and commits the CPU's bits unless the GPU i
     const auto distance = replay_distance(*plain.scene.surface, *on_gpu.scene.surface);
     REQUIRE(distance);
     CHECK(distance->allowed);
-    if (on_gpu.resolved.text("device") == "gpu") {
+    CHECK(plain.device == "cpu");
+    CHECK(on_gpu.device == on_gpu.resolved.text("device"));
+    if (on_gpu.device == "gpu") {
         CHECK(on_gpu.warnings.empty());
         CHECK(distance->largest > 0.0);  // single precision
     } else {

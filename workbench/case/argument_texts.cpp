@@ -4,21 +4,17 @@
 
 namespace vesselbench {
 
-Arguments arguments_from_texts(const Operation& operation, std::span<const std::string> texts) {
-    Arguments arguments;
+GivenArguments arguments_from_texts(const Operation& operation,
+                                    std::span<const std::string> texts) {
+    GivenArguments arguments(operation);
     for (const std::string& text : texts) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
             throw UsageError("'" + text + "' is not of the form parameter=value");
         const std::string name = text.substr(0, equals);
-        const Parameter& parameter = find_parameter(operation, name);
-        if (arguments.has(name))
+        if (arguments->has(name))
             throw UsageError(operation.name + ": parameter '" + name + "' is given twice");
-        try {
-            arguments.set(name, parse_value(parameter, text.substr(equals + 1)));
-        } catch (const UsageError& error) {
-            throw UsageError(operation.name + ": " + error.what());
-        }
+        arguments.set(name, text.substr(equals + 1));
     }
     return arguments;
 }

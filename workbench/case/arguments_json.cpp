@@ -56,12 +56,13 @@ nlohmann::ordered_json to_json(const Arguments& arguments) {
     return object;
 }
 
-Arguments arguments_from_json(const Operation& operation, const nlohmann::ordered_json& object) {
+GivenArguments arguments_from_json(const Operation& operation,
+                                   const nlohmann::ordered_json& object) {
     if (!object.is_object())
         throw UsageError("the arguments of " + operation.name + " are not a JSON object");
     Arguments given;
     for (const auto& [name, json] : object.items()) given.set(name, plain_value(name, json));
-    return checked_changes(operation, given);
+    return given_arguments(operation, given);
 }
 
 }  // namespace vesselbench

@@ -12,10 +12,9 @@ namespace vesselbench {
 /// JSON object of the arguments, by parameter name.
 [[nodiscard]] nlohmann::ordered_json to_json(const Arguments& arguments);
 
-/// Reads the JSON object back in the operation's own types, as checked_arguments does, but without
-/// filling in defaults or requiring absent values.
-/// \throw UsageError as checked_arguments
-[[nodiscard]] Arguments arguments_from_json(const Operation& operation,
-                                            const nlohmann::ordered_json& object);
+/// Reads and checks the JSON object of an operation's arguments.
+/// \throw UsageError as given_arguments()
+[[nodiscard]] GivenArguments arguments_from_json(const Operation& operation,
+                                                 const nlohmann::ordered_json& object);
 
 }  // namespace vesselbench

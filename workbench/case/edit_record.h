@@ -22,6 +22,9 @@ struct SurfaceChange {
     bool operator==(const SurfaceChange&) const = default;
 };
 
+/// The variant of edits of steps 6-8, and of scenes, where none is named.
+inline constexpr const char* kDefaultVariant = "cfd";
+
 /// The user's request: one revision of an edit.
 struct EditRecord {
     EditRef edit;
@@ -48,7 +51,7 @@ struct ResultRecord {
     double duration = 0.0;        ///< [s]
     std::string time;             ///< when it ran, UTC
     std::string program_version;  ///< of vesselbench
-    std::string device;           ///< "cpu" or "gpu"
+    std::string device;           ///< "cpu" or "gpu", as Outcome::device
 };
 
 }  // namespace vesselbench

@@ -14,28 +14,6 @@ namespace {
 /// Share of a live form's batch run that its scene takes; figures take the rest.
 constexpr double kLiveShare = 0.8;
 
-/// \param whole fills in defaults and demands required arguments
-Arguments checked_values(const Operation& operation, const Arguments& given, bool whole) {
-    for (const auto& [name, value] : given.values())
-        static_cast<void>(find_parameter(operation, name));
-    Arguments result;
-    for (const Parameter& parameter : operation.parameters) {
-        const auto found = given.values().find(parameter.name);
-        try {
-            if (found != given.values().end())
-                result.set(parameter.name, checked_value(parameter, found->second));
-            else if (whole && parameter.default_value)
-                result.set(parameter.name, checked_value(parameter, *parameter.default_value));
-            else if (whole && parameter.required)
-                throw UsageError("parameter '" + parameter.name +
-                                 "' is required: " + parameter.help);
-        } catch (const UsageError& error) {
-            throw UsageError(operation.name + ": " + error.what());
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
 std::string to_string(Step step) {
@@ -62,19 +40,11 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
                      did_you_mean(name, names) + " (" + takes + ")");
 }
 
-Arguments checked_arguments(const Operation& operation, const Arguments& given) {
-    return checked_values(operation, given, true);
-}
-
-Arguments checked_changes(const Operation& operation, const Arguments& more) {
-    return checked_values(operation, more, false);
-}
-
-Outcome run_here(const Operation& operation, const Scene& scene, const Arguments& checked,
+Outcome run_here(const Operation& operation, const Scene& scene, const CheckedArguments& arguments,
                  Progress& progress) {
-    if (operation.run != nullptr) return operation.run(scene, checked, progress);
+    if (operation.run != nullptr) return operation.run(scene, arguments, progress);
     Progress starting = progress.part(0.0, kLiveShare), figures = progress.part(kLiveShare, 1.0);
-    return operation.start(scene, checked, starting)->outcome(figures);
+    return operation.start(scene, arguments, starting)->outcome(figures);
 }
 
 std::vector<std::string> arguments_without_effect(const Operation& operation,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "workbench/case/checked_arguments.h"
 #include "workbench/case/operation_search.h"
 #include "workbench/case/parameter.h"
 #include "workbench/case/recipe_part.h"
@@ -34,8 +35,9 @@ enum class Step : int {
 using OperationFunction = Outcome (*)(const Scene& scene, const Arguments& arguments,
                                       Progress& progress);
 
-/// Starts an operation live. \param checked arguments as checked_arguments() returns them
-using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene, const Arguments& checked,
+/// Starts an operation live.
+using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene,
+                                                     const CheckedArguments& arguments,
                                                      Progress& progress);
 
 /// One row of the operation table.
@@ -50,28 +52,21 @@ struct Operation {
     StepperFunction start = nullptr;
     bool isolated =
         false;  ///< run in a worker process: it reads foreign files, or may crash or hang
+    /// True for arguments with which it runs in the program's own process, even where all others
+    /// run in workers: on a GPU. Null: for none.
+    bool (*stays_here)(const Arguments& arguments) = nullptr;
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};
 };
 
-/// Runs an operation's batch form in this process. \param checked as from checked_arguments()
+/// Runs an operation's batch form in this process.
 /// \throw what the operation throws
 [[nodiscard]] Outcome run_here(const Operation& operation, const Scene& scene,
-                               const Arguments& checked, Progress& progress);
+                               const CheckedArguments& arguments, Progress& progress);
 
 /// \throw UsageError that lists similar names and all names if the operation has no such parameter
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
-
-/// Fills in defaults and checks types, ranges, choices, unknown names. Absent optional arguments
-/// stay absent.
-/// \throw UsageError that names the operation, the parameter, the value and what is allowed
-[[nodiscard]] Arguments checked_arguments(const Operation& operation, const Arguments& given);
-
-/// The same checks for arguments added to others: no defaults are filled in, and required ones may
-/// be absent.
-/// \throw UsageError as checked_arguments
-[[nodiscard]] Arguments checked_changes(const Operation& operation, const Arguments& more);
 
 /// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
 /// \param resolved the arguments that the operation finally ran with

@@ -167,8 +167,4 @@ Value checked_value(const Parameter& parameter, const Value& value) {
     return *typed;
 }
 
-Value parse_value(const Parameter& parameter, const std::string& text) {
-    return checked_value(parameter, Value(text));
-}
-
 }  // namespace vesselbench

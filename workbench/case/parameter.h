@@ -42,8 +42,4 @@ struct Parameter {
 /// another type or out of range
 [[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value);
 
-/// Parses the command line's text of one argument.
-/// \throw UsageError that names the parameter, the text and the range
-[[nodiscard]] Value parse_value(const Parameter& parameter, const std::string& text);
-
 }  // namespace vesselbench

@@ -23,6 +23,7 @@ struct Outcome {
     Report report;
     Arguments resolved;
     std::vector<std::string> warnings;
+    std::string device = "cpu";  ///< that computed the scene: "cpu" or "gpu"
 };
 
 /// An operation that is driven live: started on a scene, then given arguments as they arrive. Its
@@ -33,7 +34,7 @@ public:
     virtual ~Stepper() = default;
 
     /// A brush appends the dabs of `more`; other operations replace the arguments named in it.
-    /// \param more as from checked_changes()
+    /// \param more as given_arguments() checks them
     /// \throw as the operation's batch form; everything is then unchanged
     virtual void add(const Arguments& more, Progress& progress) = 0;
 

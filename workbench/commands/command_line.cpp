@@ -10,11 +10,14 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
+#include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/suggest/processing_subject.h"
 
 namespace vesselbench {
 
@@ -23,15 +26,34 @@ namespace {
 constexpr const char* kDescription =
     "vesselbench turns vessel images and raw vessel surfaces into CFD models and print models.";
 
+/// What `prepare` writes for the purposes with products of their own.
+std::string product_lines() {
+    std::string lines;
+    for (const Purpose& purpose : purposes())
+        if (!purpose.products.empty())
+            lines += "  for " + purpose.name + ": " + joined(product_names(purpose.name)) + "\n";
+    return lines;
+}
+
+/// "flow simulation (cfd), ..., or surgery simulation (simulation)"
+std::string purposes_help() {
+    std::string text;
+    for (const Purpose& purpose : purposes())
+        text += (text.empty()                     ? ""
+                 : &purpose == &purposes().back() ? ", or "
+                                                  : ", ") +
+                purpose.help;
+    return text;
+}
+
 std::string prepare_footer() {
     return input_formats_text() +
            "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
            "like\n"
            "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
-           "OUT gets project.vbench, report.json, report.html and\n"
-           "  for cfd: " +
-           joined(product_names("cfd")) + "\n  for rp: " + joined(product_names("rp")) +
-           "\n\n"
+           "OUT gets project.vbench, report.json, report.html and\n" +
+           product_lines() +
+           "\n"
            "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
            "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out "
            "print";
@@ -53,20 +75,40 @@ constexpr const char* kPictureFooter =
     "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
     "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
 
-constexpr const char* kSuggestFooter =
-    "Each suggestion balances low curvature (smooth) against distance and volume (accurate) "
-    "by\ntau; the rows below the first one are for a low, medium and high tau. For remesh "
-    "and\ndecimate, the number of triangles replaces the curvature.\n\n  vesselbench suggest "
-    "aorta.vbench --filter laplace --tau 0.4\n  vesselbench suggest aorta.vbench staircase=true\n  "
-    "vesselbench suggest aorta.vbench --operation decimate";
+std::string suggest_footer() {
+    return "Each suggestion balances low curvature (smooth) against distance and volume (accurate) "
+           "by\ntau; the rows below the first one are for a low, medium and high tau. For\n" +
+           joined(searched_operations(counts_triangles), " and ") +
+           ", the number of triangles replaces the curvature.\n\n  vesselbench suggest "
+           "aorta.vbench --filter laplace --tau 0.4\n  vesselbench suggest aorta.vbench "
+           "staircase=true\n  vesselbench suggest aorta.vbench --operation decimate";
+}
 
-constexpr const char* kQualityFooter =
-    "Graphs and bars start from the given arguments of the operation (or its defaults) and "
-    "change\none parameter at a time. Errors and volumes are relative to those of a strong change: "
-    "for\nsmooth, 50 iterations of Laplace with lambda 1. Curvature ranges from 100 % for the "
-    "original\nto 0 % for the strong change.\n\n  vesselbench quality aorta.stl --out graphs.svg "
-    "--out bars.svg --out gallery.png\n  vesselbench quality aorta.stl --operation remesh --out "
-    "graphs.svg";
+std::string quality_footer() {
+    return "Graphs and bars start from the given arguments of the operation (or its defaults) and "
+           "change\none parameter at a time. Errors and volumes are relative to those of a strong "
+           "change: for\n" +
+           joined(searched_operations(searches_filter), " and ") +
+           ", 50 iterations of Laplace with lambda 1. Curvature ranges from 100 % for the "
+           "original\nto 0 % for the strong change.\n\n  vesselbench quality aorta.stl --out "
+           "graphs.svg --out bars.svg --out gallery.png\n  vesselbench quality aorta.stl "
+           "--operation remesh --out graphs.svg";
+}
+
+/// "a, b or c"
+std::string alternatives(const std::vector<std::string>& names) {
+    if (names.size() < 2) return joined(names);
+    return joined(std::span(names).first(names.size() - 1)) + " or " + names.back();
+}
+
+/// What arguments make of a search: "for smooth, staircase=true searches its thresholds, too".
+std::string search_hints() {
+    std::string text;
+    for (const std::string& name : searched_operations())
+        if (const std::string& hint = find_operation(name).search.hint; !hint.empty())
+            text += "; for " + name + ", " + hint;
+    return text;
+}
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 the operation could not be done, 2 wrong usage, 3 the input is "
@@ -220,12 +262,9 @@ void add_prepare(CommandLine& line) {
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
     command.footer(prepare_footer());
-    command
-        .add_option("--for", options->purpose,
-                    "Purpose of the model: flow simulation (cfd), printing (rp), "
-                    "pictures\n(planning: keeps raw triangles), or surgery simulation (simulation)")
+    command.add_option("--for", options->purpose, "Purpose of the model: " + purposes_help())
         ->required()
-        ->type_name("cfd|rp|planning|simulation");
+        ->type_name(joined(purpose_names(), "|"));
     command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
     command
@@ -321,18 +360,23 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
         ->type_name("");
     command
         .add_option("parameter=value", subject.arguments,
-                    "Arguments of the operation, which are kept; for smooth, staircase=true "
-                    "searches its thresholds, too")
+                    "Arguments of the operation, which are kept" + search_hints())
         ->type_name("");
     command
         .add_option("--operation", subject.operation,
-                    "Operation: smooth, remesh, decimate or subdivide (default: smooth)")
+                    "Operation: " + alternatives(searched_operations()) +
+                        " (default: " + searched_operations().front() + ")")
         ->type_name("NAME");
     command
-        .add_option("--variant", subject.variant,
-                    "Variant of a project, if the operation belongs to one (default: cfd)")
+        .add_option(
+            "--variant", subject.variant,
+            std::string("Variant of a project, if the operation belongs to one (default: ") +
+                kDefaultVariant + ")")
         ->type_name("NAME");
-    command.add_option("--filter", subject.filter, "Filter of smooth (default: as in smooth)")
+    const std::string filtering = alternatives(searched_operations(searches_filter));
+    command
+        .add_option("--filter", subject.filter,
+                    "Filter of " + filtering + " (default: as in " + filtering + ")")
         ->type_name("NAME");
     command
         .add_option("--units", subject.units, "Unit of surface files: mm, cm or m (default: mm)")
@@ -341,9 +385,11 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
 
 void add_suggest(CommandLine& line) {
     const auto options = std::make_shared<SuggestOptions>();
-    CLI::App& command = add_command(
-        line, "suggest", "Suggest parameters of smooth, or another operation, for a surface",
-        [options, &line] { return suggest_parameters(*options, line.progress), 0; });
+    CLI::App& command =
+        add_command(line, "suggest",
+                    "Suggest parameters of " + searched_operations().front() +
+                        ", or another operation, for a surface",
+                    [options, &line] { return suggest_parameters(*options, line.progress), 0; });
     add_subject(command, options->subject);
     command
         .add_option("--tau", options->tau, "Target, from 0 (accurate) to 1 (smooth; few triangles)")
@@ -367,15 +413,16 @@ void add_suggest(CommandLine& line) {
             "--truth", options->truth,
             "With --grid: distance of each set's result from this surface, the known true one")
         ->type_name("FILE");
-    command.footer(kSuggestFooter);
+    command.footer(suggest_footer());
 }
 
 void add_quality(CommandLine& line) {
     const auto options = std::make_shared<QualityOptions>();
-    CLI::App& command = add_command(
-        line, "quality",
-        "Draw the effect of the parameters of smooth, or another operation, on a surface",
-        [options, &line] { return draw_quality(*options, line.progress), 0; });
+    CLI::App& command =
+        add_command(line, "quality",
+                    "Draw the effect of the parameters of " + searched_operations().front() +
+                        ", or another operation, on a surface",
+                    [options, &line] { return draw_quality(*options, line.progress), 0; });
     add_subject(command, options->subject);
     command
         .add_option("--out", options->out,
@@ -396,7 +443,7 @@ void add_quality(CommandLine& line) {
         ->expected(3)
         ->type_name("X,Y,Z");
     add_json(command, options->json, "Print the data of the graphs as one JSON document");
-    command.footer(kQualityFooter);
+    command.footer(quality_footer());
 }
 
 void add_centerlines(CommandLine& line) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "workbench/case/edit_record.h"
 #include "workbench/suggest/subject_options.h"
 
 namespace vesselbench {
@@ -26,7 +27,7 @@ struct ApplyOptions {
     std::string project;
     std::string operation;
     std::vector<std::string> arguments;  ///< "parameter=value"
-    std::string variant = "cfd";
+    std::string variant = kDefaultVariant;
     std::string step;    ///< name of the step the edit belongs to; empty: the operation's usual one
     std::string author;  ///< empty: the login name
     std::string note;
@@ -176,7 +177,7 @@ void make_project(const NewArguments& arguments, const Progress& progress);
 struct ExportArguments {
     std::string project;
     std::string file;
-    std::string variant = "cfd";
+    std::string variant = kDefaultVariant;
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
     bool json = false;
 };

@@ -1,6 +1,5 @@
 #include "workbench/prepare/prepare.h"
 
-#include <algorithm>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -8,8 +7,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
-#include "geometry/kernel/wording.h"
-#include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
@@ -21,13 +19,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void check_purpose(const std::string& purpose) {
-    static const std::vector<std::string> purposes = {"cfd", "rp", "planning", "simulation"};
-    if (std::ranges::count(purposes, purpose) == 0)
-        throw UsageError("--for '" + purpose + "' is unknown" + did_you_mean(purpose, purposes) +
-                         " (it is " + joined(purposes) + ")");
-}
 
 /// What was made, and what the report warns about.
 void print_prepared(const PrepareArguments& arguments) {
@@ -50,7 +41,7 @@ InputOptions input_options(const InputArguments& arguments) {
 }  // namespace
 
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
-    check_purpose(arguments.purpose);
+    const Purpose& purpose = find_purpose(arguments.purpose);
     prepare({.input = input_options(arguments.input),
              .purpose = arguments.purpose,
              .recipe = arguments.recipe,
@@ -59,11 +50,9 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
             remark, progress);
     const std::filesystem::path out = arguments.out;
     if (arguments.json) return print_prepared(arguments);
-    const auto [what, file] = arguments.purpose == "cfd" ? std::pair("CFD case:    ", "openfoam")
-                              : arguments.purpose == "rp"
-                                  ? std::pair("print model: ", "print.stl")
-                                  : std::pair("surface:     ", "surface.vtp");
-    std::cout << what << (out / file).string()
+    std::string what = purpose.result + ":";
+    what.resize(std::string("report:      ").size(), ' ');
+    std::cout << what << (out / purpose.result_file).string()
               << "\nreport:      " << (out / "report.html").string()
               << "\nproject:     " << (out / "project.vbench").string() << "\n";
 }

@@ -192,11 +192,11 @@ const EditRecord& edit_of(const Snapshot& now, EditId id) {
 
 void apply_operation(const ApplyOptions& options, const Progress& progress) {
     const Operation& operation = find_operation(options.operation);
-    const Arguments given = arguments_from_texts(operation, options.arguments);
+    const GivenArguments given = arguments_from_texts(operation, options.arguments);
     EditOptions edit{.variant = options.variant, .author = options.author, .note = options.note};
     if (!options.step.empty()) edit.step = step_from(options.step);
     Session session = Session::open(options.project, {.find = find_operation});
-    const LogEntry entry = session.apply(operation.name, given, edit, progress);
+    const LogEntry entry = session.apply(given, edit, progress);
     remark_warnings(entry, given);
     if (options.json)
         std::cout << log_json(entry).dump(2) << "\n";
@@ -207,9 +207,10 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
 void change_edit(const ChangeOptions& options, const Progress& progress) {
     Session session = Session::open(options.project, {.find = find_operation});
     const EditRecord old = edit_of(*session.snapshot(), options.edit);
-    const Arguments more = arguments_from_texts(find_operation(old.operation), options.arguments);
+    const GivenArguments more =
+        arguments_from_texts(find_operation(old.operation), options.arguments);
     Arguments given = old.given;
-    for (const auto& [name, value] : more.values()) given.set(name, value);
+    for (const auto& [name, value] : more->values()) given.set(name, value);
     const LogEntry entry = session.change_edit(
         options.edit, given, {.author = options.author, .note = options.note}, progress);
     remark_warnings(entry, given);

@@ -13,6 +13,7 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/shared/foreign_surface.h"
+#include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 
@@ -126,7 +127,7 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
     for (const Parameter& parameter : subject.operation->parameters)
         if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
             words += " " + parameter.name + "=" + to_text(at->second);
-    if (!subject.variant.empty() && subject.variant != "cfd")
+    if (!subject.variant.empty() && subject.variant != kDefaultVariant)
         words += " --variant " + subject.variant;
     std::cout << "\nvesselbench apply " << words << "\n";
 }
@@ -145,7 +146,8 @@ ScoreForm form_for(const SuggestOptions& options, const SearchSubject& subject) 
     if (form == ScoreForm::Compact && subject.smoothing)
         throw UsageError("--score compact is for operations that change the number of triangles");
     if (form == ScoreForm::Thesis && !subject.smoothing)
-        throw UsageError("--score thesis is for smooth: its error needs the same triangles");
+        throw UsageError("--score thesis is for " + joined(searched_operations(searches_filter)) +
+                         ": its error needs the same triangles");
     return form;
 }
 
@@ -165,7 +167,8 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
                  {"vertices", surface_of(subject.scene).vertex_count()},
                  {"mean_edge_mm", search.mean_edge()},
                  {"original", measures_json(search.original(), search.original())}};
-    if (subject.smoothing) json["filter"] = subject.arguments.text("filter");
+    if (const std::string& filter = subject.operation->search.filter_parameter; !filter.empty())
+        json[filter] = subject.arguments.text(filter);
     json["suggestion"] = suggestion_json(search, found.front().first, found.front().second);
     const Arguments arguments = arguments_of(subject, search.space(), found.front().second.values);
     for (const auto& [name, value] : arguments.values())
@@ -195,7 +198,7 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
         done += 0.13;
     }
     for (const std::string& note : subject.notes) remark(note);
-    if (subject.smoothing && subject.arguments.text("device") == "gpu" &&
+    if (subject.smoothing && subject.smoothing->device == DeviceChoice::Gpu &&
         !search.chosen().reason.empty())
         remark("device=gpu: fell back to the CPU, because " + search.chosen().reason);
     if (options.json) return print_json(search, subject, options, found, work, progress);

@@ -4,6 +4,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/flow_parameters.h"
 
@@ -36,13 +37,13 @@ CfdParameters take_flow_parameters(std::vector<std::string>& texts) {
     for (const std::string& text : texts)
         if (text.starts_with(prefix)) own.push_back(text.substr(prefix.size()));
     std::erase_if(texts, [&](const std::string& text) { return text.starts_with(prefix); });
-    return flow_from(checked_arguments(table, arguments_from_texts(table, own)));
+    return flow_from(checked_arguments(arguments_from_texts(table, own)));
 }
 
 std::vector<std::string> product_names(const std::string& purpose) {
     std::vector<std::string> names = {"surface.vtp", "surface.stl"};
-    if (purpose == "cfd") names.insert(names.end(), {"volume.vtu", "volume.msh", "openfoam"});
-    if (purpose == "rp") names.insert(names.end(), {"print.stl", "print.3mf"});
+    const std::vector<std::string>& own = find_purpose(purpose).products;
+    names.insert(names.end(), own.begin(), own.end());
     return names;
 }
 

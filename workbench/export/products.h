@@ -14,8 +14,8 @@ namespace vesselbench {
 /// \throw UsageError as checked_arguments
 [[nodiscard]] CfdParameters take_flow_parameters(std::vector<std::string>& texts);
 
-/// Names of the files that write_products writes: the surface, and for "cfd" the volume mesh and an
-/// OpenFOAM case, for "rp" the print model.
+/// Names of the files that write_products writes: the surface, and the purpose's own products.
+/// \throw UsageError as find_purpose
 [[nodiscard]] std::vector<std::string> product_names(const std::string& purpose);
 
 /// Writes the files of product_names().

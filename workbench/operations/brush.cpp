@@ -209,22 +209,22 @@ std::unique_ptr<Stepper> live_brush(const DabUse& use, const BrushSettings& sett
     return live;
 }
 
-std::unique_ptr<Stepper> live_smooth(const Scene& scene, const Arguments& arguments,
+std::unique_ptr<Stepper> live_smooth(const Scene& scene, const CheckedArguments& arguments,
                                      Progress& progress) {
     const BrushSettings settings{.kind = BrushKind::Smooth,
-                                 .passes = static_cast<int>(arguments.integer("passes"))};
+                                 .passes = static_cast<int>(arguments->integer("passes"))};
     return live_brush({"brush-smooth", kSmoothWeakest}, settings, scene, arguments, progress);
 }
 
-std::unique_ptr<Stepper> live_inflate(const Scene& scene, const Arguments& arguments,
+std::unique_ptr<Stepper> live_inflate(const Scene& scene, const CheckedArguments& arguments,
                                       Progress& progress) {
     return live_brush({"brush-inflate", kWeakest}, {.kind = BrushKind::Inflate}, scene, arguments,
                       progress);
 }
 
-std::unique_ptr<Stepper> live_weight(const Scene& scene, const Arguments& arguments,
+std::unique_ptr<Stepper> live_weight(const Scene& scene, const CheckedArguments& arguments,
                                      Progress& progress) {
-    const std::string& name = arguments.text("attribute");
+    const std::string& name = arguments->text("attribute");
     check_attribute(name);
     return live_brush({"brush-weight", kWeakest}, {.kind = BrushKind::Weight, .attribute = name},
                       scene, arguments, progress);

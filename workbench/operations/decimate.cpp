@@ -203,8 +203,15 @@ private:
     Run run_;
 };
 
+/// The share that max_error alone has left.
+double share_left(const Surface& before, const Surface& after) {
+    return static_cast<double>(after.triangle_count()) /
+           static_cast<double>(before.triangle_count());
+}
+
 std::vector<SearchedParameter> searched_parameters(const Surface&, bool) {
-    SearchedParameter share{.name = "share", .values = {0.02}, .coarse = 4, .idle = 1.0};
+    SearchedParameter share{
+        .name = "share", .values = {0.02}, .coarse = 4, .idle = 1.0, .value_if_open = &share_left};
     for (int twentieths = 1; twentieths <= 20; ++twentieths)
         share.values.push_back(twentieths / 20.0);
     return {share};
@@ -265,8 +272,7 @@ Operation decimate_operation() {
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
             .thesis = "5.6, 7.2",
-            .search = {.by = OperationSearch::By::Runs,
-                       .parameters = &searched_parameters,
+            .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},
                        .counts_triangles = true,
                        .strong_is_first = true}};

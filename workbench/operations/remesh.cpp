@@ -153,8 +153,7 @@ Operation remesh_operation() {
               .maximum = 3.0}},
         .run = &run,
         .thesis = "3.3.2, 4.2.9",
-        .search = {.by = OperationSearch::By::Runs,
-                   .parameters = &searched_parameters,
+        .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},
                    .counts_triangles = true}};
 }

@@ -14,6 +14,7 @@
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/operations/smooth/search.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -104,8 +105,9 @@ private:
         resolve_filter(surface, bare.resolved);
         if (const auto warning = filter_warning(filter_from(bare.resolved)); !warning.empty())
             bare.warnings.push_back(warning);
-        auto [moved, resolved, report, reason] =
+        auto [moved, resolved, report, reason, device] =
             filter_.run(bare.resolved, progress.part(0.0, 0.8));
+        bare.device = std::move(device);
         bare.resolved = std::move(resolved);
         bare.report = std::move(report);
         if (!reason.empty())
@@ -122,6 +124,11 @@ private:
     ContextFilter filter_;
     Outcome bare_;  ///< its report is the context's
 };
+
+/// A worker has neither the address space nor the time that a GPU's driver needs.
+bool asks_for_gpu(const Arguments& arguments) {
+    return device_choice_from(arguments.text("device")) == DeviceChoice::Gpu;
+}
 
 std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
@@ -147,9 +154,12 @@ Operation smooth_operation() {
             .summary = "smooth the surface, aware of staircases, neighbours and caps",
             .parameters = parameter_table(),
             .start = &started<LiveSmoothing>,
+            .stays_here = &asks_for_gpu,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
-            .search = {.by = OperationSearch::By::Filter}};
+            .search = {.smoothing = &smoothing_subject,
+                       .filter_parameter = "filter",
+                       .hint = "staircase=true searches its thresholds, too"}};
 }
 
 }  // namespace vesselbench

@@ -49,7 +49,7 @@ Operation subdivide_operation() {
                             .maximum = 6}},
             .run = &run,
             .thesis = "3.3.1",
-            .search = {.by = OperationSearch::By::Runs, .parameters = &searched_parameters}};
+            .search = {.parameters = &searched_parameters}};
 }
 
 }  // namespace vesselbench

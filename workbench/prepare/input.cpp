@@ -132,7 +132,7 @@ RecipeUse recipe_use(const Input& input, const std::string& purpose) {
 
 RecipeEntry loading_entry(const Input& input) {
     const InputKind kind = input.is_image ? InputKind::Image : InputKind::Surface;
-    RecipeEntry entry{.operation = loading_operation(kind).name};
+    RecipeEntry entry{.given = GivenArguments(loading_operation(kind))};
     entry.given.set("file", input.file.string());
     if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
     if (!input.units.empty()) entry.given.set("units", input.units);

@@ -42,6 +42,7 @@ struct Input {
 [[nodiscard]] RecipeUse recipe_use(const Input& input, const std::string& purpose);
 
 /// The edit that loads the input, with the arguments that an entry of a recipe may add.
+/// \throw UsageError if a unit is unknown
 [[nodiscard]] RecipeEntry loading_entry(const Input& input);
 
 }  // namespace vesselbench

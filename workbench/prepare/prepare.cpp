@@ -78,12 +78,13 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     const Json json = recipe_json_from(options, input);
     Recipe recipe = json.is_null() ? default_recipe(use) : recipe_from_json(json, use);
     const RecipeEntry loading = loading_entry(input);
-    if (recipe.empty() || recipe.front().operation != loading.operation)
-        recipe.insert(recipe.begin(), RecipeEntry{.operation = loading.operation});
-    for (const auto& [name, value] : loading.given.values()) recipe.front().given.set(name, value);
+    if (recipe.empty() || &recipe.front().given.operation() != &loading.given.operation())
+        recipe.insert(recipe.begin(), loading);
+    else
+        recipe.front().given.set(loading.given);
     set_arguments(recipe, options.arguments);
-    for (const RecipeEntry& entry : recipe)
-        static_cast<void>(checked_arguments(find_operation(entry.operation), entry.given));
+    // No entry runs if a later one cannot.
+    for (const RecipeEntry& entry : recipe) check_complete(entry.given);
     return recipe;
 }
 
@@ -113,14 +114,14 @@ std::string noticed(const LogEntry& entry) {
 /// Applies one entry. \return a warning in addition to the edit's own; empty if there is none
 std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
                         const Teller& tell, const Progress& progress) {
-    const Operation& operation = find_operation(entry.operation);
+    const Operation& operation = entry.given.operation();
     try {
-        const LogEntry done = session.apply(entry.operation, entry.given,
-                                            {.step = entry.step, .variant = variant}, progress);
+        const LogEntry done =
+            session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
         tell(told(done));
         if (done.result)
             for (const std::string& warning : done.result->warnings)
-                tell("warning: " + entry.operation + ": " + warning);
+                tell("warning: " + operation.name + ": " + warning);
         const std::string warning = noticed(done);
         if (!warning.empty()) tell("warning: " + warning);
         return warning;
@@ -130,22 +131,21 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
         throw AlgorithmFailure(error.what());
     } catch (const AlgorithmFailure& error) {
         if (operation.recipe.proves_source) throw UnusableSource(error.what());
-        if (!entry.otherwise.values().empty()) {
+        if (entry.otherwise) {
             RecipeEntry second = entry;
-            second.otherwise = {};
+            second.otherwise.reset();
+            second.given.set(*entry.otherwise);
             std::string changed;
-            for (const auto& [name, value] : entry.otherwise.values()) {
-                second.given.set(name, value);
+            for (const auto& [name, value] : (*entry.otherwise)->values())
                 changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
-            }
             const std::string warning =
-                entry.operation + " with " + changed + " instead: " + error.what();
+                operation.name + " with " + changed + " instead: " + error.what();
             tell("warning: " + warning);
             const std::string more = apply_entry(session, second, variant, tell, progress);
             return more.empty() ? warning : warning + "; " + more;
         }
         if (!entry.optional) throw;
-        const std::string warning = entry.operation + " was skipped: " + error.what();
+        const std::string warning = operation.name + " was skipped: " + error.what();
         tell("warning: " + warning);
         return warning;
     }
@@ -228,7 +228,6 @@ void new_project(const fs::path& project, const InputOptions& options, const Tel
                  const Progress& progress) {
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
     const RecipeEntry loading = loading_entry(input);
-    static_cast<void>(checked_arguments(find_operation(loading.operation), loading.given));
     Session session = Session::create(project, {.find = find_operation});
     try {
         apply_entry(session, loading, "", tell, progress.part(0.3, 1.0));

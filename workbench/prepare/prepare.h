@@ -13,7 +13,7 @@ namespace vesselbench {
 
 struct PrepareOptions {
     InputOptions input;
-    std::string purpose;                 ///< "cfd", "rp", "planning" or "simulation"
+    std::string purpose;                 ///< its name, see purposes()
     std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
     std::vector<std::string> arguments;  ///< "operation.parameter=value"
     std::filesystem::path out;           ///< folder of the results

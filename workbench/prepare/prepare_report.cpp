@@ -9,6 +9,7 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
@@ -161,7 +162,7 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(report["patches"], surface);
 }
 
-void add_cfd(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
+void add_flow(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
     report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
@@ -210,7 +211,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     }
     if (prepared.input.exact)
         report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
-    if (prepared.purpose == "cfd") add_cfd(report, prepared, edits);
+    if (find_purpose(prepared.purpose).simulates_flow) add_flow(report, prepared, edits);
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
     return {report,

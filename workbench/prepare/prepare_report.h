@@ -14,7 +14,7 @@ namespace vesselbench {
 
 /// The results of prepare, for the report.
 struct PreparedCase {
-    std::string purpose;  ///< "cfd", "rp", "planning" or "simulation"
+    std::string purpose;  ///< its name
     Input input;
     Scene scene;  ///< the result
     CfdParameters flow;

@@ -10,6 +10,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/builtin_recipes.h"
 
@@ -21,8 +22,13 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> kKeys = {"operation",     "arguments", "step", "optional",
                                         "unless_closed", "otherwise", "when"};
-const std::vector<std::string> kWords = {"surface", "image",    "mask",      "cfd",
-                                         "rp",      "planning", "simulation"};
+
+/// The words that "when" may contain.
+std::vector<std::string> use_words() {
+    std::vector<std::string> words = {"surface", "image", "mask"};
+    for (const Purpose& purpose : purposes()) words.push_back(purpose.name);
+    return words;
+}
 
 void refuse_unknown_keys(const Json& entry) {
     for (const auto& [key, value] : entry.items())
@@ -34,8 +40,9 @@ void refuse_unknown_keys(const Json& entry) {
 bool word_holds(const std::string& word, const RecipeUse& use) {
     const bool negated = word.starts_with("no-");
     const std::string name = negated ? word.substr(3) : word;
-    if (std::ranges::count(kWords, name) == 0)
-        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(kWords) +
+    const std::vector<std::string> words = use_words();
+    if (std::ranges::count(words, name) == 0)
+        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(words) +
                          ", each also with the prefix no-");
     return (std::ranges::count(use, name) > 0) != negated;
 }
@@ -51,11 +58,11 @@ bool is_used(const Json& entry, const RecipeUse& use) {
 RecipeEntry entry_from_json(const Json& json) {
     if (!json.contains("operation")) throw UsageError("it has no \"operation\"");
     const Operation& operation = find_operation(json["operation"].get<std::string>());
-    RecipeEntry entry{.operation = operation.name,
+    RecipeEntry entry{.given = GivenArguments(operation),
                       .optional = json.value("optional", false),
                       .unless_closed = json.value("unless_closed", false)};
     if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
-    if (json.contains("otherwise"))
+    if (json.contains("otherwise") && !json["otherwise"].empty())
         entry.otherwise = arguments_from_json(operation, json["otherwise"]);
     if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
     return entry;
@@ -101,12 +108,12 @@ void set_arguments(Recipe& recipe, std::span<const std::string> texts) {
             throw UsageError("--set '" + text + "' is not of the form operation.parameter=value");
         const Operation& operation = find_operation(text.substr(0, dot));
         const std::vector<std::string> argument = {text.substr(dot + 1)};
-        const Arguments given = arguments_from_texts(operation, argument);
+        const GivenArguments given = arguments_from_texts(operation, argument);
         bool found = false;
         for (RecipeEntry& entry : recipe) {
-            if (entry.operation != operation.name) continue;
+            if (&entry.given.operation() != &operation) continue;
             found = true;
-            for (const auto& [name, value] : given.values()) entry.given.set(name, value);
+            entry.given.set(given);
         }
         if (!found) throw UsageError("--set '" + text + "': the recipe has no " + operation.name);
     }

@@ -13,12 +13,12 @@ namespace vesselbench {
 
 /// One edit of a recipe.
 struct RecipeEntry {
-    std::string operation;
-    Arguments given;
-    std::optional<Step> step;  ///< none: the operation's usual step
+    GivenArguments given;                     ///< also names the operation
+    std::optional<Step> step = std::nullopt;  ///< none: the operation's usual step
     bool optional = false;  ///< if it cannot be done, a warning is given and the recipe continues
     bool unless_closed = false;  ///< skipped if the surface has no border at that point
-    Arguments otherwise;         ///< replace some of the given ones if they cannot be done
+    /// Replace some of the given ones if they cannot be done.
+    std::optional<GivenArguments> otherwise = std::nullopt;
 };
 
 using Recipe = std::vector<RecipeEntry>;
@@ -30,7 +30,7 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 /// "step": name, "optional": true|false, "unless_closed": true|false, "otherwise":
 /// {parameter: value}, "when": word or list of words} where everything except "operation" is
 /// optional. An entry is used if each word of its "when" is in `use`, and each word prefixed
-/// by "no-" is not.
+/// by "no-" is not. Arguments are checked here; required ones may still be absent.
 /// \throw UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);
 

@@ -1,10 +1,12 @@
 #include "workbench/report/report_html.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/purposes.h"
 
 namespace vesselbench {
 
@@ -201,10 +203,10 @@ std::string products(const Json& report) {
     return html + "</ul>\n";
 }
 
-std::string title_of(const std::string& purpose) {
-    if (purpose == "cfd") return "Model for flow simulation";
-    if (purpose == "rp") return "Model for printing";
-    return purpose == "planning" ? "Model for treatment planning" : "Model for surgery simulation";
+/// Of a report from another version too, whose purpose may be unknown.
+std::string title_of(const std::string& name) {
+    const auto found = std::ranges::find(purposes(), name, &Purpose::name);
+    return found != purposes().end() ? found->title : "Model";
 }
 
 }  // namespace

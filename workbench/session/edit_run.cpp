@@ -15,13 +15,6 @@ namespace vesselbench {
 
 namespace {
 
-std::string device_of(const Arguments& resolved) {
-    const auto found = resolved.values().find("device");
-    if (found == resolved.values().end()) return "cpu";
-    const auto* device = std::get_if<std::string>(&found->second);
-    return device != nullptr && *device == "gpu" ? "gpu" : "cpu";
-}
-
 void stamp(ResultRecord& record) {
     record.time = utc_now();
     record.program_version = version();
@@ -47,7 +40,7 @@ EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, doubl
     if (outcome.report) record.report = stored_text(*outcome.report);
     record.change = surface_change(input, outcome.scene, progress);
     record.duration = duration;
-    record.device = device_of(record.resolved);
+    record.device = outcome.device;
     stamp(record);
     run.input = std::move(input);
     run.scene = std::move(outcome.scene);

@@ -22,7 +22,7 @@ Progress part_of(const Progress& progress, std::size_t i, std::size_t count) {
 
 }  // namespace
 
-EditRun EditRunner::run(const Operation& operation, Scene input, const Arguments& located,
+EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedArguments& located,
                         const Progress& progress) const {
     const Stopwatch watch;
     Progress own = progress.part(0.0, kRunShare);
@@ -31,17 +31,21 @@ EditRun EditRunner::run(const Operation& operation, Scene input, const Arguments
                     progress.part(kRunShare, 1.0));
 }
 
+CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
+                                     const Arguments& stored) const {
+    const ProjectFile& project = store_->project();
+    return checked_arguments(
+        operation, with_found_files(operation, stored, project.sources(edit), project.folder()));
+}
+
 EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progress) {
     const EditRecord edit = store_->edit(ref);
     const HistoryResult* earlier = store_->history().newest_result_of(ref);
     const Arguments arguments =
         earlier != nullptr ? store_->record(earlier->id)->resolved : edit.given;
-    const ProjectFile& project = store_->project();
     try {
         const Operation& operation = options_->find(edit.operation);
-        return run(operation, input,
-                   with_found_files(operation, arguments, project.sources(ref), project.folder()),
-                   progress);
+        return run(operation, input, located(operation, ref, arguments), progress);
     } catch (const AlgorithmFailure& error) {
         return stale_run(std::move(input), error.what());
     } catch (const InvalidInput& error) {
@@ -152,9 +156,8 @@ std::vector<Scene> EditRunner::recall(ResultId id, const Progress& progress) {
 Outcome EditRunner::rerun(const HistoryResult& result, const Progress& progress) {
     const EditRecord edit = store_->edit(result.edit);
     const Operation& operation = options_->find(edit.operation);
-    const Arguments arguments =
-        with_found_files(operation, store_->record(result.id)->resolved,
-                         store_->project().sources(result.edit), store_->project().folder());
+    const CheckedArguments arguments =
+        located(operation, result.edit, store_->record(result.id)->resolved);
     Progress own = progress;
     return run_operation(operation, load(result.input, progress), arguments, own, options_->worker);
 }

@@ -17,8 +17,8 @@ public:
     /// Runs an operation on a scene.
     /// \param located arguments with the paths of the files it reads
     /// \throw what the operation throws
-    [[nodiscard]] EditRun run(const Operation& operation, Scene input, const Arguments& located,
-                              const Progress& progress) const;
+    [[nodiscard]] EditRun run(const Operation& operation, Scene input,
+                              const CheckedArguments& located, const Progress& progress) const;
 
     /// Runs the pending ones among the entries, from the first on, and enters each result as it
     /// arrives: after a cancel or an error, earlier results are kept.
@@ -38,6 +38,10 @@ public:
 private:
     EditRun run_pending(EditRef edit, Scene input, const Progress& progress);
     std::vector<Scene> recall(ResultId id, const Progress& progress);
+    /// Stored arguments of an edit, with the paths of its files. They are checked, because another
+    /// version of the program may have stored them.
+    [[nodiscard]] CheckedArguments located(const Operation& operation, EditRef edit,
+                                           const Arguments& stored) const;
 
     CaseStore* store_;
     const SessionOptions* options_;

@@ -8,36 +8,33 @@
 namespace vesselbench {
 
 LiveEdit::LiveEdit(const Operation& operation, EditRecord edit, EvaluatedLine before,
-                   const Arguments& located, Progress& progress)
+                   const CheckedArguments& located, Progress& progress)
     : operation_(&operation),
       edit_(std::move(edit)),
       before_(std::move(before)),
-      given_(located),
-      checked_(checked_arguments(operation, located)) {
+      arguments_(located) {
     if (operation.start == nullptr)
         throw UsageError(operation.name + " cannot be driven live; preview it");
     const Stopwatch watch;
-    stepper_ = operation.start(before_.scene, checked_, progress);
+    stepper_ = operation.start(before_.scene, located, progress);
     seconds_ = watch.seconds();
 }
 
 void LiveEdit::add(const Arguments& more, Progress progress) {
-    Arguments all = given_;
-    for (const auto& [name, value] : more.values()) all.set(name, value);
-    Arguments checked = checked_arguments(*operation_, all);
-    Arguments added;
-    for (const auto& [name, value] : more.values()) added.set(name, checked.values().at(name));
+    const GivenArguments added = given_arguments(*operation_, more);
     const Stopwatch watch;
     stepper_->add(added, progress);
     seconds_ += watch.seconds();
-    given_ = std::move(all);
-    checked_ = std::move(checked);
+    for (const auto& [name, value] : added->values()) {
+        edit_.given.set(name, value);
+        arguments_.set(name, value);
+    }
 }
 
 Outcome LiveEdit::outcome(Progress& progress) {
     const Stopwatch watch;
     Outcome outcome = stepper_->outcome(progress);
-    for (const auto& [name, value] : checked_.values())
+    for (const auto& [name, value] : arguments_.values())
         if (!outcome.resolved.has(name)) outcome.resolved.set(name, value);
     seconds_ += watch.seconds();
     return outcome;
@@ -45,7 +42,8 @@ Outcome LiveEdit::outcome(Progress& progress) {
 
 Arguments LiveEdit::given(const Arguments& resolved) const {
     Arguments given;
-    for (const auto& [name, value] : given_.values()) given.set(name, resolved.values().at(name));
+    for (const auto& [name, value] : edit_.given.values())
+        given.set(name, resolved.values().at(name));
     return given;
 }
 

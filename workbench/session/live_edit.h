@@ -25,19 +25,18 @@ private:
     friend class Session;
 
     LiveEdit(const Operation& operation, EditRecord edit, EvaluatedLine before,
-             const Arguments& located, Progress& progress);
+             const CheckedArguments& located, Progress& progress);
 
-    /// What the batch form returns for everything added so far, every checked argument filled in.
+    /// What the batch form returns for everything added so far, every given argument filled in.
     [[nodiscard]] Outcome outcome(Progress& progress);
 
     /// The given arguments, with the values resulting from everything added.
     [[nodiscard]] Arguments given(const Arguments& resolved) const;
 
     const Operation* operation_;
-    EditRecord edit_;
+    EditRecord edit_;  ///< it has the names of all arguments given so far
     EvaluatedLine before_;
-    Arguments given_;    ///< with the paths of files; additions replace earlier values
-    Arguments checked_;  ///< the same with defaults
+    Arguments arguments_;  ///< with defaults and the paths of files; additions replace earlier ones
     std::unique_ptr<Stepper> stepper_;
     double seconds_ = 0.0;  ///< of the stepper's work
 };

@@ -40,8 +40,8 @@ double share_of_pending(const std::vector<HistoryEntry>& before) {
 /// A new edit, or a new revision of one, before it runs.
 struct PlannedEdit {
     const Operation* operation = nullptr;
-    EditRecord edit;    ///< id 0: a new one
-    Arguments located;  ///< with the paths of the files it reads
+    EditRecord edit;           ///< id 0: a new one
+    CheckedArguments located;  ///< with the paths of the files it reads
     std::vector<HistoryEntry> before;
 };
 
@@ -64,30 +64,32 @@ struct Session::Parts {
 
     /// \throw UsageError before anything runs
     PlannedEdit plan(const std::string& name, const Arguments& given, const EditOptions& how) {
-        const Operation& operation = options.find(name);
-        PlannedEdit planned{&operation, {}, given, {}};
+        return plan(given_arguments(options.find(name), given), how);
+    }
+
+    PlannedEdit plan(const GivenArguments& given, const EditOptions& how) {
+        const Operation& operation = given.operation();
+        PlannedEdit planned{&operation, {}, checked_arguments(given), {}};
         planned.edit.place = place_of(operation, how);
-        planned.edit.operation = name;
+        planned.edit.operation = operation.name;
         planned.edit.given = without_folders(operation, given);
         describe(planned.edit, how);
-        static_cast<void>(checked_arguments(operation, given));
         planned.before = entries_before(store.history(), planned.edit.place);
         return planned;
     }
 
     PlannedEdit plan_change(EditId id, const Arguments& given, const EditOptions& how) {
-        PlannedEdit planned;
-        planned.before = entries_before(store.history(), id);
+        auto before = entries_before(store.history(), id);
         const EditRef old = store.history().find(id).value();
-        planned.edit = store.edit(old);
-        planned.operation = &options.find(planned.edit.operation);
+        EditRecord edit = store.edit(old);
+        const Operation& operation = options.find(edit.operation);
         const ProjectFile& project = store.project();
-        planned.located =
-            with_found_files(*planned.operation, given, project.sources(old), project.folder());
-        planned.edit.given = without_folders(*planned.operation, given);
-        describe(planned.edit, how);
-        static_cast<void>(checked_arguments(*planned.operation, given));
-        return planned;
+        const Arguments located =
+            with_found_files(operation, given, project.sources(old), project.folder());
+        edit.given = without_folders(operation, given);
+        describe(edit, how);
+        return {&operation, std::move(edit), checked_arguments(operation, located),
+                std::move(before)};
     }
 
     /// The files that a run has read, with their hashes.
@@ -183,6 +185,12 @@ LogEntry Session::apply(const std::string& operation, const Arguments& given,
     return parts_->enter(parts_->run(parts_->plan(operation, given, options), progress));
 }
 
+LogEntry Session::apply(const GivenArguments& given, const EditOptions& options,
+                        Progress progress) {
+    parts_->store.check_writable();
+    return parts_->enter(parts_->run(parts_->plan(given, options), progress));
+}
+
 LogEntry Session::change_edit(EditId id, const Arguments& given, const EditOptions& options,
                               Progress progress) {
     parts_->store.check_writable();
@@ -219,7 +227,7 @@ Preview Session::preview(LiveEdit& live, Progress progress) {
     data.edit = live.edit_;
     data.edit.given = without_folders(*live.operation_, live.given(outcome.resolved));
     data.before = live.before_;
-    data.sources = parts_->sources(*live.operation_, live.given_, outcome.scene);
+    data.sources = parts_->sources(*live.operation_, live.arguments_, outcome.scene);
     data.run = edit_run(*live.operation_, live.before_.scene, std::move(outcome), live.seconds_,
                         progress.part(0.9, 1.0));
     return Preview(std::move(data));

@@ -48,6 +48,10 @@ public:
     LogEntry apply(const std::string& operation, const Arguments& given,
                    const EditOptions& options = {}, Progress progress = {});
 
+    /// The same for arguments that are checked already: texts of a command line, a recipe.
+    LogEntry apply(const GivenArguments& given, const EditOptions& options = {},
+                   Progress progress = {});
+
     /// Runs an edit of the current state with other arguments: its next revision. Later edits
     /// become pending.
     /// \param given all its arguments; for files read before, the names suffice
@@ -91,7 +95,7 @@ public:
 
     /// The scene of a variant. Pending edits run first; those that no longer apply become stale. A
     /// read-only session keeps their results in memory.
-    [[nodiscard]] Scene scene(const std::string& variant = "cfd", Progress progress = {});
+    [[nodiscard]] Scene scene(const std::string& variant = kDefaultVariant, Progress progress = {});
 
     /// The scene right after one edit of the current state; pending edits up to it run first.
     [[nodiscard]] Scene scene_after(EditId id, Progress progress = {});

@@ -20,9 +20,9 @@ struct SessionOptions {
 
 /// How an edit enters the history.
 struct EditOptions {
-    std::optional<Step> step;     ///< none: the operation's usual step
-    std::string variant = "cfd";  ///< for steps 6-8
-    std::string author;           ///< empty: the session's
+    std::optional<Step> step;               ///< none: the operation's usual step
+    std::string variant = kDefaultVariant;  ///< for steps 6-8
+    std::string author;                     ///< empty: the session's
     std::string note;
 };
 

@@ -121,6 +121,15 @@ Job<Preview> SessionRunner::preview(std::string operation, Arguments given, Edit
         std::move(supersede));
 }
 
+Job<Preview> SessionRunner::preview_change(EditId id, Arguments given, EditOptions options,
+                                           std::string supersede) {
+    return submit(
+        [=](Session& session, const Progress& progress) {
+            return session.preview_change(id, given, options, progress);
+        },
+        std::move(supersede));
+}
+
 Job<LogEntry> SessionRunner::commit(Preview preview) {
     return submit([preview = std::move(preview)](Session& session, const Progress&) {
         return session.commit(preview);
@@ -141,9 +150,23 @@ Job<Nothing> SessionRunner::undo() {
     });
 }
 
+Job<Nothing> SessionRunner::undo(EditId before) {
+    return submit([before](Session& session, const Progress&) {
+        session.undo(before);
+        return Nothing{};
+    });
+}
+
 Job<Nothing> SessionRunner::redo() {
     return submit([](Session& session, const Progress&) {
         session.redo();
+        return Nothing{};
+    });
+}
+
+Job<Nothing> SessionRunner::redo(EditId to) {
+    return submit([to](Session& session, const Progress&) {
+        session.redo(to);
         return Nothing{};
     });
 }
@@ -158,6 +181,12 @@ Job<Nothing> SessionRunner::jump(StateId state) {
 Job<Scene> SessionRunner::scene(std::string variant) {
     return submit([variant = std::move(variant)](Session& session, const Progress& progress) {
         return session.scene(variant, progress);
+    });
+}
+
+Job<Scene> SessionRunner::scene_after(EditId id) {
+    return submit([id](Session& session, const Progress& progress) {
+        return session.scene_after(id, progress);
     });
 }
 

@@ -35,6 +35,9 @@ public:
     /// A snapshot of the session; it includes every ended job.
     [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
 
+    /// Empty if the session may write.
+    [[nodiscard]] std::string read_only_reason() const { return snapshot()->read_only_reason; }
+
     /// Runs `call(Session&, Progress) -> Result` on the background thread; the requests below are
     /// built on it.
     /// \param supersede not empty: cancels waiting requests with the same word
@@ -57,12 +60,17 @@ public:
     Job<LogEntry> change_edit(EditId id, Arguments given, EditOptions options = {});
     Job<Preview> preview(std::string operation, Arguments given, EditOptions options = {},
                          std::string supersede = "preview");
+    Job<Preview> preview_change(EditId id, Arguments given, EditOptions options = {},
+                                std::string supersede = "preview");
     Job<LogEntry> commit(Preview preview);
     Job<Nothing> remove_edit(EditId id);
     Job<Nothing> undo();
+    Job<Nothing> undo(EditId before);
     Job<Nothing> redo();
+    Job<Nothing> redo(EditId to);
     Job<Nothing> jump(StateId state);
-    Job<Scene> scene(std::string variant = "cfd");
+    Job<Scene> scene(std::string variant = kDefaultVariant);
+    Job<Scene> scene_after(EditId id);
     Job<std::vector<ReplayEntry>> replay();
     Job<Nothing> save_as(std::filesystem::path project);
 

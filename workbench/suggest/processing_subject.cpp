@@ -1,6 +1,7 @@
 #include "workbench/suggest/processing_subject.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
@@ -16,7 +17,7 @@ namespace {
 
 /// How the parameters of an operation whose whole runs are compared are searched.
 const OperationSearch& searched(const Operation& operation) {
-    if (operation.search.by == OperationSearch::By::Runs) return operation.search;
+    if (operation.search.parameters != nullptr) return operation.search;
     throw UsageError("--operation: the parameters of " + operation.name +
                      " cannot be searched; of " + joined(searched_operations(), ", ") + " can");
 }
@@ -42,18 +43,34 @@ StrongChange strong_change(const Operation& operation, const Arguments& argument
     return strong;
 }
 
-double share_of_triangles(const Scene& after, const Scene& before) {
-    return static_cast<double>(surface_of(after).triangle_count()) /
-           static_cast<double>(surface_of(before).triangle_count());
+/// The value of a parameter that neither the arguments nor the operation has decided.
+double value_if_open(const Operation& operation, const std::string& name, const Surface& before,
+                     const Surface& after) {
+    for (const SearchedParameter& parameter : searched(operation).parameters(before, true))
+        if (parameter.name == name && parameter.value_if_open != nullptr)
+            return parameter.value_if_open(before, after);
+    throw std::logic_error(operation.name + " has left its parameter " + name + " open");
 }
 
 }  // namespace
 
 std::vector<std::string> searched_operations() {
+    return searched_operations([](const OperationSearch& search) { return search.possible(); });
+}
+
+std::vector<std::string> searched_operations(bool (*has)(const OperationSearch&)) {
     std::vector<std::string> names;
     for (const Operation& operation : operation_table())
-        if (operation.search.by != OperationSearch::By::Nothing) names.push_back(operation.name);
+        if (has(operation.search)) names.push_back(operation.name);
     return names;
+}
+
+bool counts_triangles(const OperationSearch& search) {
+    return search.counts_triangles;
+}
+
+bool searches_filter(const OperationSearch& search) {
+    return search.smoothing != nullptr;
 }
 
 ScoreForm usual_score_of(const Operation& operation) {
@@ -90,7 +107,9 @@ Surface processed_with(const Operation& operation, const Scene& scene, const Arg
     if (does_nothing(space, set)) return surface_of(scene);
     Arguments changed = arguments;
     set_values(changed, operation, space, set);
-    return surface_of(run_without_figures(operation, scene, changed, progress).scene);
+    return surface_of(
+        run_without_figures(operation, scene, checked_arguments(operation, changed), progress)
+            .scene);
 }
 
 std::shared_ptr<MeasureSource> processing_table(const Operation& operation, const Scene& scene,
@@ -121,11 +140,14 @@ ParameterSet processing_set(const Operation& operation, const Scene& scene,
     for (const SearchParameter& parameter : space.parameters) {
         std::optional<double> value = arguments.optional_real(parameter.name);
         if (!value) {
-            if (!outcome) outcome = run_without_figures(operation, scene, arguments, progress);
+            if (!outcome)
+                outcome = run_without_figures(operation, scene,
+                                              checked_arguments(operation, arguments), progress);
             value = outcome->resolved.optional_real(parameter.name);
         }
-        // Only decimate leaves its share open, if max_error alone decides.
-        set.push_back(value ? *value : share_of_triangles(outcome->scene, scene));
+        set.push_back(value ? *value
+                            : value_if_open(operation, parameter.name, surface_of(scene),
+                                            surface_of(outcome->scene)));
     }
     return set;
 }

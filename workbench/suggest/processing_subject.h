@@ -11,8 +11,15 @@
 
 namespace vesselbench {
 
-/// Operations whose parameters can be searched, by name.
+/// Operations whose parameters can be searched, by name, in the order of the table.
 [[nodiscard]] std::vector<std::string> searched_operations();
+
+/// Those among them whose search has a property.
+[[nodiscard]] std::vector<std::string> searched_operations(bool (*has)(const OperationSearch&));
+
+// Such properties.
+[[nodiscard]] bool counts_triangles(const OperationSearch& search);
+[[nodiscard]] bool searches_filter(const OperationSearch& search);
 
 /// Compact if the operation is meant to change the number of triangles; else default.
 /// \throw UsageError that lists the operations that can be searched, if this one cannot

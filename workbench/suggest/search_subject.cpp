@@ -5,19 +5,15 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/foreign_surface.h"
-#include "workbench/operations/smooth/filter_choice.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
 #include "workbench/session/session.h"
 #include "workbench/suggest/processing_subject.h"
+#include "workbench/suggest/smoothing_search.h"
 
 namespace vesselbench {
 
 namespace {
-
-bool searched_by_filter(const Operation& operation) {
-    return operation.search.by == OperationSearch::By::Filter;
-}
 
 void take_project(const SubjectOptions& options, SearchSubject& subject, const Progress& progress) {
     Session session = Session::open(options.source, {.find = find_operation});
@@ -41,12 +37,12 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
     subject.scene = session.scene_after(last->edit.edit.id, progress);
 }
 
-Arguments given_arguments(const Operation& operation, const SubjectOptions& options) {
+GivenArguments given_by(const Operation& operation, const SubjectOptions& options) {
     std::vector<std::string> texts = options.arguments;
     if (!options.filter.empty()) {
-        if (!searched_by_filter(operation))
+        if (!searches_filter(operation.search))
             throw UsageError("--filter: " + operation.name + " has no filters");
-        texts.push_back("filter=" + options.filter);
+        texts.push_back(operation.search.filter_parameter + "=" + options.filter);
     }
     return arguments_from_texts(operation, texts);
 }
@@ -56,25 +52,28 @@ Arguments given_arguments(const Operation& operation, const SubjectOptions& opti
 SearchSubject search_subject(const SubjectOptions& options, const Progress& progress) {
     SearchSubject subject;
     subject.name = std::filesystem::path(options.source).filename().string();
-    const Operation& operation = find_operation(options.operation);
+    const Operation& operation = find_operation(
+        options.operation.empty() ? searched_operations().front() : options.operation);
     subject.operation = &operation;
-    if (!searched_by_filter(operation)) static_cast<void>(usual_score_of(operation));
-    subject.given = given_arguments(operation, options);
-    subject.arguments = checked_arguments(operation, subject.given);
+    if (!searches_filter(operation.search)) static_cast<void>(usual_score_of(operation));
+    const GivenArguments given = given_by(operation, options);
+    subject.given = given;
+    subject.arguments = checked_arguments(given);
     if (options.source.ends_with(".vbench") || is_project_file(options.source))
         take_project(options, subject, progress);
     else
         subject.scene.surface =
             read_foreign_surface(options.source, options.units, progress.part(0.0, 0.1));
     static_cast<void>(surface_of(subject.scene));
-    if (searched_by_filter(operation))
-        subject.smoothing = smoothing_subject(subject.scene, subject.arguments);
-    if (subject.smoothing) subject.smoothing->mu_stays = subject.given.has("mu");
+    if (searches_filter(operation.search))
+        subject.smoothing =
+            operation.search.smoothing(subject.scene, subject.given, subject.arguments);
     return subject;
 }
 
 std::string change_text(const SearchSubject& subject) {
-    return subject.smoothing ? "filter " + subject.arguments.text("filter")
+    const std::string& filter = subject.operation->search.filter_parameter;
+    return subject.smoothing ? filter + " " + subject.arguments.text(filter)
                              : subject.operation->name;
 }
 
@@ -97,7 +96,7 @@ SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
 
 ChosenEngine engine_for(const SearchSubject& subject, bool planes) {
     if (!subject.smoothing) return {};
-    return smoothing_engine(*subject.smoothing, subject.arguments, planes);
+    return smoothing_engine(*subject.smoothing, planes);
 }
 
 ParameterSearch search_for(const SearchSubject& subject, const ChosenEngine& chosen,
@@ -109,7 +108,7 @@ ParameterSearch search_for(const SearchSubject& subject, const ChosenEngine& cho
 
 ParameterSet given_set(const SearchSubject& subject, const SearchSpace& space,
                        const Progress& progress) {
-    if (subject.smoothing) return smoothing_set(*subject.smoothing, subject.arguments, space);
+    if (subject.smoothing) return smoothing_set(*subject.smoothing, space);
     return processing_set(*subject.operation, subject.scene, subject.arguments, space, progress);
 }
 
@@ -117,18 +116,22 @@ Arguments arguments_of(const SearchSubject& subject, const SearchSpace& space,
                        const ParameterSet& set) {
     Arguments arguments = subject.arguments;
     set_values(arguments, *subject.operation, space, set);
-    if (subject.smoothing && arguments.text("filter") == "taubin" && !subject.smoothing->mu_stays &&
-        !value_of(space, set, "mu")) {
-        arguments.remove("mu");
-        resolve_filter(surface_of(subject.scene), arguments);
+    if (!subject.smoothing) return arguments;
+    bool open = false;
+    for (const std::string& name : subject.smoothing->followers) {
+        if (value_of(space, set, name)) continue;
+        arguments.remove(name);
+        open = true;
     }
+    if (open) subject.smoothing->decide(arguments);
     return arguments;
 }
 
 Arguments typed_arguments(const SearchSubject& subject, const SearchSpace& space,
                           const ParameterSet& set) {
     Arguments arguments = subject.given;
-    if (subject.smoothing) arguments.set("filter", subject.arguments.text("filter"));
+    if (const std::string& filter = subject.operation->search.filter_parameter; !filter.empty())
+        arguments.set(filter, subject.arguments.text(filter));
     set_values(arguments, *subject.operation, space, set);
     return arguments;
 }

@@ -6,7 +6,7 @@
 
 #include "smoothing/quality/search.h"
 #include "workbench/case/operation.h"
-#include "workbench/suggest/smoothing_subject.h"
+#include "workbench/operations/smoothing_subject.h"
 #include "workbench/suggest/subject_options.h"
 
 namespace vesselbench {
@@ -20,15 +20,15 @@ struct SearchSubject {
     const Operation* operation = nullptr;
     Scene scene;
     Arguments given;                            ///< as given by the user
-    Arguments arguments;                        ///< with defaults; of `smooth` resolved
-    std::optional<SmoothingSubject> smoothing;  ///< of `smooth` only
+    Arguments arguments;                        ///< with defaults; resolved if a filter is searched
+    std::optional<SmoothingSubject> smoothing;  ///< of operations that search a filter
     std::vector<std::string> notes;             ///< remarks for the user
 };
 
 /// A project's surface is the one after its last edit of the steps up to the operation's usual one:
 /// the one that `apply PROJECT OPERATION --variant V` would change.
 /// \throw UsageError if the operation cannot be searched; UsageError, InvalidInput,
-/// AlgorithmFailure as `smooth` and the readers
+/// AlgorithmFailure as the operation and the readers
 [[nodiscard]] SearchSubject search_subject(const SubjectOptions& options, const Progress& progress);
 
 /// "filter laplace", "remesh": the change of the surface, for a title.
@@ -44,7 +44,7 @@ struct SearchSubject {
 [[nodiscard]] SearchSpace space_for(const SearchSubject& subject, const ChosenEngine& chosen,
                                     bool all_parameters = false);
 
-/// The engine of `smooth`; none for other operations, which run on the CPU.
+/// The engine of a filter; none for other operations, which run on the CPU.
 [[nodiscard]] ChosenEngine engine_for(const SearchSubject& subject, bool planes = false);
 
 /// \param chosen as from engine_for; a GPU's is used on this thread only
@@ -63,7 +63,7 @@ struct SearchSubject {
 [[nodiscard]] Arguments typed_arguments(const SearchSubject& subject, const SearchSpace& space,
                                         const ParameterSet& set);
 
-/// The operation's result with a set; for `smooth`, without the check for crossing walls.
+/// The operation's result with a set; of a filter, without the check for crossing walls.
 [[nodiscard]] Surface changed_with(const SearchSubject& subject, const SearchSpace& space,
                                    const ParameterSet& set, const Progress& progress = {});
 

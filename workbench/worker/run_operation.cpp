@@ -4,8 +4,8 @@ namespace vesselbench {
 
 namespace {
 
-bool uses_gpu(const Arguments& checked) {
-    return checked.optional_text("device") == "gpu";
+bool stays_here(const Operation& operation, const Arguments& arguments) {
+    return operation.stays_here != nullptr && operation.stays_here(arguments);
 }
 
 /// Operations that could run in this process get the same time and memory in a worker.
@@ -15,30 +15,31 @@ WorkerOptions without_limits(WorkerOptions worker) {
     return worker;
 }
 
-Outcome outcome_of(const Operation& operation, const Scene& scene, const Arguments& checked,
-                   Progress& progress, const WorkerOptions& worker) {
-    if (operation.isolated) return run_in_worker(operation, scene, checked, progress, worker);
-    if (worker.every_operation && !uses_gpu(checked))
-        return run_in_worker(operation, scene, checked, progress, without_limits(worker));
-    return run_here(operation, scene, checked, progress);
+Outcome outcome_of(const Operation& operation, const Scene& scene,
+                   const CheckedArguments& arguments, Progress& progress,
+                   const WorkerOptions& worker) {
+    if (operation.isolated) return run_in_worker(operation, scene, arguments, progress, worker);
+    if (worker.every_operation && !stays_here(operation, arguments))
+        return run_in_worker(operation, scene, arguments, progress, without_limits(worker));
+    return run_here(operation, scene, arguments, progress);
 }
 
 }  // namespace
 
-Outcome run_operation(const Operation& operation, const Scene& scene, const Arguments& given,
-                      Progress& progress, const WorkerOptions& worker) {
-    const Arguments checked = checked_arguments(operation, given);
+Outcome run_operation(const Operation& operation, const Scene& scene,
+                      const CheckedArguments& arguments, Progress& progress,
+                      const WorkerOptions& worker) {
     progress.check_cancelled();
-    Outcome outcome = outcome_of(operation, scene, checked, progress, worker);
-    for (const auto& [name, value] : checked.values())
+    Outcome outcome = outcome_of(operation, scene, arguments, progress, worker);
+    for (const auto& [name, value] : arguments->values())
         if (!outcome.resolved.has(name)) outcome.resolved.set(name, value);
     return outcome;
 }
 
-Outcome run_without_figures(const Operation& operation, const Scene& scene, const Arguments& given,
-                            Progress progress) {
-    if (operation.start == nullptr) return run_operation(operation, scene, given, progress);
-    const auto live = operation.start(scene, checked_arguments(operation, given), progress);
+Outcome run_without_figures(const Operation& operation, const Scene& scene,
+                            const CheckedArguments& arguments, Progress progress) {
+    if (operation.start == nullptr) return run_operation(operation, scene, arguments, progress);
+    const auto live = operation.start(scene, arguments, progress);
     Outcome outcome;
     outcome.scene = live->scene();
     outcome.resolved = live->resolved();

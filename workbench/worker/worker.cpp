@@ -142,6 +142,7 @@ Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known)
     writer.put_text(outcome.report ? stored_text(*outcome.report) : "");
     writer.put_text(stored_text(outcome.resolved));
     writer.put_text(stored_text(Json(outcome.warnings)));
+    writer.put_text(outcome.device);
     writer.append(encode_scene(outcome.scene, known));
     return writer.take();
 }
@@ -152,6 +153,7 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known) {
     if (!report.empty()) outcome.report = std::make_shared<const Json>(Json::parse(report));
     outcome.resolved = arguments_from_stored(reader.get_text());
     outcome.warnings = Json::parse(reader.get_text()).get<std::vector<std::string>>();
+    outcome.device = reader.get_text();
     outcome.scene = decode_scene(reader.get_bytes(reader.left()), known);
     return outcome;
 }
@@ -318,7 +320,8 @@ Bytes run_request(const OperationLookup& find) {
     const auto memory = reader.get<std::uint64_t>();
     if (memory > 0 && !kSanitized) limit(RLIMIT_AS, memory);
     const Operation& operation = find(reader.get_text());
-    const Arguments arguments = arguments_from_stored(reader.get_text());
+    const auto arguments =
+        CheckedArguments::from_parent_process(arguments_from_stored(reader.get_text()));
     const Scene scene = decode_scene(reader.get_bytes(reader.left()));
     Progress progress(progress_lines(), {});
     const Outcome outcome = run_here(operation, scene, arguments, progress);
@@ -327,13 +330,14 @@ Bytes run_request(const OperationLookup& find) {
 
 }  // namespace
 
-Outcome run_in_worker(const Operation& operation, const Scene& scene, const Arguments& checked,
-                      const Progress& progress, const WorkerOptions& options) {
+Outcome run_in_worker(const Operation& operation, const Scene& scene,
+                      const CheckedArguments& arguments, const Progress& progress,
+                      const WorkerOptions& options) {
     auto command = options.command;
     if (command.empty()) command = {"/proc/self/exe", "--worker"};
     const Descriptor request = memory_file("vesselbench-request");
     const Descriptor answer = memory_file("vesselbench-outcome");
-    write_request(request.number(), request_bytes(operation, scene, checked, options), progress);
+    write_request(request.number(), request_bytes(operation, scene, arguments, options), progress);
     lseek(request.number(), 0, SEEK_SET);
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -344,18 +348,18 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene, const Argu
     writing.reset();
 
     if (!follow(reading.number(), progress, Clock::now() + options.time_limit))
-        throw_broken(operation, checked,
+        throw_broken(operation, arguments,
                      "took longer than " + std::to_string(options.time_limit.count()) + " s");
     const int status = child.wait();
     const Bytes bytes = read_all(answer.number());
-    if (status != 0 || bytes.empty()) throw_broken(operation, checked, how_it_ended(status));
+    if (status != 0 || bytes.empty()) throw_broken(operation, arguments, how_it_ended(status));
     ByteReader reader(bytes);
     const auto ending = static_cast<Ending>(reader.get<std::uint8_t>());
     if (ending == Ending::Memory)
-        throw_broken(operation, checked,
+        throw_broken(operation, arguments,
                      "needs more memory than its limit of " + gigabytes(options.memory_limit));
     if (ending == Ending::Broken)
-        throw_broken(operation, checked, "failed (" + reader.get_text() + ")");
+        throw_broken(operation, arguments, "failed (" + reader.get_text() + ")");
     if (ending != Ending::Done) throw_ending(ending, reader.get_text());
     return read_outcome(reader, take_apart(scene).parts);
 }

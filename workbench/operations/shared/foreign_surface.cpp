@@ -8,12 +8,12 @@ namespace vesselbench {
 
 Surface read_foreign_surface(const std::string& file, const std::string& units,
                              const Progress& progress) {
-    Arguments arguments;
-    arguments.set("file", file);
-    arguments.set("units", to_string(length_unit_from(units.empty() ? "mm" : units)));
-    Progress reading = progress;
     const Operation& load = loading_operation(InputKind::Surface);
-    return *run_operation(load, {}, arguments, reading).scene.surface;
+    GivenArguments given(load);
+    given.set("file", file);
+    given.set("units", to_string(length_unit_from(units.empty() ? "mm" : units)));
+    Progress reading = progress;
+    return *run_operation(load, {}, checked_arguments(given), reading).scene.surface;
 }
 
 }  // namespace vesselbench

@@ -25,8 +25,9 @@ private:
 
 /// A StepperFunction that makes an object of a class from scene, arguments and progress.
 template <class Live>
-std::unique_ptr<Stepper> started(const Scene& scene, const Arguments& checked, Progress& progress) {
-    return std::make_unique<Live>(scene, checked, progress);
+std::unique_ptr<Stepper> started(const Scene& scene, const CheckedArguments& arguments,
+                                 Progress& progress) {
+    return std::make_unique<Live>(scene, arguments, progress);
 }
 
 }  // namespace vesselbench

@@ -111,7 +111,8 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Ar
     release_freed_memory();
     const std::vector<Cap> caps = caps_of(finder, arguments);
     std::vector<std::uint8_t> on_caps = cap_vertices(caps, surface.vertex_count());
-    const bool round = arguments.text("caps") == "round";
+    const bool round = context.caps_rounded = arguments.text("caps") == "round";
+    context.thesis_scaling = arguments.text("weight") == "thesis";
     context.start =
         round ? std::make_shared<const Positions>(rounded_caps(surface, caps)) : surface.positions;
     context.fixed = round ? std::vector<std::uint8_t>() : on_caps;
@@ -120,12 +121,12 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Ar
     context.weights = context_weights(scene,
                                       {.operation = "smooth",
                                        .beta_min = arguments.real("beta_min"),
-                                       .thesis_scaling = arguments.text("weight") == "thesis",
+                                       .thesis_scaling = context.thesis_scaling,
                                        .caps = on_caps},
                                       finder, arguments, report);
     if (round && !context.weights.empty())
         for (std::size_t v = 0; v < on_caps.size(); ++v)
-            if (on_caps[v] != 0) context.weights[v] = 1.0;
+            if (on_caps[v] != 0) context.weights[v] = context.cap_weight();
     context.caps = std::move(on_caps);
     return context;
 }

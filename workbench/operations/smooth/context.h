@@ -23,6 +23,11 @@ struct SmoothingContext {
     std::vector<std::uint8_t> caps;          ///< 1 at their vertices, #V
     std::vector<std::uint8_t> fixed;         ///< caps that are kept, #V
     std::optional<PositionConstraint> constraint;
+    bool caps_rounded = false;    ///< they become domes, and are smoothed in full
+    bool thesis_scaling = false;  ///< of staircase weights: Eq. 5.5 as printed
+
+    /// Weight of the caps' vertices, whatever else weighs on them.
+    [[nodiscard]] double cap_weight() const { return caps_rounded ? 1.0 : 0.0; }
 };
 
 /// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,

@@ -61,9 +61,9 @@ struct ContextFilter::Found {
     }
 
     [[nodiscard]] Result result(Positions positions, const Arguments& arguments) const {
-        Result result{std::move(positions), arguments, report, ""};
+        Result result{std::move(positions), arguments, report, "", on_gpu ? "gpu" : "cpu"};
         for (const auto& [name, value] : decided.values()) result.resolved.set(name, value);
-        result.resolved.set("device", std::string(on_gpu ? "gpu" : "cpu"));
+        result.resolved.set("device", result.device);
         return result;
     }
 };
@@ -74,7 +74,8 @@ ContextFilter::ContextFilter(Scene scene, DeviceSource source)
 ContextFilter::~ContextFilter() = default;
 
 ContextFilter::Result ContextFilter::run(const Arguments& arguments, const Progress& progress) {
-    if (arguments.text("device") != "gpu") return on_cpu(arguments, progress);
+    if (device_choice_from(arguments.text("device")) != DeviceChoice::Gpu)
+        return on_cpu(arguments, progress);
     ChosenDevice chosen = choose_device(DeviceChoice::Gpu, source_);
     if (chosen.device) try {
             return on_device(chosen.device->device, arguments, progress);

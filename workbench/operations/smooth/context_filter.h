@@ -23,6 +23,7 @@ public:
         Arguments resolved;   ///< with the context's decisions, and the device used
         Report report;        ///< on the context
         std::string reason;   ///< why the CPU was used although the GPU was asked for; else empty
+        std::string device;   ///< that was used, as Outcome::device
     };
 
     /// \param arguments of `smooth` after resolve_filter

@@ -1,4 +1,4 @@
-#include "workbench/suggest/smoothing_subject.h"
+#include "workbench/operations/smooth/search.h"
 
 #include <array>
 #include <map>
@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
 #include "smoothing/context/staircases.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
@@ -26,13 +25,11 @@ SharedWeights shared_weights(std::vector<double> weights) {
 }
 
 StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
-                                    const Arguments& arguments,
-                                    const std::vector<std::uint8_t>& caps) {
-    StaircaseGround ground{.stack_axis = arguments.point("stack_axis"),
-                           .caps = caps,
-                           .scaling = arguments.text("weight") == "thesis"
-                                          ? StaircaseScaling::Thesis
-                                          : StaircaseScaling::TauMax};
+                                    const Arguments& arguments, const SmoothingContext& context) {
+    StaircaseGround ground{
+        .stack_axis = arguments.point("stack_axis"),
+        .caps = context.caps,
+        .scaling = context.thesis_scaling ? StaircaseScaling::Thesis : StaircaseScaling::TauMax};
     if (arguments.text("distance") == "none" && !arguments.has("painted")) return ground;
     Arguments others = arguments;
     others.set("staircase", false);
@@ -92,15 +89,32 @@ private:
     std::map<std::array<double, 3>, SharedWeights> weights_;
 };
 
+/// The filter's part of the subject.
+SmoothingSubject filter_of(const Surface& surface, const Arguments& given, Arguments& arguments) {
+    resolve_filter(surface, arguments);
+    SmoothingSubject subject{.filter = filter_from(arguments),
+                             .iterations = static_cast<int>(arguments.integer("iterations")),
+                             .device = device_choice_from(arguments.text("device")),
+                             .mu_stays = given.has("mu")};
+    if (std::holds_alternative<TaubinParameters>(subject.filter) && !subject.mu_stays) {
+        subject.followers = {"mu"};
+        subject.decide = [surface](Arguments& changed) { resolve_filter(surface, changed); };
+    }
+    return subject;
+}
+
 }  // namespace
 
-SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
+SmoothingSubject smoothing_subject(const Scene& scene, const Arguments& given,
+                                   Arguments& arguments) {
+    SmoothingSubject subject = filter_of(surface_of(scene), given, arguments);
     const Surface& surface = surface_of(scene);
-    resolve_filter(surface, arguments);
-    SmoothingSubject subject{.filter = filter_from(arguments)};
     Json report;
     const auto finder = make_cpu_finder(surface);
     SmoothingContext context = smoothing_context(scene, *finder, arguments, report);
+    subject.thresholds = {.tau_theta = arguments.real("tau_theta"),
+                          .tau_max = arguments.real("tau_max"),
+                          .beta_min = arguments.real("beta_min")};
     subject.weights = shared_weights(std::move(context.weights));
     subject.ground = {.topology = surface.topology,
                       .start = context.start,
@@ -109,55 +123,16 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
                       .rings = static_cast<int>(arguments.integer("rings"))};
     if (scene.sampling) subject.slice = scene.sampling->spacing.z();
     if (arguments.flag("staircase")) {
-        const bool round = arguments.text("caps") == "round";
-        StaircaseGround ground = staircase_ground_of(scene, *finder, arguments, context.caps);
-        if (!round) subject.staircase_ground = ground;  // a GPU would use the rounded surface
+        StaircaseGround ground = staircase_ground_of(scene, *finder, arguments, context);
+        // A GPU would find the staircases of the rounded surface.
+        if (!context.caps_rounded) subject.staircase_ground = ground;
         const auto weights =
-            std::make_shared<WeightsOfThresholds>(surface, std::move(ground), round ? 1.0 : 0.0);
+            std::make_shared<WeightsOfThresholds>(surface, std::move(ground), context.cap_weight());
         subject.staircase = [weights](double tau_theta, double tau_max, double beta_min) {
             return (*weights)(tau_theta, tau_max, beta_min);
         };
     }
     return subject;
-}
-
-ChosenEngine smoothing_engine(const SmoothingSubject& subject, const Arguments& arguments,
-                              bool planes) {
-    const std::string& device = arguments.text("device");
-    const DeviceChoice choice = device == "gpu"   ? DeviceChoice::Gpu
-                                : device == "cpu" ? DeviceChoice::Cpu
-                                                  : DeviceChoice::Auto;
-    return make_engine(choice, subject.ground, planes, offscreen_device, subject.staircase_ground);
-}
-
-SearchSpace smoothing_space_for(const SmoothingSubject& subject, const SmoothingEngine& engine,
-                                bool all_parameters) {
-    return smoothing_space({.filter = subject.filter,
-                            .weights = subject.weights,
-                            .staircase = subject.staircase,
-                            .engine_weighs = engine.weighs_staircases(),
-                            .slice = subject.slice,
-                            .all_parameters = all_parameters,
-                            .mu_stays = subject.mu_stays});
-}
-
-ParameterSet smoothing_set(const SmoothingSubject& subject, const Arguments& arguments,
-                           const SearchSpace& space) {
-    return current_set(space, subject.filter, static_cast<int>(arguments.integer("iterations")),
-                       {.tau_theta = arguments.real("tau_theta"),
-                        .tau_max = arguments.real("tau_max"),
-                        .beta_min = arguments.real("beta_min")});
-}
-
-Surface smoothed_with(const SmoothingSubject& subject, const Surface& surface,
-                      const SearchSpace& space, const ParameterSet& set, const Progress& progress) {
-    const auto choice = space.chooser(std::span(set.data(), set.size() - 1));
-    if (!choice) throw InvalidInput("these parameters would roughen the surface");
-    FilterRun run(FilterRun::prepare(subject.ground), choice->filter, weights_of(*choice));
-    run.advance(static_cast<int>(set.back()), progress);
-    Positions moved;
-    run.write_positions(moved);
-    return surface.with_positions(std::move(moved));
 }
 
 }  // namespace vesselbench

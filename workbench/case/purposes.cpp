@@ -1,0 +1,49 @@
+#include "workbench/case/purposes.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/near_names.h"
+
+namespace vesselbench {
+
+std::span<const Purpose> purposes() {
+    static const std::vector<Purpose> table = {
+        {.name = "cfd",
+         .title = "Model for flow simulation",
+         .help = "flow simulation (cfd)",
+         .products = {"volume.vtu", "volume.msh", "openfoam"},
+         .result = "CFD case",
+         .result_file = "openfoam",
+         .simulates_flow = true},
+        {.name = "rp",
+         .title = "Model for printing",
+         .help = "printing (rp)",
+         .products = {"print.stl", "print.3mf"},
+         .result = "print model",
+         .result_file = "print.stl"},
+        {.name = "planning",
+         .title = "Model for treatment planning",
+         .help = "pictures\n(planning: keeps raw triangles)"},
+        {.name = "simulation",
+         .title = "Model for surgery simulation",
+         .help = "surgery simulation (simulation)"}};
+    return table;
+}
+
+std::vector<std::string> purpose_names() {
+    std::vector<std::string> names;
+    for (const Purpose& purpose : purposes()) names.push_back(purpose.name);
+    return names;
+}
+
+const Purpose& find_purpose(const std::string& name) {
+    const auto found = std::ranges::find(purposes(), name, &Purpose::name);
+    if (found != purposes().end()) return *found;
+    const std::vector<std::string> names = purpose_names();
+    throw UsageError("--for '" + name + "' is unknown" + did_you_mean(name, names) + " (it is " +
+                     joined(names) + ")");
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vesselbench {
+
+/// What a model is made for: `prepare --for`, and a word of recipes.
+struct Purpose {
+    std::string name;                        ///< "cfd"
+    std::string title;                       ///< of the report: "Model for flow simulation"
+    std::string help;                        ///< with its name: "flow simulation (cfd)"
+    std::vector<std::string> products = {};  ///< file names, besides those of the surface
+    std::string result = "surface";          ///< what the user asked for
+    std::string result_file = "surface.vtp";
+    bool simulates_flow = false;  ///< the report describes volume mesh and flow
+};
+
+/// All purposes.
+[[nodiscard]] std::span<const Purpose> purposes();
+
+[[nodiscard]] std::vector<std::string> purpose_names();
+
+/// \throw UsageError that lists the purposes if there is none of this name
+[[nodiscard]] const Purpose& find_purpose(const std::string& name);
+
+}  // namespace vesselbench
