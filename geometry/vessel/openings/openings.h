@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/opening_place.h"
 
 namespace vesselbench {
@@ -41,7 +42,8 @@ struct OpeningPlanOptions {
 /// \param left_out if not null, receives the indices of the openings left out, ascending
 [[nodiscard]] Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
                                     const std::optional<Vec3>& inlet = std::nullopt,
-                                    std::vector<std::size_t>* left_out = nullptr);
+                                    std::vector<std::size_t>* left_out = nullptr,
+                                    const Progress& progress = {});
 
 /// Orders the patches (wall, inlet, outlets by descending area, the rest) and assigns a kind and a
 /// name to those of kind Cut that are listed in `unnamed`: the inlet as above, the others outlet_1,
