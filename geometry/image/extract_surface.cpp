@@ -95,8 +95,12 @@ Image cleaned_intensities(const Image& image, const Cleaning& cleaning,
         contrast = cleaning.diffusion_contrast.value_or(edge_contrast(image));
         clean = diffuse(clean, {.iterations = cleaning.diffusion, .contrast = contrast}, progress);
     }
+    progress.check_cancelled();
     clean = gaussian(clean, cleaning.gaussian);
-    return closed(opened(clean, cleaning.opening), cleaning.closing);
+    progress.check_cancelled();
+    clean = opened(clean, cleaning.opening);
+    progress.check_cancelled();
+    return closed(clean, cleaning.closing);
 }
 
 /// Masks: opening and closing on the voxels, then blurring (the iso-value stays one half).
@@ -121,7 +125,8 @@ struct Field {
     double iso = 0.0;
 };
 
-Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result) {
+Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result,
+                  const Progress& progress) {
     const auto there = labels_of(labels);
     for (const int label : parameters.labels)
         if (!std::binary_search(there.begin(), there.end(), label)) {
@@ -134,8 +139,11 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     const Cleaning& cleaning = parameters.cleaning;
     const Image mask = mask_of_labels(labels, parameters.labels);
     if (cleaning.any()) result.before = voxel_topology(mask, kMaskIso);
+    progress.check_cancelled();
     Field field{cleaned_mask(mask, cleaning), kMaskIso};
+    progress.check_cancelled();
     if (parameters.resample) field.image = resample_mask(field.image, *parameters.resample);
+    progress.check_cancelled();
     field.image = gaussian(field.image, cleaning.gaussian);
     return field;
 }
@@ -152,6 +160,7 @@ const Intensities& prepared(ImageSource& source, const ExtractionParameters& par
                      .resample = parameters.resample,
                      .up = inside_up(source.image, inside_below)};
     made.ready = cleaned_intensities(made.up, made.cleaning, made.contrast, progress);
+    progress.check_cancelled();
     if (made.resample) made.ready = resample_intensities(made.ready, *made.resample);
     return source.intensities.emplace(std::move(made));
 }
@@ -161,6 +170,7 @@ Field threshold_field(ImageSource& source, const ExtractionParameters& parameter
     const double iso = result.inside_below ? -result.threshold : result.threshold;
     const Intensities& made = prepared(source, parameters, result.inside_below, progress);
     result.contrast = made.contrast;
+    progress.check_cancelled();
     if (parameters.cleaning.any()) result.before = voxel_topology(made.up, iso);
     return {made.ready, iso};
 }
@@ -168,17 +178,21 @@ Field threshold_field(ImageSource& source, const ExtractionParameters& parameter
 Field masked_field(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
                    const Progress& progress) {
     const Image inside = mask_of_labels(*source.mask, parameters.labels);
+    progress.check_cancelled();
     if (!parameters.threshold) {
         result.threshold = masked_threshold(source.image, inside);
         result.reasons.push_back("threshold " + text_of(result.threshold) +
                                  ": midway between the medians inside the mask and around it");
     }
     Field field = threshold_field(source, parameters, result, progress);
+    progress.check_cancelled();
     Image grown = dilated(inside, parameters.dilation);
+    progress.check_cancelled();
     if (result.before)
         result.before = voxel_topology(
             masked_intensities(source.intensities->up, grown, field.iso, false), field.iso);
     if (parameters.resample) grown = resample_mask(grown, *parameters.resample);
+    progress.check_cancelled();
     field.image = masked_intensities(field.image, grown, field.iso, false);
     return field;
 }
@@ -213,6 +227,7 @@ void check_share(const Field& field, const Extraction& result) {
 Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
                const Progress& progress) {
     decide_method(source, parameters, result);
+    progress.check_cancelled();
     if (result.method == ExtractionMethod::Masked && !source.mask)
         throw InvalidInput("method=masked needs a mask: load the image with mask=");
     if (result.method == ExtractionMethod::Masked)
@@ -220,7 +235,8 @@ Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extr
     if (result.method == ExtractionMethod::Threshold)
         return threshold_field(source, parameters, result, progress);
     // With both, the labels are the mask's: the image holds intensities.
-    Field field = label_field(source.mask ? *source.mask : source.image, parameters, result);
+    Field field =
+        label_field(source.mask ? *source.mask : source.image, parameters, result, progress);
     result.threshold = kMaskIso;
     result.inside_below = false;
     return field;
@@ -236,6 +252,7 @@ void choose_body(const Field& field, const ExtractionParameters& parameters, Ext
             ? body_at(all, *parameters.seed, kSeedTolerance * field.image.spacing().maxCoeff())
         : parameters.bodies == Bodies::Largest ? largest_body(all)
                                                : all_bodies(all);
+    progress.check_cancelled();
     result.surface = with_separate_cuts(choice.surface, kSmallestCut * smallest_face(field.image));
     result.sampling = sampling_of(field.image);
     result.bodies = choice.bodies;
@@ -274,6 +291,7 @@ Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
     Extraction result;
     const Field field = field_of(*source_, parameters, result, progress.part(0.1, 0.6));
     check_share(field, result);
+    progress.check_cancelled();
     if (parameters.cleaning.any()) result.after = voxel_topology(field.image, field.iso);
     progress.report(0.6, "extracting the surface");
     choose_body(field, parameters, result, progress);

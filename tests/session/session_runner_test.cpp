@@ -89,12 +89,22 @@ SCENARIO("A background session gives what a session gives", "[session][runner]")
     CHECK(surface_of(there).points() == surface_of(here).points());
     CHECK(there.surface->attributes.size() == here.surface->attributes.size());
     CHECK(there.volume_mesh->tetrahedra == here.volume_mesh->tetrahedra);
-    const std::vector<ReplayEntry> entries = runner.replay().result();
-    CHECK_FALSE(entries.empty());
-    for (const ReplayEntry& entry : entries) {
+    std::size_t replayed = 0;
+    for (const ReplayEntry& entry : runner.replay().result()) {
         CHECK(entry.replayed);
         CHECK(entry.differences.empty());
+        ++replayed;
     }
+    CHECK(replayed == 3);
+}
+
+SCENARIO("The result of a temporary job outlives it", "[session][runner]") {
+    static_assert(std::is_same_v<decltype(std::declval<Job<Scene>>().result()), Scene>);
+    static_assert(std::is_same_v<decltype(std::declval<Job<Scene>&>().result()), const Scene&>);
+    SessionRunner runner(sphere_session());
+    std::size_t entries = 0;
+    for (const ReplayEntry& entry : runner.replay().result()) entries += entry.replayed ? 1 : 0;
+    CHECK(entries == 1);
 }
 
 SCENARIO("A cancel ends what cannot be interrupted", "[session][runner]") {

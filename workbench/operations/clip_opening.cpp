@@ -141,9 +141,9 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     const Surface& surface = surface_of(scene);
     OpeningPlan plan =
         arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
-    progress.report(0.9, "cutting");
     std::vector<std::size_t> left_out;
-    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out);
+    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out,
+                                    progress.part(0.9, 1.0));
     leave_out(plan, left_out);
     const Resolved resolved = describe(clipped, plan);
     Outcome outcome;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -13,6 +14,9 @@
 namespace vesselbench {
 
 using Bytes = std::vector<std::byte>;
+
+/// Takes bytes, piece by piece.
+using ByteSink = std::function<void(std::span<const std::byte>)>;
 
 /// Appends numbers, texts and arrays to a byte string, little-endian as in memory.
 class ByteWriter {

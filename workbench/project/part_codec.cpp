@@ -184,6 +184,15 @@ Bytes changed_elements(std::span<const std::byte> bytes, std::span<const std::by
     return values;
 }
 
+/// Of a blob that is no difference.
+Header whole_header(const ScenePart& part, const Content& content) {
+    Header header;
+    header.kind = static_cast<std::uint8_t>(part.index());
+    header.extra = content.extra;
+    header.size = content.bytes.size();
+    return header;
+}
+
 Bytes blob_of(Header header, std::span<const std::byte> payload) {
     ByteWriter writer;
     header.payload = payload.size();
@@ -245,13 +254,21 @@ std::string content_hash(const ScenePart& part) {
 
 Bytes encode(const ScenePart& part, Compression compression) {
     const Content content = content_of(part);
-    Header header;
-    header.kind = static_cast<std::uint8_t>(part.index());
+    Header header = whole_header(part, content);
     header.zstd = compression == Compression::Zstd ? 1 : 0;
-    header.extra = content.extra;
-    header.size = content.bytes.size();
     if (header.zstd == 0) return blob_of(header, content.bytes);
     return blob_of(header, shuffle(content.bytes, kLayouts[header.kind].word));
+}
+
+void write_sized(const ScenePart& part, const ByteSink& sink) {
+    const Content content = content_of(part);
+    Header header = whole_header(part, content);
+    header.payload = content.bytes.size();
+    ByteWriter head;
+    head.put<std::uint64_t>(sizeof(header) + content.bytes.size());
+    head.put(header);
+    sink(head.bytes());
+    sink(content.bytes);
 }
 
 std::optional<Bytes> encode_difference(const ScenePart& part, const ScenePart& base) {

@@ -34,6 +34,9 @@ enum class Compression : std::uint8_t { None = 0, Zstd = 1 };
 /// A part as a versioned blob, bit-exact. Compressed blobs carry a checksum.
 [[nodiscard]] Bytes encode(const ScenePart& part, Compression compression);
 
+/// Writes the size in bytes (8) of the uncompressed blob, then the blob, without a copy of arrays.
+void write_sized(const ScenePart& part, const ByteSink& sink);
+
 /// The part as its difference from another of the same kind: the elements that differ, bit-exact,
 /// about 27 bytes per moved vertex. Empty if so many differ that the whole part makes the smaller
 /// blob.

@@ -167,33 +167,38 @@ Scene put_together(std::span<const std::byte> manifest, const std::vector<SceneP
     return scene;
 }
 
-Bytes encode_scene(const Scene& scene, const std::vector<ScenePart>& known) {
+void write_scene(const Scene& scene, const std::vector<ScenePart>& known, const ByteSink& sink) {
     const SceneParts taken = take_apart(scene);
+    const auto put = [&](const auto& number) { sink(std::as_bytes(std::span(&number, 1))); };
     auto places = places_of(known);
-    ByteWriter writer;
-    writer.put<std::uint64_t>(taken.manifest.size());
-    writer.append(taken.manifest);
-    writer.put<std::uint64_t>(taken.parts.size());
+    put(std::uint64_t{taken.manifest.size()});
+    sink(taken.manifest);
+    put(std::uint64_t{taken.parts.size()});
     auto next = static_cast<std::uint32_t>(known.size());
     for (const ScenePart& part : taken.parts) {
         const auto [place, fresh] = places.try_emplace(identity(part), next);
-        writer.put(fresh ? kNone : place->second);
+        put(fresh ? kNone : place->second);
         if (!fresh) continue;
         ++next;
-        const Bytes blob = encode(part, Compression::None);
-        writer.put<std::uint64_t>(blob.size());
-        writer.append(blob);
+        write_sized(part, sink);
     }
+}
+
+Bytes encode_scene(const Scene& scene, const std::vector<ScenePart>& known) {
+    ByteWriter writer;
+    write_scene(scene, known, [&](std::span<const std::byte> bytes) { writer.append(bytes); });
     return writer.take();
 }
 
-Scene decode_scene(std::span<const std::byte> blob, const std::vector<ScenePart>& known) {
+Scene decode_scene(std::span<const std::byte> blob, const std::vector<ScenePart>& known,
+                   const Progress& progress) {
     ByteReader reader(blob);
     const auto manifest = reader.get_bytes(reader.get<std::uint64_t>());
     std::vector<ScenePart> have = known, parts;
     for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
         auto place = reader.get<std::uint32_t>();
         if (place == kNone) {
+            progress.check_cancelled();
             place = static_cast<std::uint32_t>(have.size());
             have.push_back(PartDecoder(reader.get_bytes(reader.get<std::uint64_t>())).finish());
         }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "workbench/case/scene.h"
 #include "workbench/project/bytes.h"
 #include "workbench/project/part_codec.h"
@@ -26,7 +27,11 @@ struct SceneParts {
 /// A whole scene in one uncompressed blob, for worker processes. Parts of `known` are not written
 /// but referenced; decode_scene needs the same known parts.
 [[nodiscard]] Bytes encode_scene(const Scene& scene, const std::vector<ScenePart>& known = {});
+/// The same blob, without a copy of the arrays.
+void write_scene(const Scene& scene, const std::vector<ScenePart>& known, const ByteSink& sink);
+/// \throw InvalidInput if the blob is damaged; Cancelled
 [[nodiscard]] Scene decode_scene(std::span<const std::byte> blob,
-                                 const std::vector<ScenePart>& known = {});
+                                 const std::vector<ScenePart>& known = {},
+                                 const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -83,10 +83,16 @@ public:
 
     /// Waits for the end. \throw what the request threw; Cancelled if it was cancelled or
     /// superseded
-    [[nodiscard]] const Result& result() const {
+    [[nodiscard]] const Result& result() const& {
         core_->wait();
         core_->rethrow();
         return **result_;
+    }
+
+    /// The same by value: of a temporary job, nothing else may hold the result.
+    [[nodiscard]] Result result() const&& {
+        const Job& job = *this;
+        return job.result();
     }
 
 private:

@@ -101,7 +101,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
 }
 
 /// Large scenes take seconds: asks between pieces whether it was cancelled.
-void write_request(int descriptor, std::span<const std::byte> bytes, const Progress& progress) {
+void write_pieces(int descriptor, std::span<const std::byte> bytes, const Progress& progress) {
     constexpr std::size_t kPiece = std::size_t{16} << 20;
     for (; !bytes.empty(); bytes = bytes.subspan(std::min(kPiece, bytes.size()))) {
         progress.check_cancelled();
@@ -109,31 +109,44 @@ void write_request(int descriptor, std::span<const std::byte> bytes, const Progr
     }
 }
 
-Bytes read_all(int descriptor) {
-    struct stat info {};
+/// The content of a file in memory, without a copy of it.
+class Mapping {
+public:
+    explicit Mapping(int descriptor) {
+        struct stat info {};
 
-    fstat(descriptor, &info);
-    Bytes bytes(static_cast<std::size_t>(info.st_size));
-    std::size_t have = 0;
-    while (have < bytes.size()) {
-        const auto got =
-            pread(descriptor, bytes.data() + have, bytes.size() - have, static_cast<off_t>(have));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) break;
-        have += static_cast<std::size_t>(got);
+        if (fstat(descriptor, &info) != 0 || info.st_size <= 0) return;
+        const auto size = static_cast<std::size_t>(info.st_size);
+        void* address = mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0);
+        if (address == MAP_FAILED)
+            throw IoError("cannot pass a scene to or from a worker process: out of memory");
+        bytes_ = {static_cast<const std::byte*>(address), size};
     }
-    bytes.resize(have);
-    return bytes;
-}
 
-Bytes request_bytes(const Operation& operation, const Scene& scene, const Arguments& arguments,
-                    const WorkerOptions& options) {
-    ByteWriter writer;
-    writer.put<std::uint64_t>(options.memory_limit);
-    writer.put_text(operation.name);
-    writer.put_text(stored_text(arguments));
-    writer.append(encode_scene(scene));
-    return writer.take();
+    ~Mapping() {
+        if (!bytes_.empty()) munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+    }
+
+    Mapping(const Mapping&) = delete;
+    Mapping& operator=(const Mapping&) = delete;
+
+    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+void write_request(int descriptor, const Operation& operation, const Scene& scene,
+                   const Arguments& arguments, const WorkerOptions& options,
+                   const Progress& progress) {
+    ByteWriter head;
+    head.put<std::uint64_t>(options.memory_limit);
+    head.put_text(operation.name);
+    head.put_text(stored_text(arguments));
+    write_all(descriptor, head.bytes());
+    write_scene(scene, {}, [&](std::span<const std::byte> bytes) {
+        write_pieces(descriptor, bytes, progress);
+    });
 }
 
 Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known) {
@@ -147,14 +160,15 @@ Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known)
     return writer.take();
 }
 
-Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known) {
+Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
+                     const Progress& progress) {
     Outcome outcome;
     const std::string report = reader.get_text();
     if (!report.empty()) outcome.report = std::make_shared<const Json>(Json::parse(report));
     outcome.resolved = arguments_from_stored(reader.get_text());
     outcome.warnings = Json::parse(reader.get_text()).get<std::vector<std::string>>();
     outcome.device = reader.get_text();
-    outcome.scene = decode_scene(reader.get_bytes(reader.left()), known);
+    outcome.scene = decode_scene(reader.get_bytes(reader.left()), known, progress);
     return outcome;
 }
 
@@ -315,8 +329,8 @@ Progress::Receiver progress_lines() {
 }
 
 Bytes run_request(const OperationLookup& find) {
-    const Bytes request = read_all(STDIN_FILENO);
-    ByteReader reader(request);
+    const Mapping request(STDIN_FILENO);
+    ByteReader reader(request.bytes());
     const auto memory = reader.get<std::uint64_t>();
     if (memory > 0 && !kSanitized) limit(RLIMIT_AS, memory);
     const Operation& operation = find(reader.get_text());
@@ -337,7 +351,7 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
     if (command.empty()) command = {"/proc/self/exe", "--worker"};
     const Descriptor request = memory_file("vesselbench-request");
     const Descriptor answer = memory_file("vesselbench-outcome");
-    write_request(request.number(), request_bytes(operation, scene, arguments, options), progress);
+    write_request(request.number(), operation, scene, arguments, options, progress);
     lseek(request.number(), 0, SEEK_SET);
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -351,9 +365,10 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
         throw_broken(operation, arguments,
                      "took longer than " + std::to_string(options.time_limit.count()) + " s");
     const int status = child.wait();
-    const Bytes bytes = read_all(answer.number());
-    if (status != 0 || bytes.empty()) throw_broken(operation, arguments, how_it_ended(status));
-    ByteReader reader(bytes);
+    const Mapping bytes(answer.number());
+    if (status != 0 || bytes.bytes().empty())
+        throw_broken(operation, arguments, how_it_ended(status));
+    ByteReader reader(bytes.bytes());
     const auto ending = static_cast<Ending>(reader.get<std::uint8_t>());
     if (ending == Ending::Memory)
         throw_broken(operation, arguments,
@@ -361,7 +376,7 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
     if (ending == Ending::Broken)
         throw_broken(operation, arguments, "failed (" + reader.get_text() + ")");
     if (ending != Ending::Done) throw_ending(ending, reader.get_text());
-    return read_outcome(reader, take_apart(scene).parts);
+    return read_outcome(reader, take_apart(scene).parts, progress);
 }
 
 int worker_main(const OperationLookup& find) {

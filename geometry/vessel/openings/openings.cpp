@@ -300,10 +300,13 @@ OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
 }
 
 Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
-                      const std::optional<Vec3>& inlet, std::vector<std::size_t>* left_out) {
+                      const std::optional<Vec3>& inlet, std::vector<std::size_t>* left_out,
+                      const Progress& progress) {
     Surface result = surface;
     std::vector<std::string> unnamed;
     for (std::size_t i = 0; i < plan.openings.size(); ++i) {
+        progress.report(static_cast<double>(i) / static_cast<double>(plan.openings.size()),
+                        "cutting");
         const PlannedOpening& opening = plan.openings[i];
         if (opening.keep) {
             const auto patch = nearest_opening(result, opening.place.plane.point);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/opening_place.h"
 
 namespace vesselbench {
@@ -41,6 +42,7 @@ struct OpeningPlanOptions {
 /// \param left_out if not null, receives the indices of the openings left out, ascending
 [[nodiscard]] Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
                                     const std::optional<Vec3>& inlet = std::nullopt,
-                                    std::vector<std::size_t>* left_out = nullptr);
+                                    std::vector<std::size_t>* left_out = nullptr,
+                                    const Progress& progress = {});
 
 }  // namespace vesselbench
