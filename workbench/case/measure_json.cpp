@@ -13,6 +13,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json or_null(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+std::optional<double> number_in(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number()) return std::nullopt;
+    return found->get<double>();
+}
+
 Json patch_json(const PatchMeasures& patch) {
     return {{"name", patch.name},
             {"kind", to_string(patch.kind)},
@@ -63,6 +73,26 @@ Json triangle_shape_json(const TriangleShape& shape) {
     const Spread &skewness = shape.equiangle_skewness, &ratio = shape.radius_ratio;
     return {{"equiangle_skewness", {{"mean", skewness.mean}, {"max", skewness.max}}},
             {"radius_ratio", {{"min", ratio.min}, {"mean", ratio.mean}}}};
+}
+
+Json change_json(const SurfaceChange& change) {
+    return {{"volume_before_mm3", or_null(change.volume_before)},
+            {"volume_after_mm3", or_null(change.volume_after)},
+            {"largest_deviation_mm", or_null(change.largest_deviation)},
+            {"mean_deviation_mm", or_null(change.mean_deviation)},
+            {"triangles_before", change.triangles_before},
+            {"triangles_after", change.triangles_after},
+            {"moved_vertices", change.moved_vertices}};
+}
+
+SurfaceChange change_from(const Json& json) {
+    return {.volume_before = number_in(json, "volume_before_mm3"),
+            .volume_after = number_in(json, "volume_after_mm3"),
+            .largest_deviation = number_in(json, "largest_deviation_mm"),
+            .mean_deviation = number_in(json, "mean_deviation_mm"),
+            .triangles_before = json.at("triangles_before").get<std::size_t>(),
+            .triangles_after = json.at("triangles_after").get<std::size_t>(),
+            .moved_vertices = json.at("moved_vertices").get<std::size_t>()};
 }
 
 Json volume_quality_json(const VolumeQuality& q) {
