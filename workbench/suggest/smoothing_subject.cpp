@@ -5,8 +5,6 @@
 #include <mutex>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "geometry/kernel/errors.h"
 #include "smoothing/context/staircases.h"
 #include "workbench/operations/smooth/context.h"
@@ -15,8 +13,6 @@
 namespace vesselbench {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kWeightsKept = 64;  // sets of staircase weights or distances in memory
 
@@ -36,8 +32,7 @@ StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
     if (arguments.text("distance") == "none" && !arguments.has("painted")) return ground;
     Arguments others = arguments;
     others.set("staircase", false);
-    Json report;
-    ground.others = shared_weights(smoothing_context(scene, finder, others, report).weights);
+    ground.others = shared_weights(smoothing_context(scene, finder, others).weights);
     return ground;
 }
 
@@ -98,9 +93,8 @@ SmoothingSubject smoothing_subject(const Scene& scene, Arguments& arguments) {
     const Surface& surface = surface_of(scene);
     resolve_filter(surface, arguments);
     SmoothingSubject subject{.filter = filter_from(arguments)};
-    Json report;
     const auto finder = make_cpu_finder(surface);
-    SmoothingContext context = smoothing_context(scene, *finder, arguments, report);
+    SmoothingContext context = smoothing_context(scene, *finder, arguments);
     subject.weights = shared_weights(std::move(context.weights));
     subject.ground = {.topology = surface.topology,
                       .start = context.start,

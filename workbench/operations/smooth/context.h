@@ -5,16 +5,24 @@
 #include <optional>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "smoothing/context/context_finder.h"
 #include "smoothing/filters/position_constraint.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/context_weights.h"
 
 namespace vesselbench {
 
 /// The context parameters of `smooth`.
 [[nodiscard]] std::vector<Parameter> context_parameter_table();
+
+/// Findings on a context.
+struct SmoothingFigures {
+    std::size_t caps = 0;
+    std::size_t cap_vertices_kept = 0;
+    ContextFigures weights;
+
+    bool operator==(const SmoothingFigures&) const = default;
+};
 
 /// The context of a surface before it is smoothed.
 struct SmoothingContext {
@@ -23,16 +31,15 @@ struct SmoothingContext {
     std::vector<std::uint8_t> caps;          ///< 1 at their vertices, #V
     std::vector<std::uint8_t> fixed;         ///< caps that are kept, #V
     std::optional<PositionConstraint> constraint;
+    SmoothingFigures figures;
 };
 
 /// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,
 /// cell).
 /// \param finder of the scene's surface
-/// \param report receives the findings
 /// \throw UsageError if arguments cannot be combined; InvalidInput if the scene lacks something
 /// they name; AlgorithmFailure if the stack orientation is uncertain
 [[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
-                                                 Arguments& arguments,
-                                                 nlohmann::ordered_json& report);
+                                                 Arguments& arguments);
 
 }  // namespace vesselbench
