@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -23,21 +24,24 @@ std::optional<double> number_in(const Json& json, const char* key) {
     return found->get<double>();
 }
 
-Json patch_json(const PatchMeasures& patch) {
-    return {{"name", patch.name},
-            {"kind", to_string(patch.kind)},
-            {"triangles", patch.triangles},
-            {"area", patch.area},
-            {"centroid", point_json(patch.centroid)},
-            {"normal", point_json(patch.normal)},
-            {"flatness", patch.flatness},
-            {"diameter", diameter_of_area(patch.area)}};
-}
-
 }  // namespace
 
 double diameter_of_area(double area) {
     return 2.0 * std::sqrt(area / std::numbers::pi);
+}
+
+Json patch_json(const PatchMeasures& patch, Keys keys) {
+    const auto key = [&](const char* name, const char* unit) {
+        return std::string(name) + (keys == Keys::WithUnits ? unit : "");
+    };
+    return {{"name", patch.name},
+            {"kind", to_string(patch.kind)},
+            {"triangles", patch.triangles},
+            {key("area", "_mm2"), patch.area},
+            {key("centroid", "_mm"), point_json(patch.centroid)},
+            {"normal", point_json(patch.normal)},
+            {key("flatness", "_mm"), patch.flatness},
+            {key("diameter", "_mm"), diameter_of_area(patch.area)}};
 }
 
 Json measure_json(const SurfaceMeasures& measures) {
@@ -65,7 +69,7 @@ Json measure_json(const SurfaceMeasures& measures) {
                               {"integral_abs", measures.mean_curvature_integral_abs}};
     json["patches"] = Json::array();
     for (const PatchMeasures& patch : measures.patches)
-        json["patches"].push_back(patch_json(patch));
+        json["patches"].push_back(patch_json(patch, Keys::Plain));
     return json;
 }
 
@@ -73,6 +77,17 @@ Json triangle_shape_json(const TriangleShape& shape) {
     const Spread &skewness = shape.equiangle_skewness, &ratio = shape.radius_ratio;
     return {{"equiangle_skewness", {{"mean", skewness.mean}, {"max", skewness.max}}},
             {"radius_ratio", {{"min", ratio.min}, {"mean", ratio.mean}}}};
+}
+
+Json extent_json(double volume, double area) {
+    return {{"volume_mm3", volume}, {"area_mm2", area}};
+}
+
+Json distance_json(double mean, double largest, std::optional<double> percentile_95) {
+    Json json = {{"mean_mm", mean}};
+    if (percentile_95) json["percentile_95_mm"] = *percentile_95;
+    json["largest_mm"] = largest;
+    return json;
 }
 
 Json change_json(const SurfaceChange& change) {

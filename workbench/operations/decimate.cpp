@@ -11,6 +11,7 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/replacing_stepper.h"
 #include "workbench/operations/table.h"
@@ -51,15 +52,10 @@ ContextWeights weights_from(const Scene& scene, Arguments& arguments) {
 }
 
 void add_changes(Json& report, const Surface& before, const Surface& after) {
-    report["triangles_before"] = before.triangle_count();
-    report["triangles_after"] = after.triangle_count();
     const ReferenceComparison found = compare_with_reference(after, before);
-    report["mean_distance_mm"] = found.mean_distance;
-    report["largest_distance_mm"] = found.hausdorff;
-    report["volume_before_mm3"] = volume(before);
-    report["volume_after_mm3"] = volume(after);
-    report["equiangle_skewness_before_mean"] = triangle_shape(before).equiangle_skewness.mean;
-    report["equiangle_skewness_after_mean"] = triangle_shape(after).equiangle_skewness.mean;
+    report["distance"] = distance_json(found.mean_distance, found.hausdorff);
+    report["shape_before"] = triangle_shape_json(triangle_shape(before));
+    report["shape_after"] = triangle_shape_json(triangle_shape(after));
 }
 
 /// The same parts for any beta_min: 1 at the largest weight, 0 at the smallest.
@@ -87,17 +83,15 @@ Gain gain_of(const Surface& before, const Surface& after, const std::vector<doub
 }
 
 /// Distances where the stretched weight is above one half (inside) and elsewhere.
-void add_split(Json& report, const std::string& prefix, const WeighedComparison& found) {
-    report[prefix + "inside_mean_distance_mm"] = found.inside.mean;
-    report[prefix + "inside_largest_distance_mm"] = found.inside.largest;
-    report[prefix + "outside_mean_distance_mm"] = found.outside.mean;
-    report[prefix + "outside_largest_distance_mm"] = found.outside.largest;
+Json parts_json(const WeighedComparison& found) {
+    return {{"distance_inside", distance_json(found.inside.mean, found.inside.largest)},
+            {"distance_outside", distance_json(found.outside.mean, found.outside.largest)}};
 }
 
 void add_gain(Json& report, const Gain& gain) {
-    add_split(report, "", gain.weighted);
-    report["unweighted_triangles_after"] = gain.unweighted_triangles;
-    add_split(report, "unweighted_", gain.unweighted);
+    report.update(parts_json(gain.weighted));
+    report["unweighted"] = {{"triangles", gain.unweighted_triangles}};
+    report["unweighted"].update(parts_json(gain.unweighted));
 }
 
 /// Why fewer triangles are not possible.

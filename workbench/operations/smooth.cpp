@@ -7,6 +7,7 @@
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
 #include "smoothing/filters/new_crossings.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/context_weights.h"
 #include "workbench/operations/crossing_warning.h"
 #include "workbench/operations/replacing_stepper.h"
@@ -22,23 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds the figures of the change.
+/// Adds the figures of the change beside those that every edit has.
 void add_changes(Json& report, const Surface& before, const Surface& after) {
-    std::vector<double> moved(before.vertex_count());
-    for (std::size_t v = 0; v < moved.size(); ++v)
-        moved[v] = (after.points()[v] - before.points()[v]).norm();
     const double volume_before = volume(before), volume_after = volume(after);
-    report["volume_before_mm3"] = volume_before;
-    report["volume_after_mm3"] = volume_after;
     report["volume_change_percent"] =
         volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
-    report["vertices"] = moved.size();
-    report["vertices_moved"] = std::ranges::count_if(moved, [](double d) { return d > 0.0; });
-    report["largest_displacement_mm"] = moved.empty() ? 0.0 : std::ranges::max(moved);
-    report["mean_displacement_mm"] = mean(moved);
+    report["vertices"] = before.vertex_count();
     const LocalError error = local_error(*before.topology, before.points(), after.points());
-    report["local_error_mean_mm"] = error.mean;
-    report["local_error_largest_mm"] = error.largest;
+    report["local_error"] = distance_json(error.mean, error.largest);
     report["normal_curvature_before_deg"] = mean(normal_curvature(before));
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
 }

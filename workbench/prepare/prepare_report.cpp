@@ -7,9 +7,9 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
-#include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/opening_json.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
@@ -61,8 +61,9 @@ std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
     return flags;
 }
 
-Json distance_json(const Surface& surface, const Surface& reference,
-                   const std::vector<std::uint8_t>& comparable) {
+/// From the comparable vertices to the reference.
+Json distance_to_json(const Surface& surface, const Surface& reference,
+                      const std::vector<std::uint8_t>& comparable) {
     Positions points;
     for (VertexId v = 0; v < surface.vertex_count(); ++v)
         if (comparable[v]) points.push_back(surface.points()[v]);
@@ -75,10 +76,10 @@ Json distance_json(const Surface& surface, const Surface& reference,
     }
     std::ranges::sort(distances);
     const std::size_t count = distances.size();
-    return {{"mean_mm", sum / static_cast<double>(count)},
-            {"percentile_95_mm", distances[count - 1 - count / 20]},
-            {"largest_mm", distances.back()},
-            {"points", count}};
+    Json json = distance_json(sum / static_cast<double>(count), distances.back(),
+                              distances[count - 1 - count / 20]);
+    json["points"] = count;
+    return json;
 }
 
 /// The edits that make the shown variant, in order.
@@ -128,19 +129,11 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
             {"outlets", summary.outlets}};
 }
 
-/// The openings' measures, with their tilt against the vessel just inside them.
-Json openings_json(const Json& patches, const Surface& surface) {
+Json openings_json(const Surface& surface, const std::vector<PatchMeasures>& patches) {
     Json openings = Json::array();
-    for (Json opening : patches) {
-        if (opening["kind"] == "wall") continue;
-        const auto row =
-            std::ranges::find(surface.patches, opening["name"].get<std::string>(), &Patch::name);
-        const auto axis =
-            axis_at_patch(surface, static_cast<std::size_t>(row - surface.patches.begin()));
-        opening["tilt_deg"] = axis ? Json(axis->tilt_deg) : Json();
-        opening["bend_deg"] = axis ? Json(axis->bend_deg) : Json();
-        openings.push_back(std::move(opening));
-    }
+    for (const PatchMeasures& patch : patches)
+        if (patch.kind != PatchKind::Wall)
+            openings.push_back(opening_json(surface, patch, Keys::Plain));
     return openings;
 }
 
@@ -154,11 +147,11 @@ double inlet_bend(const Json& openings) {
 
 void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["quality"]["before"] = source.surface ? measure_json(measure(*source.surface)) : Json();
-    report["quality"]["after"] = measure_json(measure(surface));
+    const SurfaceMeasures after = measure(surface);
+    report["quality"]["after"] = measure_json(after);
     // Caps are judged apart from the wall.
     report["quality"]["wall"] = triangle_shape_json(wall_shape(surface));
-    report["patches"] = report["quality"]["after"]["patches"];
-    report["openings"] = openings_json(report["patches"], surface);
+    report["openings"] = openings_json(surface, after.patches);
 }
 
 void add_cfd(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
@@ -205,11 +198,11 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     const std::vector<std::uint8_t> comparable = comparable_vertices(
         surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
     if (source.surface) {
-        report["distance_to_source"] = distance_json(surface, *source.surface, comparable);
+        report["distance_to_source"] = distance_to_json(surface, *source.surface, comparable);
         report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
     }
     if (prepared.input.exact)
-        report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
+        report["distance_to_exact"] = distance_to_json(surface, *prepared.input.exact, comparable);
     if (prepared.purpose == "cfd") add_cfd(report, prepared, edits);
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
