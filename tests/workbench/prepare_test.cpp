@@ -118,6 +118,7 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     CHECK(names_in(out) == Names{"print.3mf", "print.stl", "project.vbench", "report.html",
                                  "report.json", "surface.stl", "surface.vtp"});
     CHECK(Json::parse(text_of(out + "/report.json"))["print"].is_object());
+    CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));
 }
 
 SCENARIO("A print model is closed where its end could not be opened", "[workbench][prepare]") {

@@ -86,7 +86,9 @@ Operation print_check_operation() {
                             .maximum = 100.0}},
             .run = &run_print_check,
             .thesis = "2.3",
-            .recipe = {.report_section = "print"}};
+            .recipe = {.report_section = ReportSection{.key = "print",
+                                                       .title = "Print",
+                                                       .about = "Check of the printable model."}}};
 }
 
 }  // namespace vesselbench

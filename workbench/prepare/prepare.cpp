@@ -181,7 +181,8 @@ void write_results(Session& session, const PrepareOptions& options, PreparedCase
         write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_text(options.out / "report.json", report.document.dump(2) + "\n");
-    files.add_text(options.out / "report.html", report_html(report.document, report.pictures));
+    files.add_text(options.out / "report.html",
+                   report_html(report.document, report.pictures, report.sections));
     progress.check_cancelled();
     files.commit();
 }

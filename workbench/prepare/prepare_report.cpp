@@ -162,15 +162,23 @@ void add_cfd(Json& report, const PreparedCase& prepared, const std::vector<LogEn
     for (const std::string& warning : summary.warnings) report["warnings"].push_back(warning);
 }
 
-void add_steps(Json& report, const std::vector<LogEntry>& edits) {
-    report["steps"] = Json::array();
+/// A later edit's section replaces an earlier one of the same key.
+void add_section(PreparedReport& report, const ReportSection& section, const ResultRecord& result) {
+    if (std::ranges::find(report.sections, section.key, &ReportSection::key) ==
+        report.sections.end())
+        report.sections.push_back(section);
+    report.document[section.key] = Json::parse(result.report, nullptr, false);
+}
+
+void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
+    report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
-        report["steps"].push_back(log_json(entry));
+        report.document["steps"].push_back(log_json(entry));
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
-            report["warnings"].push_back(entry.edit.operation + ": " + warning);
-        if (const std::string& section = part_of(entry).report_section; !section.empty())
-            report[section] = Json::parse(entry.result->report, nullptr, false);
+            report.document["warnings"].push_back(entry.edit.operation + ": " + warning);
+        if (const auto& section = part_of(entry).report_section)
+            add_section(report, *section, *entry.result);
     }
 }
 
@@ -180,16 +188,18 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                               const Progress& progress) {
     const std::vector<LogEntry> edits = edits_of(session, prepared.purpose);
     const Surface& surface = surface_of(prepared.scene);
-    Json report = {{"program_version", version()},
-                   {"purpose", prepared.purpose},
-                   {"units", "mm"},
-                   {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
-                   {"input",
-                    {{"name", prepared.input.name},
-                     {"kind", prepared.input.is_image ? "image" : "surface"},
-                     {"mask", prepared.input.mask.filename().string()}}},
-                   {"warnings", prepared.warnings}};
-    add_steps(report, edits);
+    PreparedReport made;
+    Json& report = made.document;
+    report = {{"program_version", version()},
+              {"purpose", prepared.purpose},
+              {"units", "mm"},
+              {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
+              {"input",
+               {{"name", prepared.input.name},
+                {"kind", prepared.input.is_image ? "image" : "surface"},
+                {"mask", prepared.input.mask.filename().string()}}},
+              {"warnings", prepared.warnings}};
+    add_steps(made, edits);
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
@@ -206,8 +216,9 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     if (prepared.purpose == "cfd") add_cfd(report, prepared, edits);
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
-    return {report,
-            report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable)};
+    made.pictures =
+        report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable);
+    return made;
 }
 
 }  // namespace vesselbench

@@ -25,6 +25,7 @@ struct PreparedCase {
 struct PreparedReport {
     nlohmann::ordered_json document;  ///< report.json
     std::vector<ReportPicture> pictures;
+    std::vector<ReportSection> sections;  ///< those of the edits, in order
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the
