@@ -154,12 +154,14 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(surface, after.patches);
 }
 
-void add_cfd(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
+/// \return warnings
+std::vector<std::string> add_cfd(Json& report, const PreparedCase& prepared,
+                                 const std::vector<LogEntry>& edits) {
     report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);
-    for (const std::string& warning : summary.warnings) report["warnings"].push_back(warning);
+    return summary.warnings;
 }
 
 /// A later edit's section replaces an earlier one of the same key.
@@ -176,7 +178,7 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
         report.document["steps"].push_back(log_json(entry));
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
-            report.document["warnings"].push_back(entry.edit.operation + ": " + warning);
+            report.warnings.push_back(entry.edit.operation + ": " + warning);
         if (const auto& section = part_of(entry).report_section)
             add_section(report, *section, *entry.result);
     }
@@ -188,7 +190,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                               const Progress& progress) {
     const std::vector<LogEntry> edits = edits_of(session, prepared.purpose);
     const Surface& surface = surface_of(prepared.scene);
-    PreparedReport made;
+    PreparedReport made{.warnings = prepared.warnings};
     Json& report = made.document;
     report = {{"program_version", version()},
               {"purpose", prepared.purpose},
@@ -198,7 +200,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                {{"name", prepared.input.name},
                 {"kind", prepared.input.is_image ? "image" : "surface"},
                 {"mask", prepared.input.mask.filename().string()}}},
-              {"warnings", prepared.warnings}};
+              {"warnings", Json::array()}};
     add_steps(made, edits);
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
@@ -213,7 +215,10 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     }
     if (prepared.input.exact)
         report["distance_to_exact"] = distance_to_json(surface, *prepared.input.exact, comparable);
-    if (prepared.purpose == "cfd") add_cfd(report, prepared, edits);
+    if (prepared.purpose == "cfd")
+        for (const std::string& warning : add_cfd(report, prepared, edits))
+            made.warnings.push_back(warning);
+    report["warnings"] = made.warnings;
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
     made.pictures =

@@ -26,6 +26,7 @@ struct PreparedReport {
     nlohmann::ordered_json document;  ///< report.json
     std::vector<ReportPicture> pictures;
     std::vector<ReportSection> sections;  ///< those of the edits, in order
+    std::vector<std::string> warnings;    ///< all, as in the document
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the
