@@ -217,6 +217,7 @@ std::vector<PatchMeasures> measure_patches(const Surface& surface) {
     std::vector<PatchMeasures> present;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].triangles == 0) continue;
+        all[i].row = i;
         all[i].name = surface.patches[i].name;
         all[i].kind = surface.patches[i].kind;
         if (all[i].area > 0.0) all[i].centroid /= all[i].area;

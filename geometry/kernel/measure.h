@@ -57,6 +57,7 @@ struct Bounds {
                                                    DerivedCache& cache = derived_cache());
 
 struct PatchMeasures {
+    std::size_t row = 0;  ///< of the patch table
     std::string name;
     PatchKind kind = PatchKind::Wall;
     std::size_t triangles = 0;

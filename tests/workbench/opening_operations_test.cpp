@@ -173,7 +173,6 @@ SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {
         CHECK(report.at("removed_area_mm2").get<double>() < 1.5 * tube);
         CHECK(report.at("follows_parent") == true);
         CHECK(report.at("new_triangles").get<int>() > 50);
-        CHECK(report.at("triangles_after") == left.triangle_count());
         const auto mouth = report.at("mouth_mm");
         CHECK((Vec3(mouth[0], mouth[1], mouth[2]) - Vec3(3, 0, 20)).norm() < 0.5);
         check_replay("remove-branch", surface, outcome);

@@ -70,12 +70,15 @@ SCENARIO("A phantom becomes a model for planning and one for surgery simulation"
 
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     const std::string out = temporary_folder() + "/cfd";
-    const ProgramRun result = run({"prepare", tube(), "--for", "cfd", "--out", out});
+    const ProgramRun result = run({"prepare", tube(), "--for", "cfd", "--out", out, "--json"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(names_in(out) == Names{"openfoam", "project.vbench", "report.html", "report.json",
                                  "surface.stl", "surface.vtp", "volume.msh", "volume.vtu"});
     const Json report = Json::parse(text_of(out + "/report.json"));
+    const Json summary = Json::parse(result.out);
+    CHECK(summary["products"] == report["products"]);
+    CHECK(summary["warnings"] == report["warnings"]);
     CHECK(report["quality"]["after"]["closed"] == true);
     CHECK(report["quality"]["after"]["self_intersections"] == 0);
     CHECK(report["openings"].size() == 2);
@@ -118,6 +121,7 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     CHECK(names_in(out) == Names{"print.3mf", "print.stl", "project.vbench", "report.html",
                                  "report.json", "surface.stl", "surface.vtp"});
     CHECK(Json::parse(text_of(out + "/report.json"))["print"].is_object());
+    CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));
 }
 
 SCENARIO("A print model is closed where its end could not be opened", "[workbench][prepare]") {

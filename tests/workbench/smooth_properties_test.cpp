@@ -130,10 +130,9 @@ SCENARIO("Without staircases, and beta_min 0, nothing moves", "[workbench][smoot
                          {{"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}, {"beta_min", 0.0}}));
             CHECK((outcome.scene.surface->points() == surface.points()));
             CHECK(outcome.report->at("staircase_vertices") == 0);
-            CHECK(outcome.report->at("vertices_moved") == 0);
             CHECK(outcome.report->at("mean_weight") == 0.0);
             const Outcome uniform = run("smooth", surface, filter_arguments(filter));
-            CHECK(uniform.report->at("vertices_moved") > 500);
+            CHECK(moved_vertices(surface, *uniform.scene.surface) > 500);
         }
 }
 
@@ -154,7 +153,7 @@ SCENARIO("With staircases everywhere, the result is uniform smoothing", "[workbe
             CHECK(aware.report->at("mean_weight") == 1.0);
             const Outcome plain = run("smooth", ring, uniform);
             CHECK((aware.scene.surface->points() == plain.scene.surface->points()));
-            CHECK(plain.report->at("vertices_moved") >=
+            CHECK(moved_vertices(ring, *plain.scene.surface) >=
                   ring.vertex_count() / 2);  // some keep edges
         }
 }

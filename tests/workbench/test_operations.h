@@ -10,4 +10,8 @@ namespace vesselbench::test {
 [[nodiscard]] Outcome run(const std::string& operation, const Surface& surface,
                           const Arguments& arguments);
 
+/// Vertices at another place than before, on surfaces of the same triangles, and the longest way.
+[[nodiscard]] std::size_t moved_vertices(const Surface& before, const Surface& after);
+[[nodiscard]] double longest_way(const Surface& before, const Surface& after);  ///< [mm]
+
 }  // namespace vesselbench::test

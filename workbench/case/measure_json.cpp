@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -13,21 +14,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json patch_json(const PatchMeasures& patch) {
-    return {{"name", patch.name},
-            {"kind", to_string(patch.kind)},
-            {"triangles", patch.triangles},
-            {"area", patch.area},
-            {"centroid", point_json(patch.centroid)},
-            {"normal", point_json(patch.normal)},
-            {"flatness", patch.flatness},
-            {"diameter", diameter_of_area(patch.area)}};
+Json or_null(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+std::optional<double> number_in(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number()) return std::nullopt;
+    return found->get<double>();
 }
 
 }  // namespace
 
 double diameter_of_area(double area) {
     return 2.0 * std::sqrt(area / std::numbers::pi);
+}
+
+Json patch_json(const PatchMeasures& patch, Keys keys) {
+    const auto key = [&](const char* name, const char* unit) {
+        return std::string(name) + (keys == Keys::WithUnits ? unit : "");
+    };
+    return {{"name", patch.name},
+            {"kind", to_string(patch.kind)},
+            {"triangles", patch.triangles},
+            {key("area", "_mm2"), patch.area},
+            {key("centroid", "_mm"), point_json(patch.centroid)},
+            {"normal", point_json(patch.normal)},
+            {key("flatness", "_mm"), patch.flatness},
+            {key("diameter", "_mm"), diameter_of_area(patch.area)}};
 }
 
 Json measure_json(const SurfaceMeasures& measures) {
@@ -55,7 +69,7 @@ Json measure_json(const SurfaceMeasures& measures) {
                               {"integral_abs", measures.mean_curvature_integral_abs}};
     json["patches"] = Json::array();
     for (const PatchMeasures& patch : measures.patches)
-        json["patches"].push_back(patch_json(patch));
+        json["patches"].push_back(patch_json(patch, Keys::Plain));
     return json;
 }
 
@@ -63,6 +77,37 @@ Json triangle_shape_json(const TriangleShape& shape) {
     const Spread &skewness = shape.equiangle_skewness, &ratio = shape.radius_ratio;
     return {{"equiangle_skewness", {{"mean", skewness.mean}, {"max", skewness.max}}},
             {"radius_ratio", {{"min", ratio.min}, {"mean", ratio.mean}}}};
+}
+
+Json extent_json(double volume, double area) {
+    return {{"volume_mm3", volume}, {"area_mm2", area}};
+}
+
+Json distance_json(double mean, double largest, std::optional<double> percentile_95) {
+    Json json = {{"mean_mm", mean}};
+    if (percentile_95) json["percentile_95_mm"] = *percentile_95;
+    json["largest_mm"] = largest;
+    return json;
+}
+
+Json change_json(const SurfaceChange& change) {
+    return {{"volume_before_mm3", or_null(change.volume_before)},
+            {"volume_after_mm3", or_null(change.volume_after)},
+            {"largest_deviation_mm", or_null(change.largest_deviation)},
+            {"mean_deviation_mm", or_null(change.mean_deviation)},
+            {"triangles_before", change.triangles_before},
+            {"triangles_after", change.triangles_after},
+            {"moved_vertices", change.moved_vertices}};
+}
+
+SurfaceChange change_from(const Json& json) {
+    return {.volume_before = number_in(json, "volume_before_mm3"),
+            .volume_after = number_in(json, "volume_after_mm3"),
+            .largest_deviation = number_in(json, "largest_deviation_mm"),
+            .mean_deviation = number_in(json, "mean_deviation_mm"),
+            .triangles_before = json.at("triangles_before").get<std::size_t>(),
+            .triangles_after = json.at("triangles_after").get<std::size_t>(),
+            .moved_vertices = json.at("moved_vertices").get<std::size_t>()};
 }
 
 Json volume_quality_json(const VolumeQuality& q) {

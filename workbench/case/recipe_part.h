@@ -8,6 +8,13 @@ namespace vesselbench {
 /// The kinds of input a case can begin with.
 enum class InputKind { Surface, Image };
 
+/// A part of prepare's report, which its page shows as a table of names and values.
+struct ReportSection {
+    std::string key;    ///< in report.json
+    std::string title;  ///< heading on the page
+    std::string about;  ///< a sentence below it
+};
+
 /// An operation's role in a recipe, for prepare and its report, which use it instead of names.
 struct RecipePart {
     /// A recipe for such an input begins with it; its parameter `file` is the input. One operation
@@ -20,8 +27,8 @@ struct RecipePart {
     /// What to try if it changes the volume noticeably: "fewer iterations keep it". Empty: it may
     /// change the volume.
     std::string volume_remedy = {};
-    /// Key in prepare's report that repeats its own report; empty: listed among the steps only.
-    std::string report_section = {};
+    /// Section of prepare's report that repeats its own report; none: listed among the steps only.
+    std::optional<ReportSection> report_section = std::nullopt;
 };
 
 }  // namespace vesselbench

@@ -6,7 +6,6 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
-#include "geometry/kernel/whole_file.h"
 #include "workbench/case/purposes.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
@@ -20,16 +19,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What was made, and what the report warns about.
-void print_prepared(const PrepareArguments& arguments) {
-    const std::filesystem::path out = arguments.out;
-    const Json report = Json::parse(file_content(out / "report.json"));
+void print_prepared(const PrepareArguments& arguments, const PrepareSummary& made) {
     std::cout << Json({{"purpose", arguments.purpose},
                        {"folder", arguments.out},
                        {"project", "project.vbench"},
                        {"reports", {"report.json", "report.html"}},
-                       {"products", report.at("products")},
-                       {"warnings", report.at("warnings")}})
+                       {"products", made.products},
+                       {"warnings", made.warnings}})
                      .dump(2)
               << "\n";
 }
@@ -42,14 +38,14 @@ InputOptions input_options(const InputArguments& arguments) {
 
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
-    prepare({.input = input_options(arguments.input),
-             .purpose = arguments.purpose,
-             .recipe = arguments.recipe,
-             .arguments = arguments.settings,
-             .out = arguments.out},
-            remark, progress);
+    const PrepareSummary made = prepare({.input = input_options(arguments.input),
+                                         .purpose = arguments.purpose,
+                                         .recipe = arguments.recipe,
+                                         .arguments = arguments.settings,
+                                         .out = arguments.out},
+                                        remark, progress);
+    if (arguments.json) return print_prepared(arguments, made);
     const std::filesystem::path out = arguments.out;
-    if (arguments.json) return print_prepared(arguments);
     std::string what = purpose.result + ":";
     what.resize(std::string("report:      ").size(), ' ');
     std::cout << what << (out / purpose.result_file).string()

@@ -34,20 +34,6 @@ double volume_change(const Surface& before, const Surface& after) {
     return sum / 6.0;
 }
 
-/// What the dabs moved.
-ordered_json movement(const Surface& before, const Surface& after) {
-    std::size_t count = 0;
-    double largest = 0.0;
-    for (std::size_t v = 0; v < before.vertex_count(); ++v) {
-        if (after.points()[v] == before.points()[v]) continue;
-        ++count;
-        largest = std::max(largest, (after.points()[v] - before.points()[v]).norm());
-    }
-    return {{"vertices_moved", count},
-            {"largest_displacement_mm", largest},
-            {"volume_change_mm3", volume_change(before, after)}};
-}
-
 /// What the dabs painted.
 ordered_json painting(const Surface& before, const Surface& surface, const std::string& name) {
     const auto& after = *surface.attributes.at(name);
@@ -139,9 +125,10 @@ public:
         outcome.scene = scene_with(ended.surface());
         ordered_json report = {{"dabs", stroke_->dabs}};
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
-        report.update(settings_.kind == BrushKind::Weight
-                          ? painting(before, after, settings_.attribute)
-                          : movement(before, after));
+        if (settings_.kind == BrushKind::Weight)
+            report.update(painting(before, after, settings_.attribute));
+        else
+            report["volume_change_mm3"] = volume_change(before, after);
         outcome.report = std::make_shared<ordered_json>(std::move(report));
         return outcome;
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
@@ -13,6 +15,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
@@ -97,7 +100,16 @@ struct Resolved {
     ordered_json openings = ordered_json::array();
 };
 
+/// Figures of an opening in the report.
+ordered_json figures_of(const Surface& surface, const std::vector<PatchMeasures>& patches,
+                        std::size_t row) {
+    const auto patch = std::ranges::find(patches, row, &PatchMeasures::row);
+    return opening_json(surface, patch == patches.end() ? PatchMeasures{} : *patch,
+                        Keys::WithUnits);
+}
+
 Resolved describe(const Surface& surface, const OpeningPlan& plan) {
+    const std::vector<PatchMeasures> patches = measure_patches(surface);
     Resolved resolved;
     for (const auto& opening : plan.openings) {
         const auto& place = opening.place;
@@ -108,19 +120,10 @@ Resolved describe(const Surface& surface, const OpeningPlan& plan) {
         resolved.planes.push_back(opening.keep ? 1.0 : 0.0);
         resolved.names +=
             (resolved.names.empty() ? "" : ",") + to_string(patch.kind) + ":" + patch.name;
-        const PatchShape shape = patch_shape(surface, p);
-        const auto axis = axis_at_patch(surface, p);
-        resolved.openings.push_back({{"name", patch.name},
-                                     {"kind", to_string(patch.kind)},
-                                     {"centre_mm", point_json(shape.plane.point)},
-                                     {"normal", point_json(shape.plane.normal)},
-                                     {"area_mm2", shape.area},
-                                     {"diameter_mm", shape.diameter()},
-                                     {"flatness_mm", shape.flatness},
-                                     {"tilt_deg", axis ? ordered_json(axis->tilt_deg) : nullptr},
-                                     {"bend_deg", axis ? ordered_json(axis->bend_deg) : nullptr},
-                                     {"distance_from_tip_mm", place.distance},
-                                     {"kept", opening.keep}});
+        ordered_json figures = figures_of(surface, patches, p);
+        figures["distance_from_tip_mm"] = place.distance;
+        figures["kept"] = opening.keep;
+        resolved.openings.push_back(std::move(figures));
     }
     return resolved;
 }
@@ -150,10 +153,7 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     outcome.resolved = arguments;
     outcome.resolved.set("planes", resolved.planes);
     outcome.resolved.set("names", resolved.names);
-    outcome.report =
-        std::make_shared<ordered_json>(ordered_json{{"openings", resolved.openings},
-                                                    {"triangles_before", surface.triangle_count()},
-                                                    {"triangles_after", clipped.triangle_count()}});
+    outcome.report = std::make_shared<ordered_json>(ordered_json{{"openings", resolved.openings}});
     outcome.warnings = plan.warnings;
     outcome.scene = with_surface(scene, std::move(clipped));
     return outcome;

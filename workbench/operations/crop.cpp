@@ -68,8 +68,6 @@ Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress)
         const LargestPiece piece = largest_piece(part);
         if (arguments.text("component") == "largest") part = piece.surface;
         report["components"] = piece.pieces;
-        report["triangles_before"] = scene.surface->triangle_count();
-        report["triangles_after"] = part.triangle_count();
         report["boundary_loops"] = part.topology->boundary_loops().size();
         outcome.scene = with_surface(outcome.scene, std::move(part));
     }

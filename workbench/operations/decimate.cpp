@@ -12,6 +12,7 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
@@ -39,7 +40,7 @@ DecimateParameters target_from(const Surface& surface, Arguments& arguments) {
     return target;
 }
 
-std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json& report) {
+ContextWeights weights_from(const Scene& scene, Arguments& arguments) {
     const Surface& surface = surface_of(scene);
     const auto finder = make_cpu_finder(surface);
     WeightSettings settings{.operation = "decimate", .beta_min = arguments.real("beta_min")};
@@ -48,19 +49,14 @@ std::vector<double> weights_from(const Scene& scene, Arguments& arguments, Json&
             settings.beta_min;  // a flat end is neither a staircase nor to be preserved
         settings.caps = cap_vertices(finder->caps(), surface.vertex_count());
     }
-    return context_weights(scene, settings, *finder, arguments, report);
+    return context_weights(scene, settings, *finder, arguments);
 }
 
 void add_changes(Json& report, const Surface& before, const Surface& after) {
-    report["triangles_before"] = before.triangle_count();
-    report["triangles_after"] = after.triangle_count();
     const ReferenceComparison found = compare_with_reference(after, before);
-    report["mean_distance_mm"] = found.mean_distance;
-    report["largest_distance_mm"] = found.hausdorff;
-    report["volume_before_mm3"] = volume(before);
-    report["volume_after_mm3"] = volume(after);
-    report["equiangle_skewness_before_mean"] = triangle_shape(before).equiangle_skewness.mean;
-    report["equiangle_skewness_after_mean"] = triangle_shape(after).equiangle_skewness.mean;
+    report["distance"] = distance_json(found.mean_distance, found.hausdorff);
+    report["shape_before"] = triangle_shape_json(triangle_shape(before));
+    report["shape_after"] = triangle_shape_json(triangle_shape(after));
 }
 
 /// The same parts for any beta_min: 1 at the largest weight, 0 at the smallest.
@@ -71,26 +67,32 @@ std::vector<double> stretched(std::vector<double> weights) {
     return weights;
 }
 
-/// Distances where the stretched weight is above one half (inside) and elsewhere.
-void add_split(Json& report, const std::string& prefix, const Surface& before, const Surface& after,
-               std::span<const double> weights) {
-    const WeighedComparison found = compare_by_weight(after, before, weights);
-    report[prefix + "inside_mean_distance_mm"] = found.inside.mean;
-    report[prefix + "inside_largest_distance_mm"] = found.inside.largest;
-    report[prefix + "outside_mean_distance_mm"] = found.outside.mean;
-    report[prefix + "outside_largest_distance_mm"] = found.outside.largest;
-}
+/// What the weights gain: distances of the result, and of as many triangles without weights.
+struct Gain {
+    WeighedComparison weighted;
+    WeighedComparison unweighted;
+    std::size_t unweighted_triangles = 0;
+};
 
-/// The gain of the weights: the same figures for as many triangles without them.
-void add_gain(Json& report, const Surface& before, const Surface& after,
-              const std::vector<double>& weights, const Progress& progress) {
-    report["mean_weight"] = mean(weights);
+Gain gain_of(const Surface& before, const Surface& after, const std::vector<double>& weights,
+             const Progress& progress) {
     const std::vector<double> parts = stretched(weights);
-    add_split(report, "", before, after, parts);
     progress.report(0.0, "decimating without weights, for comparison");
     const Decimated plain = decimate(before, {.triangles = after.triangle_count()}, {}, progress);
-    report["unweighted_triangles_after"] = plain.surface.triangle_count();
-    add_split(report, "unweighted_", before, plain.surface, parts);
+    return {compare_by_weight(after, before, parts),
+            compare_by_weight(plain.surface, before, parts), plain.surface.triangle_count()};
+}
+
+/// Distances where the stretched weight is above one half (inside) and elsewhere.
+Json parts_json(const WeighedComparison& found) {
+    return {{"distance_inside", distance_json(found.inside.mean, found.inside.largest)},
+            {"distance_outside", distance_json(found.outside.mean, found.outside.largest)}};
+}
+
+void add_gain(Json& report, const Gain& gain) {
+    report.update(parts_json(gain.weighted));
+    report["unweighted"] = {{"triangles", gain.unweighted_triangles}};
+    report["unweighted"].update(parts_json(gain.unweighted));
 }
 
 /// Why fewer triangles are not possible.
@@ -102,26 +104,25 @@ std::string what_stops(const DecimateReport& figures) {
 }
 
 /// How the weights explain a result with as many triangles as before.
-std::string why_nothing_went(const Json& report, const Arguments& resolved) {
-    if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty())
+std::string why_nothing_went(const ContextFigures& context, const Arguments& resolved) {
+    if (const std::string reason = why_all_is_kept(context, resolved); !reason.empty())
         return reason;
-    return report.contains("mean_weight")
+    return context.mean_weight
                ? "no triangle with a weight above 0 can be removed at this max_error"
                : "no edge can be collapsed at this max_error; a larger one permits more";
 }
 
-void warn(const DecimateReport& figures, const DecimateParameters& target, const Json& report,
-          Outcome& outcome) {
+void warn(const DecimateReport& figures, const DecimateParameters& target,
+          const ContextFigures& context, Outcome& outcome) {
     const auto add = [&](const std::string& text) { outcome.warnings.push_back(text); };
     const bool idle = target.triangles && *target.triangles >= figures.triangles_before;
     const bool nothing_went = figures.triangles_after == figures.triangles_before;
     if (idle)
         add("nothing to do: the surface has at most " + counted(*target.triangles, "triangle"));
     else if (nothing_went && target.max_error)
-        add("all triangles are kept: " + why_nothing_went(report, outcome.resolved));
-    else if (const auto found = report.find("staircase_vertices");
-             found != report.end() && *found == 0)
-        add("there are no staircases: " + why_all_is_kept(report, outcome.resolved));
+        add("all triangles are kept: " + why_nothing_went(context, outcome.resolved));
+    else if (context.staircase_vertices == 0)
+        add("there are no staircases: " + why_all_is_kept(context, outcome.resolved));
     if (!figures.target_reached && !target.max_error)
         add(counted(figures.triangles_after, "triangle") + " are left instead of " +
             std::to_string(*target.triangles) + ": fewer would " + what_stops(figures));
@@ -135,10 +136,8 @@ void warn(const DecimateReport& figures, const DecimateParameters& target, const
 }
 
 /// Warns if decimation without weights preserves the kept part better.
-void warn_of_loss(const Json& report, Outcome& outcome) {
-    if (!report.contains("unweighted_outside_mean_distance_mm")) return;
-    const double with = report.at("outside_mean_distance_mm"),
-                 without = report.at("unweighted_outside_mean_distance_mm");
+void warn_of_loss(const Gain& gain, Outcome& outcome) {
+    const double with = gain.weighted.outside.mean, without = gain.unweighted.outside.mean;
     constexpr double kNoticeable = 1.05;
     if (with <= kNoticeable * without) return;
     outcome.warnings.push_back("the weights gain nothing: the part they keep is " +
@@ -151,9 +150,8 @@ void warn_of_loss(const Json& report, Outcome& outcome) {
 /// The operation's inputs from the scene, before figures are added.
 struct Run {
     Outcome outcome;
-    Json report;  ///< on the context
     DecimateParameters target;
-    std::vector<double> weights;
+    ContextWeights context;
     DecimateReport decimated;
 };
 
@@ -163,8 +161,9 @@ Run decimated_by(const Scene& scene, const Arguments& arguments, const Progress&
     run.outcome.resolved = arguments;
     run.target = target_from(before, run.outcome.resolved);
     progress.report(0.0, "finding the context");
-    run.weights = weights_from(scene, run.outcome.resolved, run.report);
-    Decimated decimated = decimate(before, run.target, run.weights, progress.part(0.2, 1.0));
+    run.context = weights_from(scene, run.outcome.resolved);
+    Decimated decimated =
+        decimate(before, run.target, run.context.weights, progress.part(0.2, 1.0));
     run.decimated = decimated.report;
     run.outcome.scene = with_surface(scene, std::move(decimated.surface));
     return run;
@@ -183,13 +182,16 @@ public:
 
     [[nodiscard]] Outcome outcome(Progress& progress) override {
         Outcome outcome = run_.outcome;
-        Json report = run_.report;
+        const ContextWeights& context = run_.context;
+        Json report = context_json(context.figures);
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
         add_changes(report, before, after);
-        if (!run_.weights.empty())
-            add_gain(report, before, after, run_.weights, progress.part(0.2, 0.8));
-        warn(run_.decimated, run_.target, report, outcome);
-        warn_of_loss(report, outcome);
+        warn(run_.decimated, run_.target, context.figures, outcome);
+        if (!context.weights.empty()) {
+            const Gain gain = gain_of(before, after, context.weights, progress.part(0.2, 0.8));
+            add_gain(report, gain);
+            warn_of_loss(gain, outcome);
+        }
         outcome.report = std::make_shared<Json>(std::move(report));
         return outcome;
     }

@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
@@ -93,13 +94,9 @@ nlohmann::ordered_json json_of(const VoxelTopology& topology) {
 }
 
 nlohmann::ordered_json cuts_of(const Surface& surface) {
-    std::vector<double> areas(surface.patches.size(), 0.0);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        areas[(*surface.patch_labels)[t]] +=
-            triangle_area(surface.points(), surface.triangles()[t]);
     auto cuts = nlohmann::ordered_json::array();
-    for (std::size_t p = 1; p < surface.patches.size(); ++p)
-        cuts.push_back({{"name", surface.patches[p].name}, {"area_mm2", areas[p]}});
+    for (const PatchMeasures& patch : measure_patches(surface))
+        if (patch.row > 0) cuts.push_back(patch_json(patch, Keys::WithUnits));
     return cuts;
 }
 
@@ -109,13 +106,12 @@ Report report_of(const Extraction& extraction) {
                                      {"threshold", extraction.threshold},
                                      {"decisions", extraction.reasons},
                                      {"vertices", surface.vertex_count()},
-                                     {"triangles", surface.triangle_count()},
-                                     {"volume_mm3", volume(surface)},
-                                     {"area_mm2", area(surface)},
-                                     {"bodies_found", extraction.bodies},
-                                     {"hollows_found", extraction.hollows},
-                                     {"largest_dropped_mm3", extraction.largest_dropped},
-                                     {"cuts_at_border", cuts_of(surface)}};
+                                     {"triangles", surface.triangle_count()}};
+    report.update(extent_json(volume(surface), area(surface)));
+    report.update({{"bodies_found", extraction.bodies},
+                   {"hollows_found", extraction.hollows},
+                   {"largest_dropped_mm3", extraction.largest_dropped},
+                   {"cuts_at_border", cuts_of(surface)}});
     if (extraction.before) {
         report["topology_before_cleaning"] = json_of(*extraction.before);
         report["topology_after_cleaning"] = json_of(*extraction.after);

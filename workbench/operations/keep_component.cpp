@@ -46,9 +46,7 @@ Outcome keep(const Scene& scene, const Arguments& arguments, Progress&) {
     outcome.resolved = arguments;
     outcome.report = std::make_shared<ordered_json>(
         ordered_json{{"components_before", parts.count()},
-                     {"components_after", std::count(wanted.begin(), wanted.end(), true)},
-                     {"triangles_before", surface.triangle_count()},
-                     {"triangles_after", kept.triangle_count()}});
+                     {"components_after", std::count(wanted.begin(), wanted.end(), true)}});
     outcome.scene = with_surface(scene, std::move(kept));
     return outcome;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
 
@@ -50,15 +51,13 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
                   outcome);
     warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
                   outcome);
-    outcome.report =
-        std::make_shared<Json>(Json{{"printable", check.printable()},
-                                    {"unit", "mm"},
-                                    {"size_mm", point_json(check.size)},
-                                    {"volume_mm3", check.volume},
-                                    {"area_mm2", check.area},
-                                    {"smallest_wall_distance", facing_json(check.lumen)},
-                                    {"smallest_gap", facing_json(check.gap)},
-                                    {"problems", problems_json(check)}});
+    Json report = {
+        {"printable", check.printable()}, {"unit", "mm"}, {"size_mm", point_json(check.size)}};
+    report.update(extent_json(check.volume, check.area));
+    report.update({{"smallest_wall_distance", facing_json(check.lumen)},
+                   {"smallest_gap", facing_json(check.gap)},
+                   {"problems", problems_json(check)}});
+    outcome.report = std::make_shared<Json>(std::move(report));
     return outcome;
 }
 
@@ -83,7 +82,9 @@ Operation print_check_operation() {
                             .maximum = 100.0}},
             .run = &run_print_check,
             .thesis = "2.3",
-            .recipe = {.report_section = "print"}};
+            .recipe = {.report_section = ReportSection{.key = "print",
+                                                       .title = "Print",
+                                                       .about = "Check of the printable model."}}};
 }
 
 }  // namespace vesselbench

@@ -33,13 +33,11 @@ RemeshParameters parameters_from(const Arguments& arguments) {
 }
 
 Report report_from(const RemeshReport& figures) {
-    return std::make_shared<nlohmann::ordered_json>(nlohmann::ordered_json{
-        {"usual_radius_mm", figures.usual_radius},
-        {"edge_mm", figures.edge},
-        {"triangles_before", figures.triangles_before},
-        {"triangles_after", figures.triangles_after},
-        {"wall", triangle_shape_json(figures.wall)},
-        {"caps_equiangle_skewness_mean", figures.caps.equiangle_skewness.mean}});
+    return std::make_shared<nlohmann::ordered_json>(
+        nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
+                               {"edge_mm", figures.edge},
+                               {"wall", triangle_shape_json(figures.wall)},
+                               {"caps", triangle_shape_json(figures.caps)}});
 }
 
 /// The centerlines, if they are wanted and can be found; the source used is resolved.

@@ -56,13 +56,11 @@ Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progres
                        .continuity = static_cast<int>(arguments.integer("continuity"))});
     Outcome outcome;
     outcome.resolved = arguments;
-    outcome.report = std::make_shared<ordered_json>(
-        ordered_json{{"mouth_mm", point_json(removal.mouth)},
-                     {"removed_area_mm2", removal.removed_area},
-                     {"new_triangles", removal.new_triangles},
-                     {"follows_parent", removal.follows_parent},
-                     {"triangles_before", surface.triangle_count()},
-                     {"triangles_after", removal.surface.triangle_count()}});
+    outcome.report =
+        std::make_shared<ordered_json>(ordered_json{{"mouth_mm", point_json(removal.mouth)},
+                                                    {"removed_area_mm2", removal.removed_area},
+                                                    {"new_triangles", removal.new_triangles},
+                                                    {"follows_parent", removal.follows_parent}});
     outcome.scene = with_surface(scene, removal.surface);
     return outcome;
 }

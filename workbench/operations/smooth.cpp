@@ -8,6 +8,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
 #include "smoothing/filters/new_crossings.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/shared/replacing_stepper.h"
@@ -23,48 +24,49 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds the figures of the change.
+/// Adds the figures of the change beside those that every edit has.
 void add_changes(Json& report, const Surface& before, const Surface& after) {
-    std::vector<double> moved(before.vertex_count());
-    for (std::size_t v = 0; v < moved.size(); ++v)
-        moved[v] = (after.points()[v] - before.points()[v]).norm();
     const double volume_before = volume(before), volume_after = volume(after);
-    report["volume_before_mm3"] = volume_before;
-    report["volume_after_mm3"] = volume_after;
     report["volume_change_percent"] =
         volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
-    report["vertices"] = moved.size();
-    report["vertices_moved"] = std::ranges::count_if(moved, [](double d) { return d > 0.0; });
-    report["largest_displacement_mm"] = moved.empty() ? 0.0 : std::ranges::max(moved);
-    report["mean_displacement_mm"] = mean(moved);
+    report["vertices"] = before.vertex_count();
     const LocalError error = local_error(*before.topology, before.points(), after.points());
-    report["local_error_mean_mm"] = error.mean;
-    report["local_error_largest_mm"] = error.largest;
+    report["local_error"] = distance_json(error.mean, error.largest);
     report["normal_curvature_before_deg"] = mean(normal_curvature(before));
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
+}
+
+bool any_moved(const Positions& before, const Positions& after) {
+    for (std::size_t v = 0; v < before.size(); ++v)
+        if ((after[v] - before[v]).norm() > 0.0) return true;
+    return false;
 }
 
 constexpr double kNextToNothing = 0.02;  // mean weight below which a run hardly has an effect
 
 /// The weights that hold a run back nearly everywhere; empty if none do.
-std::string what_holds_back(const Json& report) {
-    if (!report.contains("mean_weight") || report["mean_weight"] >= kNextToNothing) return "";
+std::string what_holds_back(const ContextFigures& figures) {
+    if (!figures.mean_weight || *figures.mean_weight >= kNextToNothing) return "";
     std::ostringstream text;
-    text << "the weights leave almost nothing to smooth (mean " << report["mean_weight"] << "):";
-    for (const char* kind : {"staircase", "distance", "painted"})
-        if (const std::string key = std::string("mean_weight_") + kind; report.contains(key))
-            text << " " << kind << " " << report[key];
+    text << "the weights leave almost nothing to smooth (mean " << Json(*figures.mean_weight)
+         << "):";
+    const auto add = [&](const char* kind, const std::optional<double>& weight) {
+        if (weight) text << " " << kind << " " << Json(*weight);
+    };
+    add("staircase", figures.mean_weight_staircase);
+    add("distance", figures.mean_weight_distance);
+    add("painted", figures.mean_weight_painted);
     return text.str();
 }
 
 /// Why a filter that should have moved something moved nothing, or almost nothing; empty if it did,
 /// or should not have.
-std::string why_little_moved(const Json& report, const Arguments& resolved) {
+std::string why_little_moved(const ContextFigures& figures, const Arguments& resolved, bool moved) {
     const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
     if (idle) return "";
-    if (report["vertices_moved"] != 0) return what_holds_back(report);
-    if (const std::string reason = why_all_is_kept(report, resolved); !reason.empty()) {
-        const bool no_staircase = resolved.flag("staircase") && report["staircase_vertices"] == 0;
+    if (moved) return what_holds_back(figures);
+    if (const std::string reason = why_all_is_kept(figures, resolved); !reason.empty()) {
+        const bool no_staircase = resolved.flag("staircase") && figures.staircase_vertices == 0;
         return "nothing moved: " + reason +
                (no_staircase ? "; use beta_min to let the rest move" : "");
     }
@@ -86,12 +88,15 @@ public:
         progress.report(0.0, "measuring");
         Outcome outcome = bare_;
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
-        Json report = *outcome.report;
+        Json report = {{"caps", figures_.caps}, {"cap_vertices_kept", figures_.cap_vertices_kept}};
+        report.update(context_json(figures_.weights));
         if (outcome.resolved.text("distance") != "none")
             report["smallest_neighbour_distance_after_mm"] =
                 smallest_neighbour_distance(before_, outcome.resolved, "smooth", after.points());
         add_changes(report, before, after);
-        if (const std::string reason = why_little_moved(report, outcome.resolved); !reason.empty())
+        if (const std::string reason = why_little_moved(figures_.weights, outcome.resolved,
+                                                        any_moved(before.points(), after.points()));
+            !reason.empty())
             outcome.warnings.push_back(reason);
         outcome.report = std::make_shared<Json>(std::move(report));
         return outcome;
@@ -105,11 +110,10 @@ private:
         resolve_filter(surface, bare.resolved);
         if (const auto warning = filter_warning(filter_from(bare.resolved)); !warning.empty())
             bare.warnings.push_back(warning);
-        auto [moved, resolved, report, reason, device] =
+        auto [moved, resolved, figures, reason, device] =
             filter_.run(bare.resolved, progress.part(0.0, 0.8));
         bare.device = std::move(device);
         bare.resolved = std::move(resolved);
-        bare.report = std::move(report);
         if (!reason.empty())
             bare.warnings.push_back("device=gpu: fell back to the CPU, because " + reason);
         release_freed_memory();
@@ -118,11 +122,13 @@ private:
                           "use fewer iterations, or repair", bare);
         bare.scene = with_surface(before_, surface.with_positions(std::move(moved)));
         bare_ = std::move(bare);
+        figures_ = std::move(figures);
     }
 
     Scene before_;
     ContextFilter filter_;
-    Outcome bare_;  ///< its report is the context's
+    Outcome bare_;  ///< without a report
+    SmoothingFigures figures_;
 };
 
 /// A worker has neither the address space nor the time that a GPU's driver needs.

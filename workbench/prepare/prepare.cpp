@@ -171,22 +171,25 @@ std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
     return warnings;
 }
 
-void write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
-                   const Progress& progress) {
+PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
+                             const Progress& progress) {
     PendingFiles files;
     progress.report(0.0, "writing the products");
     prepared.products =
         write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_text(options.out / "report.json", report.document.dump(2) + "\n");
-    files.add_text(options.out / "report.html", report_html(report.document, report.pictures));
+    files.add_text(options.out / "report.html",
+                   report_html(report.document, report.pictures, report.sections));
     progress.check_cancelled();
     files.commit();
+    return {prepared.products, report.warnings};
 }
 
 }  // namespace
 
-void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress) {
+PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
+                       const Progress& progress) {
     const Input input = resolve_input(options.input, progress.part(0.0, 0.02));
     PrepareOptions for_recipe = options;
     PreparedCase prepared{.purpose = options.purpose, .input = input};
@@ -207,7 +210,8 @@ void prepare(const PrepareOptions& options, const Teller& tell, const Progress& 
                                          progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
         try {
-            write_results(session, options, std::move(prepared), progress.part(kEditsShare, 1.0));
+            return write_results(session, options, std::move(prepared),
+                                 progress.part(kEditsShare, 1.0));
         } catch (const InvalidInput& error) {
             throw AlgorithmFailure(error.what());  // the model lacks something the product needs
         }

@@ -22,13 +22,18 @@ struct PrepareOptions {
 /// Receives prepare's messages, one line of text at a time.
 using Teller = std::function<void(const std::string&)>;
 
+struct PrepareSummary {
+    std::vector<std::string> products;  ///< names of the files and folders written
+    std::vector<std::string> warnings;  ///< all, as in report.json
+};
+
 /// Turns the input into a CFD or print model: a project with one edit per entry of the recipe,
 /// then surface.vtp, surface.stl, report.json, report.html and the product's files. Results appear
 /// only when all of them are complete. An earlier project in the folder is kept under another
 /// name.
 /// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
 /// the edits that were done; there is no project if the input cannot be loaded or repaired
-void prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
+PrepareSummary prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
 
 /// Creates a project whose first edit loads the input. \throw IoError if the file exists
 void new_project(const std::filesystem::path& project, const InputOptions& options,

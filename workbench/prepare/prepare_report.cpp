@@ -7,10 +7,10 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
-#include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
@@ -62,8 +62,9 @@ std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
     return flags;
 }
 
-Json distance_json(const Surface& surface, const Surface& reference,
-                   const std::vector<std::uint8_t>& comparable) {
+/// From the comparable vertices to the reference.
+Json distance_to_json(const Surface& surface, const Surface& reference,
+                      const std::vector<std::uint8_t>& comparable) {
     Positions points;
     for (VertexId v = 0; v < surface.vertex_count(); ++v)
         if (comparable[v]) points.push_back(surface.points()[v]);
@@ -76,10 +77,10 @@ Json distance_json(const Surface& surface, const Surface& reference,
     }
     std::ranges::sort(distances);
     const std::size_t count = distances.size();
-    return {{"mean_mm", sum / static_cast<double>(count)},
-            {"percentile_95_mm", distances[count - 1 - count / 20]},
-            {"largest_mm", distances.back()},
-            {"points", count}};
+    Json json = distance_json(sum / static_cast<double>(count), distances.back(),
+                              distances[count - 1 - count / 20]);
+    json["points"] = count;
+    return json;
 }
 
 /// The edits that make the shown variant, in order.
@@ -129,19 +130,11 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
             {"outlets", summary.outlets}};
 }
 
-/// The openings' measures, with their tilt against the vessel just inside them.
-Json openings_json(const Json& patches, const Surface& surface) {
+Json openings_json(const Surface& surface, const std::vector<PatchMeasures>& patches) {
     Json openings = Json::array();
-    for (Json opening : patches) {
-        if (opening["kind"] == "wall") continue;
-        const auto row =
-            std::ranges::find(surface.patches, opening["name"].get<std::string>(), &Patch::name);
-        const auto axis =
-            axis_at_patch(surface, static_cast<std::size_t>(row - surface.patches.begin()));
-        opening["tilt_deg"] = axis ? Json(axis->tilt_deg) : Json();
-        opening["bend_deg"] = axis ? Json(axis->bend_deg) : Json();
-        openings.push_back(std::move(opening));
-    }
+    for (const PatchMeasures& patch : patches)
+        if (patch.kind != PatchKind::Wall)
+            openings.push_back(opening_json(surface, patch, Keys::Plain));
     return openings;
 }
 
@@ -155,30 +148,40 @@ double inlet_bend(const Json& openings) {
 
 void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["quality"]["before"] = source.surface ? measure_json(measure(*source.surface)) : Json();
-    report["quality"]["after"] = measure_json(measure(surface));
+    const SurfaceMeasures after = measure(surface);
+    report["quality"]["after"] = measure_json(after);
     // Caps are judged apart from the wall.
     report["quality"]["wall"] = triangle_shape_json(wall_shape(surface));
-    report["patches"] = report["quality"]["after"]["patches"];
-    report["openings"] = openings_json(report["patches"], surface);
+    report["openings"] = openings_json(surface, after.patches);
 }
 
-void add_flow(Json& report, const PreparedCase& prepared, const std::vector<LogEntry>& edits) {
+/// \return warnings
+std::vector<std::string> add_flow(Json& report, const PreparedCase& prepared,
+                                  const std::vector<LogEntry>& edits) {
     report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);
-    for (const std::string& warning : summary.warnings) report["warnings"].push_back(warning);
+    return summary.warnings;
 }
 
-void add_steps(Json& report, const std::vector<LogEntry>& edits) {
-    report["steps"] = Json::array();
+/// A later edit's section replaces an earlier one of the same key.
+void add_section(PreparedReport& report, const ReportSection& section, const ResultRecord& result) {
+    if (std::ranges::find(report.sections, section.key, &ReportSection::key) ==
+        report.sections.end())
+        report.sections.push_back(section);
+    report.document[section.key] = Json::parse(result.report, nullptr, false);
+}
+
+void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
+    report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
-        report["steps"].push_back(log_json(entry));
+        report.document["steps"].push_back(log_json(entry));
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
-            report["warnings"].push_back(entry.edit.operation + ": " + warning);
-        if (const std::string& section = part_of(entry).report_section; !section.empty())
-            report[section] = Json::parse(entry.result->report, nullptr, false);
+            report.warnings.push_back(entry.edit.operation + ": " + warning);
+        if (const auto& section = part_of(entry).report_section)
+            add_section(report, *section, *entry.result);
     }
 }
 
@@ -188,16 +191,18 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                               const Progress& progress) {
     const std::vector<LogEntry> edits = edits_of(session, prepared.purpose);
     const Surface& surface = surface_of(prepared.scene);
-    Json report = {{"program_version", version()},
-                   {"purpose", prepared.purpose},
-                   {"units", "mm"},
-                   {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
-                   {"input",
-                    {{"name", prepared.input.name},
-                     {"kind", prepared.input.is_image ? "image" : "surface"},
-                     {"mask", prepared.input.mask.filename().string()}}},
-                   {"warnings", prepared.warnings}};
-    add_steps(report, edits);
+    PreparedReport made{.warnings = prepared.warnings};
+    Json& report = made.document;
+    report = {{"program_version", version()},
+              {"purpose", prepared.purpose},
+              {"units", "mm"},
+              {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
+              {"input",
+               {{"name", prepared.input.name},
+                {"kind", prepared.input.is_image ? "image" : "surface"},
+                {"mask", prepared.input.mask.filename().string()}}},
+              {"warnings", Json::array()}};
+    add_steps(made, edits);
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
@@ -206,16 +211,20 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     const std::vector<std::uint8_t> comparable = comparable_vertices(
         surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
     if (source.surface) {
-        report["distance_to_source"] = distance_json(surface, *source.surface, comparable);
+        report["distance_to_source"] = distance_to_json(surface, *source.surface, comparable);
         report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
     }
     if (prepared.input.exact)
-        report["distance_to_exact"] = distance_json(surface, *prepared.input.exact, comparable);
-    if (find_purpose(prepared.purpose).simulates_flow) add_flow(report, prepared, edits);
+        report["distance_to_exact"] = distance_to_json(surface, *prepared.input.exact, comparable);
+    if (find_purpose(prepared.purpose).simulates_flow)
+        for (const std::string& warning : add_flow(report, prepared, edits))
+            made.warnings.push_back(warning);
+    report["warnings"] = made.warnings;
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
-    return {report,
-            report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable)};
+    made.pictures =
+        report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable);
+    return made;
 }
 
 }  // namespace vesselbench

@@ -25,10 +25,12 @@ struct PreparedCase {
 struct PreparedReport {
     nlohmann::ordered_json document;  ///< report.json
     std::vector<ReportPicture> pictures;
+    std::vector<ReportSection> sections;  ///< those of the edits, in order
+    std::vector<std::string> warnings;    ///< all, as in the document
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the
-/// openings, patches, flow, volume mesh; draws the pictures if OpenGL is available.
+/// openings, flow, volume mesh; draws the pictures if OpenGL is available.
 [[nodiscard]] PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                                             const Progress& progress);
 

@@ -1,10 +1,12 @@
 #include "workbench/project/record_rows.h"
 
+#include <iterator>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/measure_json.h"
 #include "workbench/project/stored_text.h"
 
 namespace vesselbench {
@@ -13,42 +15,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const SurfaceChange& change) {
-    Json json;
-    const auto put = [&](const char* name, const std::optional<double>& value) {
-        if (value) json[name] = *value;
-    };
-    put("volume_before_mm3", change.volume_before);
-    put("volume_after_mm3", change.volume_after);
-    put("largest_deviation_mm", change.largest_deviation);
-    put("mean_deviation_mm", change.mean_deviation);
-    json["triangles_before"] = change.triangles_before;
-    json["triangles_after"] = change.triangles_after;
-    json["moved_vertices"] = change.moved_vertices;
+/// What was not measured is left out.
+Json stored_change(const SurfaceChange& change) {
+    Json json = change_json(change);
+    for (auto at = json.begin(); at != json.end();)
+        at = at->is_null() ? json.erase(at) : std::next(at);
     return json;
-}
-
-SurfaceChange change_from(const Json& json) {
-    SurfaceChange change;
-    const auto get = [&](const char* name) {
-        const auto found = json.find(name);
-        return found == json.end() || !found->is_number() ? std::nullopt
-                                                          : std::optional(found->get<double>());
-    };
-    change.volume_before = get("volume_before_mm3");
-    change.volume_after = get("volume_after_mm3");
-    change.largest_deviation = get("largest_deviation_mm");
-    change.mean_deviation = get("mean_deviation_mm");
-    change.triangles_before = json.at("triangles_before").get<std::size_t>();
-    change.triangles_after = json.at("triangles_after").get<std::size_t>();
-    change.moved_vertices = json.at("moved_vertices").get<std::size_t>();
-    return change;
 }
 
 Bytes packed_details(const ResultRecord& result) {
     return pack_text(Json({{"resolved", stored_text(result.resolved)},
                            {"warnings", result.warnings},
-                           {"change", to_json(result.change)},
+                           {"change", stored_change(result.change)},
                            {"report", result.report}})
                          .dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -6,16 +6,13 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/measure_json.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& number) {
-    return number ? Json(*number) : Json();
-}
 
 void add_part(std::string& text, const std::string& part) {
     text += (text.empty() ? "" : ", ") + part;
@@ -32,16 +29,6 @@ void add_result(Json& json, const ResultRecord& result) {
 }
 
 }  // namespace
-
-Json change_json(const SurfaceChange& change) {
-    return {{"volume_before_mm3", or_null(change.volume_before)},
-            {"volume_after_mm3", or_null(change.volume_after)},
-            {"largest_deviation_mm", or_null(change.largest_deviation)},
-            {"mean_deviation_mm", or_null(change.mean_deviation)},
-            {"triangles_before", change.triangles_before},
-            {"triangles_after", change.triangles_after},
-            {"moved_vertices", change.moved_vertices}};
-}
 
 std::string change_text(const SurfaceChange& change) {
     std::string text;

@@ -10,9 +10,6 @@ namespace vesselbench {
 /// time, duration, note, warnings, and what it changed.
 [[nodiscard]] nlohmann::ordered_json log_json(const LogEntry& entry);
 
-/// Volume [mm^3], largest and mean deviation [mm], triangles; null if nothing could be measured.
-[[nodiscard]] nlohmann::ordered_json change_json(const SurfaceChange& change);
-
 /// One line: "volume -2.1 %, moved up to 0.31 mm, 12,400 -> 9,800 triangles"; empty if nothing
 /// changed.
 [[nodiscard]] std::string change_text(const SurfaceChange& change);

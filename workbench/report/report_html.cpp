@@ -183,17 +183,37 @@ std::string openings(const Json& report) {
 }
 
 /// A part of the report as a table of names and values; nothing if it is absent.
-std::string plain_table(const Json& report, const std::string& key, const std::string& title,
-                        const std::string& about) {
-    const Json& part = part_of(report, key);
+std::string plain_table(const Json& report, const ReportSection& section) {
+    const Json& part = part_of(report, section.key);
     if (!part.is_object()) return "";
-    std::string html = "<h2>" + title + "</h2>\n<p class=about>" + about + "</p>\n<table>";
+    std::string html =
+        "<h2>" + section.title + "</h2>\n<p class=about>" + section.about + "</p>\n<table>";
     for (const auto& [name, value] : part.items()) {
         std::string words = xml_escaped(name);
         for (char& letter : words) letter = letter == '_' ? ' ' : letter;
         html += row({words, shown(value)});
     }
     return html + "</table>\n";
+}
+
+/// Those of every report, beside the ones that operations declare.
+const std::vector<ReportSection>& usual_sections() {
+    static const std::vector<ReportSection> sections = {
+        {.key = "distance_to_source",
+         .title = "Distance to the source surface",
+         .about = "From the wall to the loaded or extracted surface, away from the clipped and "
+                  "extruded ends."},
+        {.key = "distance_to_exact",
+         .title = "Distance to the exact surface",
+         .about = "From the wall to the phantom's true surface, away from the ends."},
+        {.key = "volume_mesh",
+         .title = "Volume mesh",
+         .about =
+             "Non-orthogonality, skewness and aspect ratio as defined by OpenFOAM's checkMesh."},
+        {.key = "flow",
+         .title = "Flow",
+         .about = "Flow in this model, derived from the flow parameters."}};
+    return sections;
 }
 
 std::string products(const Json& report) {
@@ -211,7 +231,8 @@ std::string title_of(const std::string& name) {
 
 }  // namespace
 
-std::string report_html(const Json& report, std::span<const ReportPicture> pictures) {
+std::string report_html(const Json& report, std::span<const ReportPicture> pictures,
+                        std::span<const ReportSection> sections) {
     const std::string input = shown(part_of(part_of(report, "input"), "name"));
     std::string html = "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>" + input +
                        "</title><style>" + kStyle + "</style></head><body>\n";
@@ -220,17 +241,8 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
             shown(part_of(report, "units_text")) + "</p>\n";
     html += tiles(report) + warnings(report) + gallery(pictures) + steps(report) + quality(report) +
             openings(report);
-    html += plain_table(report, "distance_to_source", "Distance to the source surface",
-                        "From the wall to the loaded or extracted surface, away from the clipped "
-                        "and extruded ends.");
-    html += plain_table(report, "distance_to_exact", "Distance to the exact surface",
-                        "From the wall to the phantom's true surface, away from the ends.");
-    html += plain_table(
-        report, "volume_mesh", "Volume mesh",
-        "Non-orthogonality, skewness and aspect ratio as defined by OpenFOAM's checkMesh.");
-    html += plain_table(report, "flow", "Flow",
-                        "Flow in this model, derived from the flow parameters.");
-    html += plain_table(report, "print", "Print", "Check of the printable model.");
+    for (const ReportSection& section : usual_sections()) html += plain_table(report, section);
+    for (const ReportSection& section : sections) html += plain_table(report, section);
     return html + products(report) + "</body></html>\n";
 }
 

@@ -1,7 +1,6 @@
 #include "workbench/operations/shared/context_weights.h"
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -18,13 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Multiplies by one more kind of weights, and reports its mean.
-void weigh(std::vector<double>& weights, std::vector<double> by, const char* kind, Json& report) {
-    report["mean_weight_" + std::string(kind)] = mean(by);
+/// Multiplies by one more kind of weights. \return its mean
+double weigh(std::vector<double>& weights, std::vector<double> by) {
+    const double its_mean = mean(by);
     if (weights.empty())
         weights = std::move(by);
     else
         for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
+    return its_mean;
 }
 
 /// The stack axis given by the user; it must make sense even if it is not used.
@@ -50,32 +50,33 @@ Surface without_caps(const Surface& surface, const std::vector<Cap>& caps) {
 
 /// Source of the stack axis: the user, the image, or the surface itself.
 Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder& finder,
-                Arguments& arguments, Json& report) {
+                Arguments& arguments, ContextFigures& figures) {
     if (const auto given = given_stack_axis(arguments, operation)) {
-        report["stack_axis_from"] = "argument";
+        figures.stack_axis_from = "argument";
         return *given;
     }
     if (scene.sampling && scene.sampling->confidence > 0.0) {
         const Vec3 axis = scene.sampling->axes.col(2);
-        report["stack_axis_from"] = "image";
+        figures.stack_axis_from = "image";
         arguments.set("stack_axis", axis);
         return axis;
     }
     const StackOrientation estimate =
         estimate_stack_orientation(without_caps(surface_of(scene), finder.caps()));
-    report["stack_axis_confidence"] = estimate.confidence;
+    figures.stack_axis_confidence = estimate.confidence;
     if (!estimate.certain)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases; give stack_axis=x,y,z, or staircase=false");
-    report["stack_axis_from"] = "estimate";
+    figures.stack_axis_from = "estimate";
     arguments.set("stack_axis", estimate.direction);
     return estimate.direction;
 }
 
 std::vector<double> staircase_part(const Scene& scene, const WeightSettings& settings,
-                                   ContextFinder& finder, Arguments& arguments, Json& report) {
-    const Vec3 axis = stack_axis(scene, settings.operation, finder, arguments, report);
+                                   ContextFinder& finder, Arguments& arguments,
+                                   ContextFigures& figures) {
+    const Vec3 axis = stack_axis(scene, settings.operation, finder, arguments, figures);
     const std::vector<std::uint8_t>& caps = settings.caps;
     const StaircaseParameters parameters{
         .tau_theta = arguments.real("tau_theta"),
@@ -86,8 +87,8 @@ std::vector<double> staircase_part(const Scene& scene, const WeightSettings& set
     StaircaseContext found = finder.staircases(axis, parameters);
     for (std::size_t v = 0; v < caps.size(); ++v)
         if (caps[v] != 0) found.weights[v] = settings.cap_weight;
-    report["stack_axis"] = point_json(axis);
-    report["staircase_vertices"] = found.vertices;
+    figures.stack_axis = axis;
+    figures.staircase_vertices = found.vertices;
     return std::move(found.weights);
 }
 
@@ -126,7 +127,8 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
 }
 
 std::vector<double> distance_part(const Scene& scene, const std::string& operation,
-                                  ContextFinder& finder, Arguments& arguments, Json& report) {
+                                  ContextFinder& finder, Arguments& arguments,
+                                  ContextFigures& figures) {
     const std::string& name = arguments.text("distance");
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
     arguments.set("neighbours",
@@ -138,8 +140,8 @@ std::vector<double> distance_part(const Scene& scene, const std::string& operati
                                         .margin = arguments.real("margin"),
                                         .omega = arguments.real("omega")};
     NeighbourContext found = finder.neighbours(neighbours_of(scene, names, operation), parameters);
-    report["smallest_neighbour_distance_mm"] = found.least;
-    report["largest_neighbour_distance_mm"] = found.most;
+    figures.smallest_neighbour_distance = found.least;
+    figures.largest_neighbour_distance = found.most;
     return std::move(found.weights);
 }
 
@@ -158,11 +160,29 @@ std::vector<double> painted_part(const Surface& surface, const std::string& name
 
 }  // namespace
 
-std::string why_all_is_kept(const Json& report, const Arguments& resolved) {
+Json context_json(const ContextFigures& figures) {
+    Json json = Json::object();
+    const auto put = [&](const char* key, const auto& figure) {
+        if (figure) json[key] = *figure;
+    };
+    put("stack_axis_confidence", figures.stack_axis_confidence);
+    if (!figures.stack_axis_from.empty()) json["stack_axis_from"] = figures.stack_axis_from;
+    if (figures.stack_axis) json["stack_axis"] = point_json(*figures.stack_axis);
+    put("staircase_vertices", figures.staircase_vertices);
+    put("mean_weight_staircase", figures.mean_weight_staircase);
+    put("smallest_neighbour_distance_mm", figures.smallest_neighbour_distance);
+    put("largest_neighbour_distance_mm", figures.largest_neighbour_distance);
+    put("mean_weight_distance", figures.mean_weight_distance);
+    put("mean_weight_painted", figures.mean_weight_painted);
+    put("mean_weight", figures.mean_weight);
+    return json;
+}
+
+std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved) {
     std::ostringstream text;
     const double margin = resolved.real("margin");
-    const double farthest = report.value("largest_neighbour_distance_mm", 0.0);
-    if (resolved.flag("staircase") && report["staircase_vertices"] == 0)
+    const double farthest = figures.largest_neighbour_distance.value_or(0.0);
+    if (resolved.flag("staircase") && figures.staircase_vertices == 0)
         text << "the surface bends nowhere by more than tau_theta = "
              << to_text(resolved.real("tau_theta"))
              << "; a smaller value finds smoother staircases";
@@ -249,20 +269,23 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation) 
     static_cast<void>(given_stack_axis(arguments, operation));
 }
 
-std::vector<double> context_weights(const Scene& scene, const WeightSettings& settings,
-                                    ContextFinder& finder, Arguments& arguments, Json& report) {
+ContextWeights context_weights(const Scene& scene, const WeightSettings& settings,
+                               ContextFinder& finder, Arguments& arguments) {
     const std::string& operation = settings.operation;
     check_stack_axis(arguments, operation);
-    std::vector<double> weights;
+    ContextWeights found;
+    ContextFigures& figures = found.figures;
     if (arguments.flag("staircase"))
-        weigh(weights, staircase_part(scene, settings, finder, arguments, report), "staircase",
-              report);
+        figures.mean_weight_staircase =
+            weigh(found.weights, staircase_part(scene, settings, finder, arguments, figures));
     if (arguments.text("distance") != "none")
-        weigh(weights, distance_part(scene, operation, finder, arguments, report), "distance",
-              report);
+        figures.mean_weight_distance =
+            weigh(found.weights, distance_part(scene, operation, finder, arguments, figures));
     if (const auto painted = arguments.optional_text("painted"))
-        weigh(weights, painted_part(surface_of(scene), *painted, operation), "painted", report);
-    return weights;
+        figures.mean_weight_painted =
+            weigh(found.weights, painted_part(surface_of(scene), *painted, operation));
+    if (!found.weights.empty()) figures.mean_weight = mean(found.weights);
+    return found;
 }
 
 }  // namespace vesselbench

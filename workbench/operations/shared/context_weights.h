@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,31 @@ struct WeightSettings {
     std::vector<std::uint8_t> caps;  ///< 1 at their vertices, #V
 };
 
+/// Findings on the context; none: not asked for.
+struct ContextFigures {
+    std::optional<double> stack_axis_confidence;  ///< of an estimate, in [0, 1] [-]
+    std::string stack_axis_from;  ///< "argument", "image" or "estimate"; may be empty
+    std::optional<Vec3> stack_axis;
+    std::optional<std::size_t> staircase_vertices;
+    std::optional<double> mean_weight_staircase;        ///< [-]
+    std::optional<double> smallest_neighbour_distance;  ///< [mm]
+    std::optional<double> largest_neighbour_distance;   ///< [mm]
+    std::optional<double> mean_weight_distance;         ///< [-]
+    std::optional<double> mean_weight_painted;          ///< [-]
+    std::optional<double> mean_weight;                  ///< of their product [-]
+
+    bool operator==(const ContextFigures&) const = default;
+};
+
+/// The figures in an operation's report; those that are none are left out.
+[[nodiscard]] nlohmann::ordered_json context_json(const ContextFigures& figures);
+
+/// Weights and what was found on the way.
+struct ContextWeights {
+    std::vector<double> weights;  ///< #V; empty: 1 everywhere
+    ContextFigures figures;
+};
+
 /// Checks the stack axis, even if it has no effect.
 /// \throw UsageError if it has no direction
 void check_stack_axis(const Arguments& arguments, const std::string& operation);
@@ -44,20 +71,15 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation);
 /// The product of all weights that the arguments request; fills in its decisions (stack_axis,
 /// neighbours).
 /// \param finder of the scene's surface
-/// \param report receives the findings
-/// \return #V; empty: 1 everywhere
 /// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks something they
 /// name; AlgorithmFailure if the stack orientation is uncertain
-[[nodiscard]] std::vector<double> context_weights(const Scene& scene,
-                                                  const WeightSettings& settings,
-                                                  ContextFinder& finder, Arguments& arguments,
-                                                  nlohmann::ordered_json& report);
+[[nodiscard]] ContextWeights context_weights(const Scene& scene, const WeightSettings& settings,
+                                             ContextFinder& finder, Arguments& arguments);
 
 /// The reason if the weights are 0 on the whole surface: thresholds that find no staircase, or a
 /// margin that covers everything; else empty.
-/// \param report, resolved after context_weights
-[[nodiscard]] std::string why_all_is_kept(const nlohmann::ordered_json& report,
-                                          const Arguments& resolved);
+/// \param figures, resolved after context_weights
+[[nodiscard]] std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved);
 
 /// Smallest distance of a position from a neighbour [mm]; 0 inside.
 /// \throw InvalidInput if there is no neighbour, or one without triangles

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
-
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/freed_memory.h"
+#include "geometry/kernel/statistics.h"
 #include "smoothing/context/cap_rounding.h"
 #include "workbench/operations/shared/context_weights.h"
 
 namespace vesselbench {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments& arguments) {
     const std::string& cell = arguments.text("constraint");
@@ -101,8 +98,8 @@ std::vector<Parameter> context_parameter_table() {
     return table;
 }
 
-SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Arguments& arguments,
-                                   Json& report) {
+SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
+                                   Arguments& arguments) {
     const Surface& surface = surface_of(scene);
     check_stack_axis(arguments, "smooth");
     SmoothingContext context;
@@ -116,17 +113,20 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder, Ar
     context.start =
         round ? std::make_shared<const Positions>(rounded_caps(surface, caps)) : surface.positions;
     context.fixed = round ? std::vector<std::uint8_t>() : on_caps;
-    report["caps"] = caps.size();
-    report["cap_vertices_kept"] = round ? 0 : std::ranges::count(on_caps, 1);
-    context.weights = context_weights(scene,
-                                      {.operation = "smooth",
-                                       .beta_min = arguments.real("beta_min"),
-                                       .thesis_scaling = context.thesis_scaling,
-                                       .caps = on_caps},
-                                      finder, arguments, report);
-    if (round && !context.weights.empty())
+    const auto on_cap = static_cast<std::size_t>(std::ranges::count(on_caps, 1));
+    ContextWeights found = context_weights(scene,
+                                           {.operation = "smooth",
+                                            .beta_min = arguments.real("beta_min"),
+                                            .thesis_scaling = context.thesis_scaling,
+                                            .caps = on_caps},
+                                           finder, arguments);
+    context.weights = std::move(found.weights);
+    context.figures = {caps.size(), round ? 0 : on_cap, std::move(found.figures)};
+    if (round && !context.weights.empty()) {
         for (std::size_t v = 0; v < on_caps.size(); ++v)
             if (on_caps[v] != 0) context.weights[v] = context.cap_weight();
+        context.figures.weights.mean_weight = mean(context.weights);
+    }
     context.caps = std::move(on_caps);
     return context;
 }

@@ -5,16 +5,24 @@
 #include <optional>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "smoothing/context/context_finder.h"
 #include "smoothing/filters/position_constraint.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/shared/context_weights.h"
 
 namespace vesselbench {
 
 /// The context parameters of `smooth`.
 [[nodiscard]] std::vector<Parameter> context_parameter_table();
+
+/// Findings on a context.
+struct SmoothingFigures {
+    std::size_t caps = 0;
+    std::size_t cap_vertices_kept = 0;
+    ContextFigures weights;
+
+    bool operator==(const SmoothingFigures&) const = default;
+};
 
 /// The context of a surface before it is smoothed.
 struct SmoothingContext {
@@ -25,6 +33,7 @@ struct SmoothingContext {
     std::optional<PositionConstraint> constraint;
     bool caps_rounded = false;    ///< they become domes, and are smoothed in full
     bool thesis_scaling = false;  ///< of staircase weights: Eq. 5.5 as printed
+    SmoothingFigures figures;
 
     /// Weight of the caps' vertices, whatever else weighs on them.
     [[nodiscard]] double cap_weight() const { return caps_rounded ? 1.0 : 0.0; }
@@ -33,11 +42,9 @@ struct SmoothingContext {
 /// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,
 /// cell).
 /// \param finder of the scene's surface
-/// \param report receives the findings
 /// \throw UsageError if arguments cannot be combined; InvalidInput if the scene lacks something
 /// they name; AlgorithmFailure if the stack orientation is uncertain
 [[nodiscard]] SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
-                                                 Arguments& arguments,
-                                                 nlohmann::ordered_json& report);
+                                                 Arguments& arguments);
 
 }  // namespace vesselbench

@@ -2,21 +2,16 @@
 
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/statistics.h"
 #include "gpu/filter_on_device.h"
 #include "gpu/gpu_context_finder.h"
-#include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
 
 namespace vesselbench {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Share of the whole that the context takes.
 constexpr double kContextShare = 0.1;
@@ -39,16 +34,12 @@ struct ContextFilter::Found {
     bool on_gpu = false;
     SmoothingContext context;
     Arguments decided;  ///< of the context
-    Report report;
 
     Found(const Scene& scene, ContextFinder& finder, const Arguments& arguments, bool gpu)
         : asked(context_arguments(arguments)), on_gpu(gpu) {
         Arguments resolved = arguments;
-        Json found;
-        context = smoothing_context(scene, finder, resolved, found);
-        if (!context.weights.empty()) found["mean_weight"] = mean(context.weights);
+        context = smoothing_context(scene, finder, resolved);
         decided = context_arguments(resolved);
-        report = std::make_shared<Json>(std::move(found));
         release_freed_memory();
     }
 
@@ -61,7 +52,7 @@ struct ContextFilter::Found {
     }
 
     [[nodiscard]] Result result(Positions positions, const Arguments& arguments) const {
-        Result result{std::move(positions), arguments, report, "", on_gpu ? "gpu" : "cpu"};
+        Result result{std::move(positions), arguments, context.figures, "", on_gpu ? "gpu" : "cpu"};
         for (const auto& [name, value] : decided.values()) result.resolved.set(name, value);
         result.resolved.set("device", result.device);
         return result;

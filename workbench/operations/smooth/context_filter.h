@@ -6,6 +6,7 @@
 #include "gpu/device_choice.h"
 #include "smoothing/context/context_finder.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/smooth/context.h"
 
 namespace vesselbench {
 
@@ -21,9 +22,9 @@ public:
     struct Result {
         Positions positions;  ///< [mm], #V
         Arguments resolved;   ///< with the context's decisions, and the device used
-        Report report;        ///< on the context
-        std::string reason;   ///< why the CPU was used although the GPU was asked for; else empty
-        std::string device;   ///< that was used, as Outcome::device
+        SmoothingFigures figures = {};
+        std::string reason = {};  ///< why the CPU was used although the GPU was asked for, or empty
+        std::string device = {};  ///< that was used, as Outcome::device
     };
 
     /// \param arguments of `smooth` after resolve_filter

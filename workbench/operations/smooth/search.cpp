@@ -5,8 +5,6 @@
 #include <mutex>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "smoothing/context/staircases.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
@@ -14,8 +12,6 @@
 namespace vesselbench {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kWeightsKept = 64;  // sets of staircase weights or distances in memory
 
@@ -33,8 +29,7 @@ StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
     if (arguments.text("distance") == "none" && !arguments.has("painted")) return ground;
     Arguments others = arguments;
     others.set("staircase", false);
-    Json report;
-    ground.others = shared_weights(smoothing_context(scene, finder, others, report).weights);
+    ground.others = shared_weights(smoothing_context(scene, finder, others).weights);
     return ground;
 }
 
@@ -109,9 +104,8 @@ SmoothingSubject smoothing_subject(const Scene& scene, const Arguments& given,
                                    Arguments& arguments) {
     SmoothingSubject subject = filter_of(surface_of(scene), given, arguments);
     const Surface& surface = surface_of(scene);
-    Json report;
     const auto finder = make_cpu_finder(surface);
-    SmoothingContext context = smoothing_context(scene, *finder, arguments, report);
+    SmoothingContext context = smoothing_context(scene, *finder, arguments);
     subject.thresholds = {.tau_theta = arguments.real("tau_theta"),
                           .tau_max = arguments.real("tau_max"),
                           .beta_min = arguments.real("beta_min")};
