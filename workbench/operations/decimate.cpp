@@ -8,7 +8,6 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
-#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/context/caps.h"

@@ -4,7 +4,6 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/freed_memory.h"
-#include "geometry/kernel/statistics.h"
 #include "gpu/filter_on_device.h"
 #include "gpu/gpu_context_finder.h"
 #include "workbench/operations/smooth/filter_choice.h"
