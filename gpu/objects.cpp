@@ -69,6 +69,15 @@ VertexArray make_vertex_array() {
     return VertexArray(id);
 }
 
+Renderbuffer make_renderbuffer(unsigned format, int width, int height, int samples) {
+    unsigned id = 0;
+    glGenRenderbuffers(1, &id);
+    Renderbuffer buffer(id);
+    glBindRenderbuffer(GL_RENDERBUFFER, id);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    return buffer;
+}
+
 Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
     unsigned id = 0;
     glGenBuffers(1, &id);

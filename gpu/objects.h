@@ -62,4 +62,8 @@ using Texture = GlObject<delete_texture>;
 
 [[nodiscard]] VertexArray make_vertex_array();
 
+/// \param format such as GL_RGBA8
+/// \param samples 0: one per pixel
+[[nodiscard]] Renderbuffer make_renderbuffer(unsigned format, int width, int height, int samples);
+
 }  // namespace vesselbench

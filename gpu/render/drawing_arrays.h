@@ -55,6 +55,15 @@ struct DrawingArrays {
 std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions& positions,
                                          std::span<const VertexId> moved);
 
+/// The surface's vertex that a drawn vertex is a copy of.
+[[nodiscard]] VertexId original_of(const DrawingArrays& drawing, std::size_t drawn);
+
+/// All copies of some vertices, ascending.
+/// \param vertex_count #V
+[[nodiscard]] std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout,
+                                                      std::size_t vertex_count,
+                                                      std::span<const VertexId> vertices);
+
 /// Every edge once, as drawn vertices, for GL_LINES.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology);
 

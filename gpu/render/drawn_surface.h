@@ -64,6 +64,7 @@ private:
 
     DrawingArrays arrays_;
     Buffer vertices_, triangles_;
+    std::vector<float> value_list_;  ///< of the drawn vertices
     std::optional<Buffer> values_, colours_;
     mutable std::optional<Buffer> edges_;
     mutable std::size_t edge_count_ = 0;

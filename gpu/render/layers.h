@@ -111,6 +111,9 @@ struct Background {
     Colour above = {1.0F, 1.0F, 1.0F}, below = {1.0F, 1.0F, 1.0F};
 };
 
+/// What of a layer is picked; larger ones win near the cursor.
+enum class PickKind : std::uint32_t { Nothing, Surface, Slice, Line, Point };
+
 /// How layers are seen, and where they are drawn.
 struct SceneView {
     ViewCamera camera;

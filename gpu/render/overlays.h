@@ -78,7 +78,9 @@ public:
     /// Shows other scalars; of the same size, no memory is allocated.
     void replace(const SliceScalars& scalars);
 
-    void bind() const;
+    /// Binds it, and its texture to unit 0.
+    /// \param smooth interpolates between pixels
+    void bind(bool smooth) const;
 
 private:
     SliceScalars place_;
