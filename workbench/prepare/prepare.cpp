@@ -145,7 +145,8 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
 void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
                  const Progress& progress) {
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
-    start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0));
+    static_cast<void>(
+        start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0)));
 }
 
 }  // namespace vesselbench
