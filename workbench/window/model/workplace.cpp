@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
 
@@ -39,7 +40,13 @@ void Workplace::renew_lists() {
 // --- cases
 
 void Workplace::open(const std::filesystem::path& path) {
-    document.open({.path = path});
+    const std::filesystem::path bundled = bundled_cases_folder();
+    std::error_code error;
+    const bool own = !bundled.empty() && std::filesystem::equivalent(
+                                             path.has_filename() ? path.parent_path()
+                                                                 : path.parent_path().parent_path(),
+                                             bundled, error);
+    document.open({.path = path, .beside_input = !own});
 }
 
 void Workplace::open_bundled(const std::filesystem::path& path) {
