@@ -20,10 +20,18 @@ find_package(Catch2 2 CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+find_package(glfw3 3.3 CONFIG REQUIRED)
 
-# stb is headers only, on the compiler's own path; the font of labels is embedded.
+# stb is headers only, on the compiler's own path; the fonts of labels and window are embedded.
 find_path(STB_INCLUDE_DIR stb/stb_truetype.h REQUIRED)
 find_file(LABEL_FONT DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu REQUIRED)
+
+set(ROBOTO_FOLDER /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF)
+find_file(WINDOW_FONT Roboto-Regular.ttf PATHS ${ROBOTO_FOLDER} REQUIRED)
+find_file(WINDOW_MEDIUM_FONT Roboto-Medium.ttf PATHS ${ROBOTO_FOLDER} REQUIRED)
+find_file(WINDOW_ICON_FONT materialdesignicons-webfont.ttf
+  PATHS /usr/share/fonts/truetype/materialdesignicons-webfont REQUIRED)
 
 # xxHash is used from its header only (content_key.cpp), and has no CMake configuration.
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace vesselbench {
 
@@ -23,6 +24,66 @@ Colour heated_colour(double value) {
     };
     return {part(luminance / kRed), part((luminance - kRed) / kGreen),
             part((luminance - kRed - kGreen) / kBlue)};
+}
+
+namespace {
+
+/// CIE 1976 L*a*b* (D65) as linear RGB, clamped.
+Colour from_lab(double lightness, double a, double b) {
+    const auto cube = [](double t) {
+        return t > 6.0 / 29.0 ? t * t * t : 3.0 * (36.0 / 841.0) * (t - 4.0 / 29.0);
+    };
+    const double middle = (lightness + 16.0) / 116.0;
+    const Eigen::Vector3d xyz(0.9505 * cube(middle + a / 500.0), cube(middle),
+                              1.0891 * cube(middle - b / 200.0));
+    Eigen::Matrix3d to_rgb;  // sRGB's primaries, IEC 61966-2-1
+    to_rgb << 3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570;
+    return (to_rgb * xyz).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+}
+
+/// Lightness rises evenly; the hue runs through a few control colours (a*, b*).
+Colour ordered_colour(double fraction) {
+    constexpr std::array<std::array<double, 2>, 6> kHues = {
+        {{28, -34}, {14, -42}, {-14, -24}, {-32, 6}, {-30, 44}, {2, 74}}};
+    const double place = fraction * (kHues.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(place), kHues.size() - 2);
+    const double share = place - static_cast<double>(i);
+    return from_lab(16.0 + 74.0 * fraction, std::lerp(kHues[i][0], kHues[i + 1][0], share),
+                    std::lerp(kHues[i][1], kHues[i + 1][1], share));
+}
+
+}  // namespace
+
+Colour category_colour(std::size_t number) {
+    constexpr double kGoldenAngle = 2.399963;  // [rad] neighbours in the list differ most
+    const std::size_t i = number % 12;
+    const double hue = 0.5 + kGoldenAngle * static_cast<double>(i);
+    return from_lab(i % 3 == 0   ? 66.0
+                    : i % 3 == 1 ? 52.0
+                                 : 78.0,
+                    46.0 * std::cos(hue), 46.0 * std::sin(hue));
+}
+
+Colour colour_at(ColourMap map, double fraction) {
+    const double x = std::clamp(fraction, 0.0, 1.0);
+    switch (map) {
+        case ColourMap::Heated:
+            return heated_colour(x);
+        case ColourMap::Diverging:
+            return diverging_colour(2.0 * x - 1.0);
+        case ColourMap::Ordered:
+            return ordered_colour(x);
+        case ColourMap::Categorical:
+            return category_colour(std::min<std::size_t>(static_cast<std::size_t>(12.0 * x), 11));
+    }
+    return Colour::Ones();
+}
+
+std::vector<Colour> colour_steps(ColourMap map, int count) {
+    std::vector<Colour> steps;
+    for (int i = 0; i < count; ++i)
+        steps.push_back(colour_at(map, static_cast<double>(i) / std::max(count - 1, 1)));
+    return steps;
 }
 
 PixelColour pixel_colour(const Colour& linear) {

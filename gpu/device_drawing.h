@@ -2,8 +2,10 @@
 
 #include <memory>
 
-#include "gpu/canvas.h"
 #include "gpu/device_surface.h"
+#include "gpu/picture.h"
+#include "gpu/render/drawn_device_surface.h"
+#include "gpu/render/renderer.h"
 
 namespace vesselbench {
 
@@ -15,29 +17,22 @@ struct DeviceState {
     double least = 0.0, most = 1.0;  ///< values at the ends of the heated-object scale
 };
 
-/// Draws states of a surface from the buffers they are in: only the picture leaves the device. For
-/// the window and for pictures without one. The surface's context must be current whenever it is
-/// used or destroyed.
+/// Draws pictures of states of a surface from the buffers they are in: only the picture leaves the
+/// device. The surface's context must be current whenever it is used or destroyed.
 class DeviceDrawing {
 public:
-    /// \throw GpuUnavailable if a shader does not compile or the buffers do not fit
+    /// \throw GpuUnavailable if the buffers do not fit
     explicit DeviceDrawing(std::shared_ptr<const DeviceSurface> surface);
 
-    /// Draws into the bound framebuffer, with its depth test.
-    /// \param camera of positions relative to the surface's centre
-    void draw(const DeviceState& state, const Camera& camera) const;
+    /// A picture of a state, framed as `draw` frames the initial surface.
+    /// \param options colours, wires and sharp are ignored
+    /// \throw InvalidInput, GpuUnavailable as draw
+    [[nodiscard]] Picture picture_of(const DeviceState& state, const PictureOptions& options);
 
 private:
     std::shared_ptr<const DeviceSurface> surface_;
-    Program program_;
-    VertexArray vertices_;
-    Buffer scale_;
+    std::shared_ptr<DrawnDeviceSurface> drawn_;
+    Renderer renderer_;
 };
-
-/// A picture of a state, framed as `draw` frames the initial surface.
-/// \param options colours, edges, wires and sharp are ignored
-/// \throw InvalidInput, GpuUnavailable as draw
-[[nodiscard]] Picture picture_of(const DeviceSurface& surface, const DeviceDrawing& drawing,
-                                 const DeviceState& state, const PictureOptions& options);
 
 }  // namespace vesselbench

@@ -3,32 +3,34 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/shader_source.h"
 #include "gpu/shader_texts.h"
 
 namespace vesselbench {
 
 namespace {
 
-void check_compiled(unsigned shader, const std::string& file) {
-    int ok = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) return;
-    char log[2048] = "";
+std::string compile_log(unsigned shader) {
+    char log[4096] = "";
     glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    throw GpuUnavailable("shader " + file + " does not compile: " + log);
+    return log;
 }
 
-void attach(const Program& program, unsigned kind, const std::string& file) {
-    const auto& texts = shader_texts();
-    const auto text = texts.find(file);
-    if (text == texts.end()) throw GpuUnavailable("there is no shader " + file);
+void attach(const Program& program, unsigned kind, const std::string& file,
+            const std::string& defines) {
+    ShaderSource source = assemble_shader(shader_texts(), file);
+    if (!defines.empty()) source.text.insert(source.text.find('\n') + 1, defines + "#line 2 0\n");
     const unsigned shader = glCreateShader(kind);
-    const char* source = text->second.c_str();
-    glShaderSource(shader, 1, &source, nullptr);
+    const char* text = source.text.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
     glAttachShader(program.id(), shader);
     glDeleteShader(shader);  // lives on while attached
-    check_compiled(shader, file);
+    int ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok)
+        throw GpuUnavailable("the shader " + file + " does not compile:\n" +
+                             explained_log(shader_texts(), source, compile_log(shader)));
 }
 
 }  // namespace
@@ -57,6 +59,25 @@ void delete_query(unsigned id) {
     glDeleteQueries(1, &id);
 }
 
+void delete_texture(unsigned id) {
+    glDeleteTextures(1, &id);
+}
+
+VertexArray make_vertex_array() {
+    unsigned id = 0;
+    glGenVertexArrays(1, &id);
+    return VertexArray(id);
+}
+
+Renderbuffer make_renderbuffer(unsigned format, int width, int height, int samples) {
+    unsigned id = 0;
+    glGenRenderbuffers(1, &id);
+    Renderbuffer buffer(id);
+    glBindRenderbuffer(GL_RENDERBUFFER, id);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
+    return buffer;
+}
+
 Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
     unsigned id = 0;
     glGenBuffers(1, &id);
@@ -71,21 +92,19 @@ Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
     return buffer;
 }
 
-Program make_program(const std::string& name) {
-    return make_program(name, name);
-}
-
-Program make_program(const std::string& vertex, const std::string& fragment) {
+Program make_program(const std::string& vertex, const std::string& fragment,
+                     const std::string& defines) {
     Program program(glCreateProgram());
-    attach(program, GL_VERTEX_SHADER, vertex + ".vert");
-    attach(program, GL_FRAGMENT_SHADER, fragment + ".frag");
+    attach(program, GL_VERTEX_SHADER, vertex + ".vert", defines);
+    attach(program, GL_FRAGMENT_SHADER, fragment + ".frag", defines);
     glLinkProgram(program.id());
     int ok = 0;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
-    if (!ok)
-        throw GpuUnavailable("the shaders " + vertex + ".vert and " + fragment +
-                             ".frag do not link");
-    return program;
+    if (ok) return program;
+    char log[4096] = "";
+    glGetProgramInfoLog(program.id(), sizeof log, nullptr, log);
+    throw GpuUnavailable("the shaders " + vertex + ".vert and " + fragment +
+                         ".frag do not link:\n" + log);
 }
 
 }  // namespace vesselbench

@@ -39,6 +39,7 @@ void delete_vertex_array(unsigned id);
 void delete_framebuffer(unsigned id);
 void delete_renderbuffer(unsigned id);
 void delete_query(unsigned id);
+void delete_texture(unsigned id);
 
 using Buffer = GlObject<delete_buffer>;
 using Program = GlObject<delete_program>;
@@ -46,16 +47,23 @@ using VertexArray = GlObject<delete_vertex_array>;
 using Framebuffer = GlObject<delete_framebuffer>;
 using Renderbuffer = GlObject<delete_renderbuffer>;
 using Query = GlObject<delete_query>;
+using Texture = GlObject<delete_texture>;
 
 /// A labelled buffer filled with bytes.
 /// \throw GpuUnavailable if the device is out of memory
 [[nodiscard]] Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label);
 
-/// A linked program from the texts of gpu/shaders/<name>.vert and .frag.
-/// \throw GpuUnavailable with the compiler's message if a shader does not compile
-[[nodiscard]] Program make_program(const std::string& name);
+/// A linked program from the texts of gpu/shaders/<vertex>.vert and <fragment>.frag, with their
+/// includes.
+/// \param defines lines that follow `#version`
+/// \throw GpuUnavailable with file, line and message if a shader does not compile or link
+[[nodiscard]] Program make_program(const std::string& vertex, const std::string& fragment,
+                                   const std::string& defines = "");
 
-/// The same from <vertex>.vert and <fragment>.frag.
-[[nodiscard]] Program make_program(const std::string& vertex, const std::string& fragment);
+[[nodiscard]] VertexArray make_vertex_array();
+
+/// \param format such as GL_RGBA8
+/// \param samples 0: one per pixel
+[[nodiscard]] Renderbuffer make_renderbuffer(unsigned format, int width, int height, int samples);
 
 }  // namespace vesselbench

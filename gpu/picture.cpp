@@ -1,33 +1,31 @@
 #include "gpu/picture.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
-#include <epoxy/gl.h>
-
 #include "geometry/kernel/errors.h"
-#include "gpu/canvas.h"
+#include "geometry/kernel/measure.h"
 #include "gpu/context.h"
-#include "gpu/objects.h"
+#include "gpu/picture_view.h"
+#include "gpu/render/drawn_surface.h"
+#include "gpu/render/renderer.h"
+#include "gpu/render/target.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// Attributes of three corners per triangle: patches and sharp shading need separate corners.
-struct Corner {
-    Eigen::Vector3f position, normal;
-    Colour colour;
-};
+// How far another surface's edges are pulled towards the eye, relative to the frame's diagonal:
+// over a smoothed surface that rose above the original.
+constexpr double kWirePull = 1e-2;
 
-Colour patch_colour(const Surface& surface, TriangleId t) {
+Colour patch_colour(const Surface& surface, std::size_t label) {
     static const Colour outlets[] = {
         {0.10F, 0.28F, 0.62F}, {0.08F, 0.42F, 0.52F}, {0.28F, 0.20F, 0.58F}};
-    const std::uint16_t label = (*surface.patch_labels)[t];
     switch (surface.patches[label].kind) {
         case PatchKind::Wall:
-            return {0.72F, 0.42F, 0.34F};
+            return kWallColour;
         case PatchKind::Inlet:
             return {0.15F, 0.55F, 0.12F};
         case PatchKind::Outlet:
@@ -38,88 +36,6 @@ Colour patch_colour(const Surface& surface, TriangleId t) {
     return Colour::Ones();
 }
 
-/// Vertex normals from the triangles of one patch only, so that rims of caps stay sharp.
-Eigen::Vector3f corner_normal(const Surface& surface, TriangleId t, VertexId v, bool sharp) {
-    Vec3 sum = area_normal(surface.points(), surface.triangles()[t]);
-    if (!sharp) {
-        sum.setZero();
-        for (const TriangleId other : surface.topology->triangles_at().row(v))
-            if ((*surface.patch_labels)[other] == (*surface.patch_labels)[t])
-                sum += area_normal(surface.points(), surface.triangles()[other]);
-    }
-    return sum.normalized().cast<float>();
-}
-
-std::vector<Corner> corners(const Surface& surface, const Vec3& centre,
-                            const PictureOptions& options) {
-    std::vector<Corner> list;
-    list.reserve(surface.triangle_count() * 3);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        for (const VertexId v : surface.triangles()[t]) {
-            const Colour colour = options.vertex_colours.empty() ? patch_colour(surface, t)
-                                                                 : options.vertex_colours[v];
-            list.push_back({(surface.points()[v] - centre).cast<float>(),
-                            corner_normal(surface, t, v, options.sharp), colour});
-        }
-    return list;
-}
-
-/// Corners of another surface, without colours.
-std::vector<Corner> wire_corners(const Surface& wires, const Vec3& centre,
-                                 const PictureOptions& options) {
-    PictureOptions plain = options;
-    plain.vertex_colours.clear();
-    return corners(wires, centre, plain);
-}
-
-VertexArray describe_corners() {
-    unsigned id = 0;
-    glGenVertexArrays(1, &id);
-    VertexArray array(id);
-    glBindVertexArray(id);
-    const std::size_t offsets[] = {offsetof(Corner, position), offsetof(Corner, normal),
-                                   offsetof(Corner, colour)};
-    for (unsigned i = 0; i < 3; ++i) {
-        glEnableVertexAttribArray(i);
-        glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Corner),
-                              reinterpret_cast<const void*>(offsets[i]));
-    }
-    return array;
-}
-
-// How far edges are pulled towards the eye, relative to the depth of the model: over their own
-// triangles, and over a smoothed surface that rose above the original.
-constexpr float kOwnPull = 2e-4F, kWirePull = 1e-2F;
-
-/// The edges of the bound corners.
-void draw_edges(GLsizei count, const Camera& camera, float pull) {
-    const Program lines = make_program("lines");
-    set_matrices(lines, camera);
-    glUniform4f(glGetUniformLocation(lines.id(), "line_colour"), 0.1F, 0.1F, 0.12F, 1.0F);
-    glUniform1f(glGetUniformLocation(lines.id(), "pull"), pull);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glDrawArrays(GL_TRIANGLES, 0, count);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-}
-
-void draw_corners(const Program& surface, const std::vector<Corner>& list, const Camera& camera,
-                  const PictureOptions& options) {
-    const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "surface corners");
-    const VertexArray array = describe_corners();
-    const auto count = static_cast<GLsizei>(list.size());
-    set_matrices(surface, camera);
-    glUniform3fv(glGetUniformLocation(surface.id(), "back_colour"), 1, options.back.data());
-    glDrawArrays(GL_TRIANGLES, 0, count);
-    if (options.edges) draw_edges(count, camera, kOwnPull);
-}
-
-/// Draws the edges of another surface over the current drawing.
-void draw_wires(const std::vector<Corner>& list, const Camera& camera) {
-    const Buffer buffer = make_buffer(std::as_bytes(std::span(list)), "wire corners");
-    const VertexArray array = describe_corners();
-    draw_edges(static_cast<GLsizei>(list.size()), camera, kWirePull);
-}
-
 void check(const Surface& surface, const PictureOptions& options) {
     if (surface.empty()) throw InvalidInput("there is no surface to draw");
     require_size(options);
@@ -127,15 +43,37 @@ void check(const Surface& surface, const PictureOptions& options) {
         throw InvalidInput("there must be one colour per vertex");
 }
 
-Picture drawn(const Surface& surface, const PictureOptions& options, const Program& program) {
-    const Surface& frame = options.frame ? *options.frame : surface;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : frame.points()) box.extend(p);
-    const Camera camera = camera_for(frame.points(), box.center(), options);
-    const Canvas canvas(options.width, options.height);
-    draw_corners(program, corners(surface, box.center(), options), camera, options);
-    if (options.wires) draw_wires(wire_corners(*options.wires, box.center(), options), camera);
-    return canvas.picture();
+SurfaceLayer layer_of(std::shared_ptr<DrawnSurface> drawn, const PictureOptions& options) {
+    SurfaceLayer layer;
+    layer.colouring = options.vertex_colours.empty() ? Colouring::Patches : Colouring::Vertices;
+    layer.patch_colours = patch_colours(drawn->surface());
+    drawn->set_colours(options.vertex_colours);
+    layer.source = std::move(drawn);
+    layer.back = options.back;
+    layer.flat = options.sharp;
+    if (options.edges) layer.edges = Edges::Over;
+    return layer;
+}
+
+SurfaceLayer wires_of(const Surface& wires, double size) {
+    SurfaceLayer layer;
+    layer.source = std::make_shared<DrawnSurface>(prepare_drawing(wires));
+    layer.edges = Edges::Only;
+    layer.edge_opacity = 1.0;
+    layer.pull = kWirePull * size;
+    return layer;
+}
+
+Picture drawn_picture(Renderer& renderer, const std::shared_ptr<DrawnSurface>& drawn,
+                      const PictureOptions& options) {
+    const Surface& frame = options.frame ? *options.frame : drawn->surface();
+    Layers layers{.surfaces = {layer_of(drawn, options)}};
+    if (options.wires)
+        layers.surfaces.push_back(wires_of(*options.wires, bounds(frame).diagonal()));
+    RenderTarget target(options.width, options.height);
+    target.bind();
+    renderer.draw(view_of(frame, options), layers);
+    return target.picture();
 }
 
 }  // namespace
@@ -144,13 +82,21 @@ Vec3 upward_for(const Vec3& view) {
     return std::abs(view.z()) < 0.95 ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
 }
 
+std::vector<Colour> patch_colours(const Surface& surface) {
+    std::vector<Colour> colours;
+    for (std::size_t label = 0; label < surface.patches.size(); ++label)
+        colours.push_back(patch_colour(surface, label));
+    return colours;
+}
+
 std::vector<Picture> draw_views(const Surface& surface, std::span<const PictureOptions> views) {
     for (const PictureOptions& options : views) check(surface, options);
     const OffscreenContext context;
-    const Program program = make_program("surface");
+    Renderer renderer;
+    const auto drawn = std::make_shared<DrawnSurface>(prepare_drawing(surface));
     std::vector<Picture> pictures;
     for (const PictureOptions& options : views)
-        pictures.push_back(drawn(surface, options, program));
+        pictures.push_back(drawn_picture(renderer, drawn, options));
     return pictures;
 }
 

@@ -47,6 +47,9 @@ struct PictureOptions {
 [[nodiscard]] std::vector<Picture> draw_views(const Surface& surface,
                                               std::span<const PictureOptions> views);
 
+/// The colours in which pictures show a surface's patches, by label.
+[[nodiscard]] std::vector<Colour> patch_colours(const Surface& surface);
+
 /// The up direction of a picture for a view direction: the head or, from above or below, the front.
 [[nodiscard]] Vec3 upward_for(const Vec3& view);
 

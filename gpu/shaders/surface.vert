@@ -1,15 +1,40 @@
 #version 430 core
-// Draws a surface: attribute 0 position [mm] relative to the bounding box's centre, 1 unit normal, 2 colour (linear RGB).
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 colour;
-uniform mat4 to_clip;
-uniform mat3 to_eye;
+// Draws a surface (gpu/render/surface_source.h). Its position [mm] is anchor + shift; the tag is 4 *
+// patch label + colour of the corner.
+layout(location = 0) in vec3 anchor;
+layout(location = 1) in vec3 shift;
+layout(location = 2) in vec3 normal;
+layout(location = 3) in float vertex_value;
+layout(location = 4) in uint tag;
+layout(location = 5) in vec4 vertex_colour;
+#include "camera.glsl"
+layout(std140, binding = 1) uniform Patches { vec4 patch_colours[1024]; };
+uniform vec3 base_colour;
+uniform int colouring;          // Colouring (gpu/render/layers.h)
+uniform int highlighted_patch;  // -1: none; -2: all
 out vec3 eye_normal;
-out vec3 vertex_colour;
+out vec3 colour;
+out float value;
+flat out float highlight;
+flat out uint element;
+#ifdef EDGES
+noperspective out vec4 corner;
+#endif
 
 void main() {
-    eye_normal = to_eye * normal;
-    vertex_colour = colour;
-    gl_Position = to_clip * vec4(position, 1.0);
+    vec3 place = anchor + shift;
+    set_place(place);
+    gl_Position = clip_of(place);
+    eye_normal = mat3(to_eye) * normal;
+    value = vertex_value;
+    element = 0u;
+    int label = int(tag >> 2u);
+    colour = colouring == 1   ? patch_colours[min(label, 1023)].rgb
+             : colouring == 3 ? pow(vertex_colour.rgb, vec3(2.2))
+                              : base_colour;
+    highlight = highlighted_patch == -2 || highlighted_patch == label ? 1.0 : 0.0;
+#ifdef EDGES
+    uint id = tag & 3u;
+    corner = vec4(id == 0u, id == 1u, id == 2u, id == 3u);
+#endif
 }

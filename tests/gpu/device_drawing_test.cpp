@@ -39,12 +39,11 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
     const auto device = uploaded(*test, rough);
     GpuSmoother smoother(device, {});
     GpuMeter meter(device);
-    const DeviceDrawing drawing(device);
+    DeviceDrawing drawing(device);
     PictureOptions options = small();
     options.frame = std::make_shared<const Surface>(rough);
     const auto picture = [&](const Buffer* values, double most) {
-        return picture_of(*device, drawing, {smoother.shifts(), meter.normals(), values, 0.0, most},
-                          options);
+        return drawing.picture_of({smoother.shifts(), meter.normals(), values, 0.0, most}, options);
     };
     smoother.start(LaplaceParameters{});
     meter.measure_shape(smoother.shifts());
@@ -74,8 +73,8 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
         const auto inner = uploaded(*test, inverted);
         GpuMeter inner_meter(inner);
         inner_meter.measure_shape(inner->shifts());
-        const Picture found = picture_of(*inner, DeviceDrawing(inner),
-                                         {inner->shifts(), inner_meter.normals()}, options);
+        const Picture found =
+            DeviceDrawing(inner).picture_of({inner->shifts(), inner_meter.normals()}, options);
         CHECK(difference(found, draw(inverted, options)) < 0.005);
         CHECK(difference(found, before) > 0.02);
     }

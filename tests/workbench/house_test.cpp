@@ -58,14 +58,21 @@ const std::map<std::string, Names> kDoors = {
     {"workbench/suggest",
      {"geometry/kernel", "smoothing/context", "smoothing/quality", "gpu", "workbench/case",
       "workbench/project", "workbench/worker", "workbench/session", "workbench/operations"}},
+    {"workbench/window",
+     {"geometry", "smoothing", "gpu", "meshing", "workbench/case", "workbench/project",
+      "workbench/worker", "workbench/session", "workbench/operations", "workbench/export",
+      "workbench/phantoms", "workbench/report", "workbench/prepare", "workbench/suggest"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
 
 // Headers whose functions generated sources define, or one source per command.
-const Names kDeclareWithoutSource = {
-    "gpu/shader_texts.h", "workbench/phantoms/builtin.h", "workbench/prepare/builtin_recipes.h",
-    "workbench/report/label_font.h", "workbench/commands/commands.h"};
+const Names kDeclareWithoutSource = {"gpu/shader_texts.h",
+                                     "workbench/phantoms/builtin.h",
+                                     "workbench/prepare/builtin_recipes.h",
+                                     "workbench/report/label_font.h",
+                                     "workbench/window/style/embedded_fonts.h",
+                                     "workbench/commands/commands.h"};
 
 struct Include {
     std::string name;  ///< as written
@@ -155,7 +162,8 @@ Names circles(std::map<std::string, Names> next) {
 bool is_large_library(const std::string& name) {
     return name.starts_with("vtk") || name.starts_with("CGAL/") || name.starts_with("OpenMesh/") ||
            name == "tetgen.h" || name.starts_with("gdcm") || name.starts_with("epoxy/") ||
-           name.starts_with("EGL/") || name.starts_with("itk");
+           name.starts_with("EGL/") || name.starts_with("itk") || name.starts_with("imgui") ||
+           name.starts_with("GLFW/") || name.starts_with("backends/imgui");
 }
 
 bool may_use_vtk(const std::string& file) {

@@ -122,7 +122,15 @@ struct CommandLine {
     CLI::App app{kDescription, "vesselbench"};
     Progress progress;
     std::function<int()> command;
+    WindowOptions window;
 };
+
+void show_window(const WindowOptions& options) {
+    if (options.screenshot.empty())
+        open_window(options);
+    else
+        draw_screenshot(options);
+}
 
 CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
                       std::function<int()> command) {
@@ -481,6 +489,23 @@ void add_phantom(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_window(CommandLine& line) {
+    CLI::App& command =
+        add_command(line, "open", "Open a project, a surface, an image or a case in the window",
+                    [&line] { return show_window(line.window), 0; });
+    command.add_option("FILE", line.window.file, "What to open")->required()->type_name("");
+    line.app
+        .add_option("--screenshot", line.window.screenshot,
+                    "Draw the window once to this file (.png), without a display")
+        ->type_name("FILE");
+    line.app.add_option("--size", line.window.size, "Of the screenshot [pixels]")
+        ->capture_default_str()
+        ->type_name("WIDTHxHEIGHT");
+    line.app.add_option("--theme", line.window.theme, "Of the screenshot")
+        ->capture_default_str()
+        ->type_name("dark|light");
+}
+
 void set_up(CommandLine& line) {
     line.app.footer(kFooter);
     line.app.set_version_flag("--version", "vesselbench " + version(),
@@ -488,6 +513,7 @@ void set_up(CommandLine& line) {
     line.app.set_help_flag("-h,--help", "Print this help and exit");
     line.app.failure_message(CLI::FailureMessage::simple);
     line.app.require_subcommand(0, 1);
+    add_window(line);
     add_prepare(line);
     add_new(line);
     add_apply(line);
@@ -514,8 +540,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
 
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2) return;
-    if (std::string(argv[1]).starts_with("--screenshot"))
-        throw UsageError("--screenshot: this version has no window yet");
     if (argv[1][0] == '-') return;
     const std::vector<std::string> names = command_names(app);
     const std::string name = argv[1];
@@ -545,8 +569,8 @@ int run_command_line(int argc, char** argv, const Progress& progress) {
         throw UsageError(error.what() + help_hint(line.app));
     }
     if (!line.command) {
-        std::cerr << line.app.help();
-        throw UsageError("this version has no window yet: name a command");
+        show_window(line.window);
+        return 0;
     }
     return line.command();
 }

@@ -185,4 +185,17 @@ struct ExportArguments {
 /// Writes the project's model as a file, or as an OpenFOAM case.
 void export_project(const ExportArguments& arguments, const Progress& progress);
 
+struct WindowOptions {
+    std::string file;        ///< to open at once; empty: the start screen
+    std::string screenshot;  ///< PNG file
+    std::string size = "1280x720";
+    std::string theme = "dark";
+};
+
+/// Opens the window, and returns when it is closed.
+void open_window(const WindowOptions& options);
+
+/// Draws the window once, without a display, when the file is open.
+void draw_screenshot(const WindowOptions& options);
+
 }  // namespace vesselbench

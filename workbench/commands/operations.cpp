@@ -7,6 +7,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/operation.h"
+#include "workbench/case/parameter_texts.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
@@ -16,28 +17,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string to_string(ParameterType type) {
-    switch (type) {
-        case ParameterType::Flag:
-            return "flag";
-        case ParameterType::Integer:
-            return "integer";
-        case ParameterType::Real:
-            return "real";
-        case ParameterType::Text:
-            return "text";
-        case ParameterType::Choice:
-            return "choice";
-        case ParameterType::Point:
-            return "point";
-        case ParameterType::List:
-            return "list";
-        case ParameterType::File:
-            return "file";
-    }
-    return "";
-}
 
 Json json_of(const Parameter& parameter) {
     Json json = {{"name", parameter.name},
@@ -66,47 +45,6 @@ Json json_of(const Operation& operation) {
     for (const Parameter& parameter : operation.parameters)
         json["parameters"].push_back(json_of(parameter));
     return json;
-}
-
-/// "0 ... 1", ">= 1"; nothing without bounds.
-std::string bounds_text(const Parameter& parameter) {
-    const bool below = std::isfinite(parameter.minimum), above = std::isfinite(parameter.maximum);
-    const std::string from = to_text(Value(parameter.minimum));
-    const std::string to = to_text(Value(parameter.maximum));
-    if (below && above) return (parameter.above_minimum ? "> " : "") + from + " ... " + to;
-    if (below) return (parameter.above_minimum ? "> " : ">= ") + from;
-    return above ? "<= " + to : "";
-}
-
-std::string range_text(const Parameter& parameter) {
-    const std::string bounds = bounds_text(parameter);
-    const std::string bounded = bounds.empty() ? "" : ", " + bounds;
-    switch (parameter.type) {
-        case ParameterType::Choice:
-            return joined(parameter.choices, "|");
-        case ParameterType::Flag:
-            return "true|false";
-        case ParameterType::Point:
-            return "x,y,z" + bounded;
-        case ParameterType::List:
-            return "a,b,..." + bounded;
-        case ParameterType::Integer:
-        case ParameterType::Real:
-            return bounds.empty() ? "number" : bounds;
-        default:
-            return to_string(parameter.type);
-    }
-}
-
-std::string unit_text(const Parameter& parameter) {
-    return parameter.unit.empty() || parameter.unit == "-" ? "" : "[" + parameter.unit + "]";
-}
-
-std::string default_text(const Parameter& parameter) {
-    if (parameter.required) return "needed";
-    if (!parameter.default_value) return "automatic";
-    const std::string text = to_text(*parameter.default_value);
-    return text.empty() ? "none" : text;
 }
 
 std::vector<std::string> parameter_row(const Parameter& parameter) {

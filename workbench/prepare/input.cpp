@@ -130,6 +130,12 @@ RecipeUse recipe_use(const Input& input, const std::string& purpose) {
     return use;
 }
 
+Json own_recipe(const Input& input, const std::string& purpose) {
+    if (!input.recipes) return nullptr;
+    if (input.recipes->is_array()) return *input.recipes;
+    return input.recipes->value(purpose, Json());
+}
+
 RecipeEntry loading_entry(const Input& input) {
     const InputKind kind = input.is_image ? InputKind::Image : InputKind::Surface;
     RecipeEntry entry{.given = GivenArguments(loading_operation(kind))};

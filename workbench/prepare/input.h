@@ -41,6 +41,9 @@ struct Input {
 /// The words of "when" that apply to the input.
 [[nodiscard]] RecipeUse recipe_use(const Input& input, const std::string& purpose);
 
+/// The case's own recipe for a purpose, a JSON list; null: it has none.
+[[nodiscard]] nlohmann::ordered_json own_recipe(const Input& input, const std::string& purpose);
+
 /// The edit that loads the input, with the arguments that an entry of a recipe may add.
 /// \throw UsageError if a unit is unknown
 [[nodiscard]] RecipeEntry loading_entry(const Input& input);

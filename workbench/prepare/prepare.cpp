@@ -1,18 +1,14 @@
 #include "workbench/prepare/prepare.h"
 
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
-#include "geometry/kernel/wording.h"
-#include "workbench/case/argument_texts.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/prepare_report.h"
-#include "workbench/report/log_json.h"
 
 namespace vesselbench {
 
@@ -23,12 +19,6 @@ using Json = nlohmann::ordered_json;
 
 /// Fraction of the progress for the edits; the rest is for reports and files.
 constexpr double kEditsShare = 0.8;
-
-/// The loaded surface cannot be repaired: the input is bad, not the recipe.
-class UnusableSource : public InvalidInput {
-public:
-    using InvalidInput::InvalidInput;
-};
 
 /// Removes a project that is empty because its first edit failed.
 void remove_project(const fs::path& project) {
@@ -67,9 +57,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
             throw UsageError("recipe '" + name + "' is not valid JSON: " + error.what());
         }
     }
-    if (!input.recipes) return nullptr;
-    if (input.recipes->is_array()) return *input.recipes;
-    return input.recipes->value(options.purpose, Json());
+    return own_recipe(input, options.purpose);
 }
 
 /// The recipe preceded by the edit that loads the input, with its files and units filled in.
@@ -86,89 +74,6 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);
     return recipe;
-}
-
-std::string told(const LogEntry& entry) {
-    const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
-    const std::string change = entry.result ? change_text(entry.result->change) : "";
-    return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
-           (change.empty() ? "" : ": " + change);
-}
-
-/// Where an operation that keeps the volume changes it by more than this [-], the surface is too
-/// coarse for it.
-constexpr double kNoticedChange = 0.03;
-
-/// What a user should know of an edit beside its own warnings; else empty.
-std::string noticed(const LogEntry& entry) {
-    const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
-    if (remedy.empty() || !entry.result) return "";
-    const SurfaceChange& change = entry.result->change;
-    if (!change.volume_before || !change.volume_after || *change.volume_before <= 0) return "";
-    const double ratio = *change.volume_after / *change.volume_before;
-    if (std::abs(ratio - 1.0) <= kNoticedChange) return "";
-    return entry.edit.operation + " changed the volume by " +
-           formatted(100.0 * (ratio - 1.0), "%.1f") + " %: " + remedy;
-}
-
-/// Applies one entry. \return a warning in addition to the edit's own; empty if there is none
-std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
-                        const Teller& tell, const Progress& progress) {
-    const Operation& operation = entry.given.operation();
-    try {
-        const LogEntry done =
-            session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
-        tell(told(done));
-        if (done.result)
-            for (const std::string& warning : done.result->warnings)
-                tell("warning: " + operation.name + ": " + warning);
-        const std::string warning = noticed(done);
-        if (!warning.empty()) tell("warning: " + warning);
-        return warning;
-    } catch (const InvalidInput& error) {
-        // The loaded data was accepted: from here on, the operation is to blame.
-        if (operation.usual_step == Step::Source) throw;
-        throw AlgorithmFailure(error.what());
-    } catch (const AlgorithmFailure& error) {
-        if (operation.recipe.proves_source) throw UnusableSource(error.what());
-        if (entry.otherwise) {
-            RecipeEntry second = entry;
-            second.otherwise.reset();
-            second.given.set(*entry.otherwise);
-            std::string changed;
-            for (const auto& [name, value] : (*entry.otherwise)->values())
-                changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
-            const std::string warning =
-                operation.name + " with " + changed + " instead: " + error.what();
-            tell("warning: " + warning);
-            const std::string more = apply_entry(session, second, variant, tell, progress);
-            return more.empty() ? warning : warning + "; " + more;
-        }
-        if (!entry.optional) throw;
-        const std::string warning = operation.name + " was skipped: " + error.what();
-        tell("warning: " + warning);
-        return warning;
-    }
-}
-
-bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
-    return entry.unless_closed &&
-           surface_of(session.scene(variant)).topology->boundary_loops().empty();
-}
-
-std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
-                                      const std::string& variant, const Teller& tell,
-                                      const Progress& progress) {
-    std::vector<std::string> warnings;
-    const double share = 1.0 / static_cast<double>(recipe.size());
-    for (std::size_t i = 0; i < recipe.size(); ++i) {
-        if (is_left_out(session, recipe[i], variant)) continue;
-        const double from = share * static_cast<double>(i);
-        const std::string warning =
-            apply_entry(session, recipe[i], variant, tell, progress.part(from, from + share));
-        if (!warning.empty()) warnings.push_back(warning);
-    }
-    return warnings;
 }
 
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
@@ -228,17 +133,24 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     }
 }
 
-void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
-                 const Progress& progress) {
-    const Input input = resolve_input(options, progress.part(0.0, 0.3));
+Session start_project(const fs::path& project, const Input& input, SessionOptions options,
+                      const Teller& tell, const Progress& progress) {
     const RecipeEntry loading = loading_entry(input);
-    Session session = Session::create(project, {.find = find_operation});
+    Session session = Session::create(project, std::move(options));
     try {
-        apply_entry(session, loading, "", tell, progress.part(0.3, 1.0));
+        apply_recipe(session, {loading}, "", tell, progress);
     } catch (const std::exception&) {
         remove_project(project);
         throw;
     }
+    return session;
+}
+
+void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
+                 const Progress& progress) {
+    const Input input = resolve_input(options, progress.part(0.0, 0.3));
+    static_cast<void>(
+        start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0)));
 }
 
 }  // namespace vesselbench

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/input.h"
 #include "workbench/report/report_html.h"
 #include "workbench/session/session.h"
@@ -19,9 +19,6 @@ struct PrepareOptions {
     std::filesystem::path out;           ///< folder of the results
 };
 
-/// Receives prepare's messages, one line of text at a time.
-using Teller = std::function<void(const std::string&)>;
-
 struct PrepareSummary {
     std::vector<std::string> products;  ///< names of the files and folders written
     std::vector<std::string> warnings;  ///< all, as in report.json
@@ -35,7 +32,14 @@ struct PrepareSummary {
 /// the edits that were done; there is no project if the input cannot be loaded or repaired
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);
 
-/// Creates a project whose first edit loads the input. \throw IoError if the file exists
+/// Creates a project whose first edit loads the input, and keeps it open. Nothing is left of the
+/// project if the input cannot be loaded.
+/// \throw IoError if the file exists; what loading throws
+[[nodiscard]] Session start_project(const std::filesystem::path& project, const Input& input,
+                                    SessionOptions options, const Teller& tell,
+                                    const Progress& progress);
+
+/// The same for the command line. \throw IoError if the file exists
 void new_project(const std::filesystem::path& project, const InputOptions& options,
                  const Teller& tell, const Progress& progress);
 

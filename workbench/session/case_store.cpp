@@ -76,6 +76,29 @@ void CaseStore::remember(std::vector<EditRef> edits, std::vector<ResultId> resul
         records_[id] = std::make_shared<const ResultRecord>(std::move(record));
 }
 
+/// Edits and results are only ever added.
+void CaseStore::renew_past() {
+    const auto& edits = history_->edits();
+    if (past_ && past_->size() == edits.size() && past_results_ == history_->results().size())
+        return;
+    std::vector<EditRef> refs;
+    std::map<EditRef, ResultId> newest;
+    for (const auto& [ref, place] : edits) {
+        refs.push_back(ref);
+        if (const HistoryResult* result = history_->newest_result_of(ref)) newest[ref] = result->id;
+    }
+    std::vector<ResultId> results;
+    for (const auto& [ref, id] : newest) results.push_back(id);
+    remember(refs, results);
+    auto past = std::make_shared<std::map<EditRef, PastEdit>>();
+    for (const EditRef ref : refs)
+        past->emplace(ref, PastEdit{edits_.at(ref), newest.contains(ref)
+                                                        ? records_.at(newest.at(ref))
+                                                        : nullptr});
+    past_ = std::move(past);
+    past_results_ = history_->results().size();
+}
+
 std::map<std::string, Scene> CaseStore::scenes_at_hand() {
     std::vector<std::string> variants = history_->variants();
     variants.emplace_back();
@@ -101,6 +124,8 @@ std::shared_ptr<const Snapshot> CaseStore::snapshot() {
         made->log.push_back(
             {edits_.at(entry.edit), entry.status, entry.reason,
              entry.status == EditStatus::Done ? records_.at(entry.result) : nullptr});
+    renew_past();
+    made->past = past_;
     made->scenes = scenes_at_hand();
     made->project = project_.name();
     made->read_only_reason = project_.read_only_reason();

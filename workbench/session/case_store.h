@@ -53,6 +53,7 @@ public:
 
 private:
     void remember(std::vector<EditRef> edits, std::vector<ResultId> results);
+    void renew_past();
     [[nodiscard]] std::map<std::string, Scene> scenes_at_hand();
 
     ProjectFile project_;
@@ -61,6 +62,8 @@ private:
     std::map<EditRef, EditRecord> edits_;  ///< those read or created so far
     std::map<ResultId, std::shared_ptr<const ResultRecord>> records_;
     std::map<ResultId, std::optional<Scene>> own_scenes_;  ///< none: a stale result
+    std::shared_ptr<const std::map<EditRef, PastEdit>> past_;
+    std::size_t past_results_ = 0;  ///< number of results when `past_` was made
 };
 
 }  // namespace vesselbench

@@ -19,11 +19,19 @@ struct LogEntry {
     std::shared_ptr<const ResultRecord> result;  ///< of a done edit; else null
 };
 
+/// One revision of an edit that some state contains, or contained.
+struct PastEdit {
+    EditRecord edit;
+    std::shared_ptr<const ResultRecord> result;  ///< its newest that is not stale; else null
+};
+
 /// The state of a session at one moment: an immutable value that any thread may hold and read while
 /// the session continues.
 struct Snapshot {
     std::shared_ptr<const History> history;  ///< the tree of states, without data; never null
     std::vector<LogEntry> log;               ///< the current state's edits, by step, then time
+    /// Every revision of every edit of the whole history; never null.
+    std::shared_ptr<const std::map<EditRef, PastEdit>> past;
     /// The scenes in memory, by variant, "" for the trunk. Absent: an edit before it is pending, or
     /// it has to be read through the session.
     std::map<std::string, Scene> scenes;

@@ -1,0 +1,61 @@
+#include "gpu/render/drawn_device_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "gpu/render/drawing_arrays.h"
+#include "gpu/render/vertex_buffers.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kRoom = 1.2;  // smoothing may move vertices beyond the start's bounds
+
+Sphere roomy_bounds(const DeviceSurface& surface) {
+    double squared = 0.0;
+    for (const Vec3& p : surface.surface().points())
+        squared = std::max(squared, (p - surface.centre()).squaredNorm());
+    return {surface.centre(), kRoom * std::sqrt(squared)};
+}
+
+}  // namespace
+
+DrawnDeviceSurface::DrawnDeviceSurface(std::shared_ptr<const DeviceSurface> surface)
+    : surface_(std::move(surface)), bounds_(roomy_bounds(*surface_)), layout_(make_vertex_array()) {
+    static_cast<void>(surface_->triangles());
+}
+
+void DrawnDeviceSurface::bind_vertices() const {
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+    constexpr std::size_t kStride = 4 * sizeof(float);
+    glBindVertexArray(layout_.id());
+    float_attribute(0, surface_->anchors(), 3, kStride);
+    float_attribute(1, *shown_.shifts, 3, kStride);
+    float_attribute(2, *shown_.normals, 3, kStride);
+    if (shown_.values != nullptr)
+        float_attribute(3, *shown_.values, 1);
+    else
+        glDisableVertexAttribArray(3);
+}
+
+void DrawnDeviceSurface::bind_triangles() const {
+    bind_vertices();
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_->triangles().id());
+}
+
+std::size_t DrawnDeviceSurface::bind_edges() const {
+    if (!edges_) {
+        const auto edges = unique_edges(*surface_->surface().topology);
+        edges_ = make_buffer(bytes_of(edges), "drawn edges");
+        edge_count_ = edges.size();
+    }
+    bind_vertices();
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges_->id());
+    return edge_count_;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,76 @@
+#include "gpu/render/frame.h"
+
+#include <cmath>
+
+namespace vesselbench {
+
+namespace {
+
+/// Magnifies the part of clip coordinates that a region of a rectangle shows.
+Eigen::Matrix4d magnified(const PixelRectangle& all, const PixelRectangle& region) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    const auto axis = [&](int i, int start, int size, int from, int length) {
+        const double middle = 2.0 * (from - start + 0.5 * length) / size - 1.0;
+        matrix(i, i) = static_cast<double>(size) / length;
+        matrix(i, 3) = -middle * matrix(i, i);
+    };
+    axis(0, all.x, all.width, region.x, region.width);
+    axis(1, all.y, all.height, region.y, region.height);
+    return matrix;
+}
+
+/// Positions relative to a centre as patient coordinates.
+Eigen::Matrix4d moved_by(const Vec3& centre) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topRightCorner<3, 1>() = centre;
+    return matrix;
+}
+
+Eigen::Matrix4d eye_matrix(const ViewCamera& camera, const Vec3& centre) {
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() = to_eye(camera);
+    matrix.topRightCorner<3, 1>() = matrix.topLeftCorner<3, 3>() * (centre - camera.centre);
+    return matrix;
+}
+
+Eigen::Vector4d plane_about(const std::optional<ClipPlane>& clip, const Vec3& centre) {
+    if (!clip) return {0.0, 0.0, 0.0, 1.0};
+    const Vec3 normal = clip->normal.normalized();
+    return {-normal.x(), -normal.y(), -normal.z(), normal.dot(clip->point - centre)};
+}
+
+Eigen::Vector4d eye_about(const ViewCamera& camera, const Vec3& centre) {
+    const Vec3 place =
+        camera.perspective ? Vec3(eye_of(camera) - centre) : Vec3(-camera.view.normalized());
+    return {place.x(), place.y(), place.z(), camera.perspective ? 1.0 : 0.0};
+}
+
+}  // namespace
+
+Frame make_frame(const SceneView& view, const Layers& layers, const PixelRectangle& region) {
+    Frame frame{view, region, bounds_of(layers)};
+    frame.clip = magnified(view.rectangle, region) *
+                 to_clip(view.camera, view.rectangle.aspect(), frame.scene);
+    return frame;
+}
+
+void set_frame(const Uniforms& uniforms, const Frame& frame, const Vec3& centre, double pull) {
+    const ViewCamera& camera = frame.view.camera;
+    uniforms.set("to_clip", Eigen::Matrix4d(frame.clip * moved_by(centre)));
+    uniforms.set("to_eye", eye_matrix(camera, centre));
+    uniforms.set("eye", eye_about(camera, centre));
+    uniforms.set("clip_plane", plane_about(frame.view.clip, centre));
+    uniforms.set("pull", pull);
+    uniforms.set("viewport", Eigen::Vector2d(frame.region.width, frame.region.height));
+    uniforms.set("eye_distance", camera.perspective ? eye_distance(camera) : 0.0);
+}
+
+std::array<Eigen::Vector3f, 4> plane_corners(const ClipPlane& plane, const Sphere& sphere) {
+    const Vec3 normal = plane.normal.normalized();
+    const Vec3 across = sphere.radius * normal.unitOrthogonal(), down = normal.cross(across);
+    const Vec3 middle = normal * normal.dot(plane.point - sphere.centre);
+    return {(middle - across - down).cast<float>(), (middle + across - down).cast<float>(),
+            (middle - across + down).cast<float>(), (middle + across + down).cast<float>()};
+}
+
+}  // namespace vesselbench

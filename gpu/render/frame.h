@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include "gpu/render/layers.h"
+#include "gpu/render/programs.h"
+
+namespace vesselbench {
+
+/// What all layers of one drawing of a view share.
+struct Frame {
+    SceneView view;
+    PixelRectangle region;  ///< the part of the view's rectangle that is drawn
+    Sphere scene;
+    Eigen::Matrix4d clip =
+        Eigen::Matrix4d::Identity();  ///< from points [mm] to the region's clip coordinates
+};
+
+/// \param region part of the view's rectangle, in pixels of its framebuffer
+[[nodiscard]] Frame make_frame(const SceneView& view, const Layers& layers,
+                               const PixelRectangle& region);
+
+/// Sets what gpu/shaders/camera.glsl and light.glsl need for something around a centre.
+void set_frame(const Uniforms& uniforms, const Frame& frame, const Vec3& centre, double pull);
+
+/// Corners of the clip plane's section through a sphere, relative to its centre: a strip.
+[[nodiscard]] std::array<Eigen::Vector3f, 4> plane_corners(const ClipPlane& plane,
+                                                           const Sphere& sphere);
+
+}  // namespace vesselbench

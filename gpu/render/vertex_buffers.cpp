@@ -1,0 +1,37 @@
+#include "gpu/render/vertex_buffers.h"
+
+#include <epoxy/gl.h>
+
+namespace vesselbench {
+
+namespace {
+
+/// Unchanged elements between changed ones are uploaded with them: a call costs as much as some
+/// 10 KB.
+constexpr std::uint32_t kGap = 512;
+
+}  // namespace
+
+void float_attribute(unsigned place, const Buffer& buffer, int numbers, std::size_t stride,
+                     std::size_t offset) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    glEnableVertexAttribArray(place);
+    glVertexAttribPointer(place, numbers, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                          reinterpret_cast<const void*>(offset));
+}
+
+void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
+                  std::span<const std::uint32_t> changed) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    for (std::size_t first = 0; first < changed.size();) {
+        std::size_t last = first;
+        while (last + 1 < changed.size() && changed[last + 1] - changed[last] <= kGap) ++last;
+        const auto part =
+            all.subspan(changed[first] * size, (changed[last] - changed[first] + 1) * size);
+        glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(changed[first] * size),
+                        static_cast<GLsizeiptr>(part.size()), part.data());
+        first = last + 1;
+    }
+}
+
+}  // namespace vesselbench

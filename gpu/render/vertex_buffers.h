@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/objects.h"
+
+namespace vesselbench {
+
+/// Attributes of the bound vertex array, from a buffer of floats.
+/// \param stride from one vertex to the next [bytes]; 0: close together
+void float_attribute(unsigned place, const Buffer& buffer, int numbers, std::size_t stride = 0,
+                     std::size_t offset = 0);
+
+/// The bytes of values for make_buffer.
+template <class T>
+[[nodiscard]] std::span<const std::byte> bytes_of(const std::vector<T>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+/// Uploads elements of an array whose indices are ascending: a few contiguous parts instead of
+/// single ones. \param size of one element [bytes]
+void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
+                  std::span<const std::uint32_t> changed);
+
+}  // namespace vesselbench

@@ -1,0 +1,241 @@
+#include "workbench/window/app.h"
+
+#include <filesystem>
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/keys.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<LogEntry> log_of(const fs::path& project) {
+    return Session::open(project, session_options()).log();
+}
+
+/// The same edit made by the command line on a project of its own.
+Scene by_command_line(const std::string& input, const std::vector<std::string>& edit) {
+    const std::string project = temporary_folder() + "/typed.vbench";
+    REQUIRE(run_program(program_path(), {"new", project, input}).exit_code == 0);
+    std::vector<std::string> words = {"apply", project};
+    words.insert(words.end(), edit.begin(), edit.end());
+    REQUIRE(run_program(program_path(), words).exit_code == 0);
+    return Session::open(project, session_options()).scene();
+}
+
+void choose(OffscreenShell& shell, const std::string& step, const std::string& operation) {
+    REQUIRE(shell.click_item("rail." + step));
+    REQUIRE(shell.click_item("choose." + operation));
+}
+
+bool is_enabled(OffscreenShell& shell, const std::string& item) {
+    return shell.has(item) && shell.app().ui().items().at(item).enabled;
+}
+
+std::size_t edits(OffscreenShell& shell) {
+    return shell.app().place().document.snapshot()->log.size();
+}
+
+}  // namespace
+
+SCENARIO("An edit made by mouse and keys is the command line's", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string input = tube_file();
+    open_and_wait(*shell, input);
+    const Document& document = shell->app().place().document;
+    CHECK(document.project().parent_path() == fs::path(input).parent_path());
+    choose(*shell, "smoothing", "smooth");
+    REQUIRE(shell->fill_item("field.iterations", "3"));
+    REQUIRE(shell->click_item("operation.preview"));
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(document.previewed());
+    CHECK(edits(*shell) == 1);
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(edits(*shell) == 2);
+    const fs::path project = document.project();
+    const Scene shown = *document.shown();
+    WHEN("it is undone and done again") {
+        REQUIRE(shell->click_item("tool.undo"));
+        REQUIRE(wait_until_idle(*shell));
+        CHECK(edits(*shell) == 1);
+        shell->press_key(keys::letter('Z'), {.control = true, .shift = true});
+        REQUIRE(wait_until_idle(*shell));
+        CHECK(edits(*shell) == 2);
+    }
+    shell->app().place().close();
+    shell->frame();
+    const auto log = log_of(project);
+    REQUIRE(log.size() == 2);
+    CHECK(log[1].edit.operation == "smooth");
+    CHECK(log[1].edit.given == Arguments{{"iterations", Value(std::int64_t{3})}});
+    const Scene typed = by_command_line(input, {"smooth", "iterations=3"});
+    CHECK(typed.surface->points() == shown.surface->points());
+}
+
+SCENARIO("A wrong value shows why and cannot be applied", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    choose(*shell, "smoothing", "smooth");
+    CHECK(is_enabled(*shell, "operation.apply"));
+    REQUIRE(shell->fill_item("field.iterations", "-3"));
+    CHECK_THAT(shell->app().place().form()->error(), Contains("is not allowed"));
+    CHECK_FALSE(is_enabled(*shell, "operation.apply"));
+    CHECK_FALSE(is_enabled(*shell, "operation.preview"));
+    REQUIRE(shell->fill_item("field.iterations", "3"));
+    CHECK(is_enabled(*shell, "operation.apply"));
+}
+
+SCENARIO("The theme is switched and remembered", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    shell->frame();
+    const Picture before = shell->picture();
+    CHECK(shell->app().ui().theme.dark);
+    REQUIRE(shell->click_item("tool.theme"));
+    shell->frame();
+    CHECK_FALSE(shell->app().ui().theme.dark);
+    CHECK(shell->picture().rgb != before.rgb);
+}
+
+SCENARIO("A running operation is cancelled", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file(96));
+    choose(*shell, "smoothing", "smooth");
+    REQUIRE(shell->fill_item("field.iterations", "10000"));
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(shell->click_item("status.cancel"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(edits(*shell) == 1);
+    CHECK(shell->app().place().document.messages().back().text == "cancelled");
+}
+
+SCENARIO("A broken file is refused and the window goes on", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string broken = temporary_folder() + "/broken.stl";
+    write_text(broken, "solid nothing\nfacet normal");
+    shell->app().open(broken);
+    REQUIRE(wait_until_idle(*shell));
+    const Document& document = shell->app().place().document;
+    CHECK_FALSE(document.is_open());
+    REQUIRE(document.failure());
+    CHECK_THAT(document.failure()->text, Contains("broken.stl"));
+    CHECK(names_in(fs::path(broken).parent_path()) == std::vector<std::string>{"broken.stl"});
+    REQUIRE(shell->click_item("start.dismiss"));
+    CHECK_FALSE(document.failure());
+    open_and_wait(*shell, tube_file());
+}
+
+SCENARIO("An operation that fails says so in its form", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    choose(*shell, "branches", "remove-branch");
+    REQUIRE(shell->fill_item("field.tip", "500,500,500"));
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(shell->app().place().document.failure());
+    CHECK(shell->app().place().form());
+    CHECK(edits(*shell) == 1);
+}
+
+SCENARIO("A phantom is opened from the start screen", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    shell->frame();
+    REQUIRE(shell->click_item("phantom.tube"));
+    REQUIRE(wait_until_idle(*shell));
+    const Document& document = shell->app().place().document;
+    REQUIRE(document.is_open());
+    CHECK(document.project().filename() == "tube.vbench");
+    REQUIRE(shell->settle(60s));
+    CHECK(document.shown()->image);
+    CHECK(shell->click_item("view.extract"));
+    CHECK(shell->app().place().form()->operation().name == "extract-surface");
+}
+
+SCENARIO("An edit is changed, left out and brought back", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    choose(*shell, "smoothing", "smooth");
+    REQUIRE(shell->fill_item("field.iterations", "1"));
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(shell->click_item("rail.edit.2"));
+    CHECK(shell->app().place().form()->field("iterations").text == "1");
+    REQUIRE(shell->fill_item("field.iterations", "2"));
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(shell->app().place().document.snapshot()->log[1].edit.edit.revision == 2);
+    REQUIRE(shell->click_item("rail.edit.2"));
+    REQUIRE(shell->click_item("operation.remove"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(edits(*shell) == 1);
+    REQUIRE(shell->click_item("tool.undo"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(edits(*shell) == 2);
+}
+
+SCENARIO("An idle window does not draw its model again", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    CHECK(shell->app().is_settled());
+    const int drawings = shell->app().drawings();
+    for (int i = 0; i < 5; ++i) shell->frame();
+    CHECK(shell->app().drawings() == drawings);
+    REQUIRE(shell->click_item("view.edges"));
+    CHECK(shell->app().drawings() > drawings);
+}
+
+SCENARIO("Random clicks and keys do no harm", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file(12));
+    std::mt19937 random(7);  // any seed
+    const auto below = [&](int limit) { return static_cast<int>(random() % unsigned(limit)); };
+    const auto end = std::chrono::steady_clock::now() + 5s;
+    while (std::chrono::steady_clock::now() < end) {
+        const auto x = static_cast<float>(below(1280)), y = static_cast<float>(below(720));
+        switch (below(8)) {
+            case 0:
+                shell->type(std::to_string(below(50)));
+                break;
+            case 1:
+                shell->press_key(below(2) == 0 ? keys::kEscape : keys::kEnter);
+                break;
+            case 2:
+                shell->press_key(keys::letter('Z'), {.control = true, .shift = below(2) == 0});
+                break;
+            case 3:
+                shell->drag(x, y, x + 40, y - 20,
+                            below(2) == 0 ? MouseButton::Left : MouseButton::Middle);
+                break;
+            case 4:
+                shell->move_mouse(x, y);
+                shell->wheel(below(2) == 0 ? 1.0F : -1.0F);
+                break;
+            default:
+                shell->click(x, y);
+        }
+    }
+    shell->app().place().document.cancel();
+    CHECK(wait_until_idle(*shell));
+}

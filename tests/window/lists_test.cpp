@@ -1,0 +1,162 @@
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/window/model/folder_listing.h"
+#include "workbench/window/model/history_tree.h"
+#include "workbench/window/model/message.h"
+#include "workbench/window/model/rail.h"
+#include "workbench/window/model/readable.h"
+#include "workbench/window/model/settings.h"
+#include "workbench/window/model/user_folders.h"
+#include "workbench/window/view/view_overlays.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const Arguments kGentle = {{"iterations", Value(std::int64_t{1})}};
+
+Session tube_session() {
+    Session session = Session::unsaved(session_options());
+    session.apply("load-surface", {{"file", tube_file()}, {"units", "mm"}});
+    return session;
+}
+
+}  // namespace
+
+SCENARIO("The rail lists the steps with their edits and states", "[window][rail]") {
+    Session session = tube_session();
+    session.apply("smooth", kGentle);
+    const auto rail = rail_of(*session.snapshot(), "cfd");
+    REQUIRE(rail.size() == 9);
+    CHECK(rail[0].title == "Source");
+    CHECK(rail[0].edits.size() == 1);
+    CHECK(rail[1].state == StepState::Empty);
+    REQUIRE(rail[4].edits.size() == 1);
+    CHECK(rail[4].edits[0].operation == "smooth");
+    CHECK(rail[4].edits[0].arguments == "iterations=1");
+    WHEN("an earlier edit is left out") {
+        const EditId repair = session.apply("repair", {}).edit.edit.id;
+        session.remove_edit(repair);
+        session.apply("smooth", kGentle, {.step = Step::Source});
+        const auto changed = rail_of(*session.snapshot(), "cfd");
+        CHECK(changed[4].state == StepState::Pending);
+        CHECK(pending_count(*session.snapshot(), "cfd") == 1);
+    }
+}
+
+SCENARIO("Edits of another variant are not in the rail", "[window][rail]") {
+    Session session = tube_session();
+    session.apply("subdivide", {}, {.variant = "rp"});
+    CHECK(rail_of(*session.snapshot(), "cfd")[6].edits.empty());
+    CHECK(rail_of(*session.snapshot(), "rp")[6].edits.size() == 1);
+}
+
+SCENARIO("The history is a tree whose branches keep their places", "[window][history]") {
+    Session session = tube_session();
+    session.apply("smooth", kGentle);
+    session.undo();
+    session.apply("repair", {});
+    const HistoryTree tree = history_tree(*session.snapshot());
+    REQUIRE(tree.rows.size() == 4);
+    CHECK(tree.rows[0].title == "empty case");
+    CHECK(tree.rows[1].title == "load-surface");
+    CHECK(tree.rows[1].author == "Ada");
+    CHECK(tree.columns == 2);
+    const auto current =
+        std::ranges::find_if(tree.rows, [](const HistoryRow& row) { return row.current; });
+    REQUIRE(current != tree.rows.end());
+    CHECK(current->title == "repair");
+    CHECK(current->column == 1);
+    const auto other = std::ranges::find_if(
+        tree.rows, [](const HistoryRow& row) { return row.title == "smooth"; });
+    REQUIRE(other != tree.rows.end());
+    CHECK_FALSE(other->on_path);
+    CHECK(other->arguments == "iterations=1");
+    CHECK(tree.can_undo);
+    CHECK(tree.undo_title == "repair");
+    CHECK_FALSE(tree.can_redo);
+    session.undo();
+    CHECK(history_tree(*session.snapshot()).redo_title == "repair");
+}
+
+SCENARIO("A message names the operation that its text recommends", "[window][messages]") {
+    CHECK(remedy_in("the surface has holes: use fill-hole, then remesh", "tetrahedralize") ==
+          "fill-hole");
+    CHECK(remedy_in("remesh failed: use repair", "remesh") == "repair");
+    CHECK(remedy_in("it is remeshed and smoother", "").empty());
+    CHECK(make_message(MessageKind::Remark, "use repair").remedy.empty());
+}
+
+SCENARIO("Settings remember recent projects", "[window][settings]") {
+    const std::string folder = temporary_folder();
+    for (const char* name : {"/a.vbench", "/b.vbench"}) write_text(folder + name, "");
+    Settings settings(folder + "/config");
+    settings.remember(folder + "/a.vbench");
+    settings.remember(folder + "/b.vbench");
+    settings.remember(folder + "/a.vbench");
+    settings.dark = false;
+    REQUIRE(settings.save());
+    fs::remove(folder + "/b.vbench");
+    const Settings again(folder + "/config");
+    CHECK_FALSE(again.dark);
+    REQUIRE(again.recent().size() == 2);
+    CHECK(again.recent()[0].file.filename() == "a.vbench");
+    CHECK_FALSE(again.recent()[0].missing);
+    CHECK(again.recent()[1].missing);
+    WHEN("the file is damaged") {
+        write_text(folder + "/config/settings.json", "{\"recent\": [1, 2");
+        const Settings defaults(folder + "/config");
+        CHECK(defaults.recent().empty());
+        CHECK(defaults.dark);
+    }
+}
+
+SCENARIO("A listing has folders first and only files that can be opened", "[window][files]") {
+    const std::string folder = temporary_folder();
+    fs::create_directories(folder + "/zebra");
+    fs::create_directories(folder + "/case");
+    write_text(folder + "/case/case.json", "{}");
+    for (const char* name : {"/b.STL", "/A.nii.gz", "/notes.txt", "/.hidden.stl"})
+        write_text(folder + name, "x");
+    const FolderListing listing = list_folder(folder, openable_suffixes());
+    std::vector<std::string> names;
+    for (const FolderEntry& entry : listing.entries) names.push_back(entry.name);
+    CHECK(names == std::vector<std::string>{"case", "zebra", "A.nii.gz", "b.STL"});
+    CHECK(listing.entries[0].openable_folder);
+    CHECK_FALSE(listing.entries[1].openable_folder);
+    CHECK_THAT(list_folder(folder + "/none", {}).error, Contains("none"));
+}
+
+SCENARIO("A new project never replaces a file", "[window][files]") {
+    const std::string folder = temporary_folder(), other = temporary_folder();
+    write_text(folder + "/scan.nii.gz", "");
+    CHECK(new_project_file(folder + "/scan.nii.gz", true, other) ==
+          fs::path(folder) / "scan.vbench");
+    write_text(folder + "/scan.vbench", "");
+    CHECK(new_project_file(folder + "/scan.nii.gz", true, other) ==
+          fs::path(folder) / "scan-2.vbench");
+    CHECK(new_project_file(folder + "/scan.nii.gz", false, other) ==
+          fs::path(other) / "scan.vbench");
+}
+
+SCENARIO("A scale bar has a round length", "[window][view]") {
+    CHECK(scale_length(0.99).text == "0.5 mm");
+    CHECK(scale_length(1.0).text == "1 mm");
+    CHECK(scale_length(49.0).text == "20 mm");
+    CHECK(scale_length(0.0).text.empty());
+}
+
+SCENARIO("Names of the command line are made readable", "[window]") {
+    CHECK(readable("clip-opening") == "Clip opening");
+    CHECK(readable("tau_max") == "Tau max");
+    CHECK(readable("").empty());
+}

@@ -1,0 +1,75 @@
+#include "workbench/window/model/operation_form.h"
+
+#include <catch2/catch.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/operations/table.h"
+
+using namespace vesselbench;
+using Catch::Matchers::Contains;
+
+SCENARIO("A form's texts become arguments", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    CHECK(form.valid());
+    CHECK(form.arguments() == Arguments{});
+    form.set("lambda", "0.25");
+    form.set("iterations", "3");
+    CHECK(form.arguments() == Arguments{{"lambda", 0.25}, {"iterations", Value(std::int64_t{3})}});
+    form.reset();
+    CHECK(form.arguments() == Arguments{});
+}
+
+SCENARIO("A wrong text has the checker's error", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    form.set("lambda", "2");
+    CHECK_FALSE(form.valid());
+    CHECK_THAT(form.field("lambda").error, Contains("'lambda' = '2' is not allowed"));
+    CHECK_THAT(form.field("lambda").error, Contains("0 to 1"));
+    CHECK(form.field("iterations").error.empty());
+    CHECK_THROWS_AS(form.arguments(), UsageError);
+    form.set("lambda", "");
+    CHECK(form.valid());
+    CHECK_THROWS_AS(form.set("lamda", "1"), UsageError);
+}
+
+SCENARIO("Fields without effect are inactive and not given", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    CHECK_FALSE(form.field("margin").active);
+    form.set("distance", "margin");
+    CHECK(form.field("margin").active);
+    form.set("margin", "-1");
+    CHECK_FALSE(form.valid());
+    form.set("distance", "linear");
+    CHECK_FALSE(form.field("margin").active);
+    CHECK(form.valid());
+    CHECK_FALSE(form.arguments().has("margin"));
+}
+
+SCENARIO("A form misses required parameters", "[window][form]") {
+    const OperationForm form(find_operation("load-surface"));
+    CHECK_FALSE(form.valid());
+    CHECK_THAT(form.error(), Contains("'file' is required"));
+    CHECK(form.field("file").error.empty());
+}
+
+SCENARIO("A form shows its command", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    form.set("lambda", "0.5");
+    CHECK(form.as_command("/data/it's a case.vbench", "cfd") ==
+          R"(vesselbench apply '/data/it'\''s a case.vbench' smooth lambda=0.5)");
+    OperationForm remesh(find_operation("remesh"));
+    CHECK(remesh.as_command("a.vbench", "rp") == "vesselbench apply a.vbench remesh --variant rp");
+    EditRecord edit{.edit = {.id = 3, .revision = 2}, .operation = "smooth"};
+    edit.given = {{"iterations", Value(std::int64_t{7})}};
+    const OperationForm change(find_operation("smooth"), edit);
+    CHECK(change.edit() == 3);
+    CHECK(change.field("iterations").text == "7");
+    CHECK(change.as_command("a.vbench", "cfd") == "vesselbench change a.vbench 3 iterations=7");
+}
+
+SCENARIO("Words of a shell are quoted only where needed", "[window][form]") {
+    CHECK(shell_quoted("a/b-c.vbench") == "a/b-c.vbench");
+    CHECK(shell_quoted("") == "''");
+    CHECK(shell_quoted("a b") == "'a b'");
+    CHECK(shell_quoted("$HOME") == "'$HOME'");
+}

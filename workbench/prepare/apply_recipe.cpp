@@ -1,0 +1,98 @@
+#include "workbench/prepare/apply_recipe.h"
+
+#include <cmath>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/operations/table.h"
+#include "workbench/report/log_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string told(const LogEntry& entry) {
+    const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
+    const std::string change = entry.result ? change_text(entry.result->change) : "";
+    return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
+           (change.empty() ? "" : ": " + change);
+}
+
+/// Where an operation that keeps the volume changes it by more than this [-], the surface is too
+/// coarse for it.
+constexpr double kNoticedChange = 0.03;
+
+/// What a user should know of an edit beside its own warnings; else empty.
+std::string noticed(const LogEntry& entry) {
+    const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
+    if (remedy.empty() || !entry.result) return "";
+    const SurfaceChange& change = entry.result->change;
+    if (!change.volume_before || !change.volume_after || *change.volume_before <= 0) return "";
+    const double ratio = *change.volume_after / *change.volume_before;
+    if (std::abs(ratio - 1.0) <= kNoticedChange) return "";
+    return entry.edit.operation + " changed the volume by " +
+           formatted(100.0 * (ratio - 1.0), "%.1f") + " %: " + remedy;
+}
+
+/// Applies one entry. \return a warning in addition to the edit's own; empty if there is none
+std::string apply_entry(Session& session, const RecipeEntry& entry, const std::string& variant,
+                        const Teller& tell, const Progress& progress) {
+    const Operation& operation = entry.given.operation();
+    try {
+        const LogEntry done =
+            session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
+        tell(told(done));
+        if (done.result)
+            for (const std::string& warning : done.result->warnings)
+                tell("warning: " + operation.name + ": " + warning);
+        const std::string warning = noticed(done);
+        if (!warning.empty()) tell("warning: " + warning);
+        return warning;
+    } catch (const InvalidInput& error) {
+        // The loaded data was accepted: from here on, the operation is to blame.
+        if (operation.usual_step == Step::Source) throw;
+        throw AlgorithmFailure(error.what());
+    } catch (const AlgorithmFailure& error) {
+        if (operation.recipe.proves_source) throw UnusableSource(error.what());
+        if (entry.otherwise) {
+            RecipeEntry second = entry;
+            second.otherwise.reset();
+            second.given.set(*entry.otherwise);
+            std::string changed;
+            for (const auto& [name, value] : (*entry.otherwise)->values())
+                changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
+            const std::string warning =
+                operation.name + " with " + changed + " instead: " + error.what();
+            tell("warning: " + warning);
+            const std::string more = apply_entry(session, second, variant, tell, progress);
+            return more.empty() ? warning : warning + "; " + more;
+        }
+        if (!entry.optional) throw;
+        const std::string warning = operation.name + " was skipped: " + error.what();
+        tell("warning: " + warning);
+        return warning;
+    }
+}
+
+bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
+    return entry.unless_closed &&
+           surface_of(session.scene(variant)).topology->boundary_loops().empty();
+}
+
+}  // namespace
+
+std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
+                                      const std::string& variant, const Teller& tell,
+                                      const Progress& progress) {
+    std::vector<std::string> warnings;
+    const double share = 1.0 / static_cast<double>(recipe.size());
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        if (is_left_out(session, recipe[i], variant)) continue;
+        const double from = share * static_cast<double>(i);
+        const std::string warning =
+            apply_entry(session, recipe[i], variant, tell, progress.part(from, from + share));
+        if (!warning.empty()) warnings.push_back(warning);
+    }
+    return warnings;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,150 @@
+#include "workbench/window/app.h"
+
+#include <cmath>
+
+#include <imgui.h>
+
+#include "workbench/window/model/user_folders.h"
+#include "workbench/window/panels/banners.h"
+#include "workbench/window/panels/bottom_panel.h"
+#include "workbench/window/panels/file_dialog.h"
+#include "workbench/window/panels/help_overlay.h"
+#include "workbench/window/panels/layout.h"
+#include "workbench/window/panels/operation_panel.h"
+#include "workbench/window/panels/prepare_dialog.h"
+#include "workbench/window/panels/rail_panel.h"
+#include "workbench/window/panels/shortcuts.h"
+#include "workbench/window/panels/start_screen.h"
+#include "workbench/window/panels/status_line.h"
+#include "workbench/window/panels/tool_bar.h"
+#include "workbench/window/view/viewport.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr float kTextSize = 15.0F;  ///< at scale 1 [pixels]
+
+std::filesystem::path or_else(const std::filesystem::path& given,
+                              std::filesystem::path (*otherwise)()) {
+    return given.empty() ? otherwise() : given;
+}
+
+DocumentOptions document_options(const AppOptions& options) {
+    return {.session = options.session,
+            .wake = options.wake,
+            .documents = or_else(options.documents, documents_folder)};
+}
+
+}  // namespace
+
+struct App::Impl {
+    explicit Impl(const AppOptions& options)
+        : place(document_options(options), Settings(or_else(options.settings, settings_folder))),
+          viewport(options.wake),
+          device(options.device),
+          display_scale(options.display_scale) {}
+
+    [[nodiscard]] float text_size() const {
+        return std::round(kTextSize * static_cast<float>(display_scale * place.settings.scale));
+    }
+
+    void draw_case(PanelContext& context, const Layout& layout);
+
+    Workplace place;
+    Ui ui;
+    Shown shown;
+    Viewport viewport;
+    FileDialog files;
+    std::string device;
+    double display_scale = 1.0;
+    bool moved = true;  ///< the last update changed something
+};
+
+App::App(AppOptions options) : impl_(std::make_unique<Impl>(options)) {}
+
+App::~App() = default;
+
+void App::set_display_scale(double scale) {
+    impl_->display_scale = scale;
+}
+
+bool App::restyle() {
+    Ui& ui = impl_->ui;
+    const float em = impl_->text_size();
+    const bool dark = impl_->place.settings.dark;
+    const bool new_fonts = ui.fonts.regular == nullptr || ui.em != em;
+    if (!new_fonts && ui.theme.dark == dark) return false;
+    ui.theme = dark ? dark_theme() : light_theme();
+    if (new_fonts) {
+        ui.em = em;
+        ui.fonts = make_fonts(em);
+    }
+    apply_theme(ui.theme, em);
+    return new_fonts;
+}
+
+void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
+    viewport.draw(context, layout.view);
+    draw_rail(context, layout.rail);
+    draw_operation_panel(context, layout.operation);
+    draw_bottom_panel(context, layout.bottom);
+    draw_banners(context, layout.view);
+}
+
+void App::draw() {
+    Impl& app = *impl_;
+    app.moved = app.place.update();
+    app.ui.begin_frame();
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const Layout layout = layout_of(size.x, size.y, app.ui.em);
+    app.shown.compact = layout.compact;
+    PanelContext context{app.ui, app.place, app.shown, app.device,
+                         [](const std::string& text) { ImGui::SetClipboardText(text.c_str()); }};
+    handle_shortcuts(context);
+    ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, app.ui.theme.border);
+    draw_tool_bar(context, layout.tool_bar);
+    if (app.place.document.is_open()) {
+        app.draw_case(context, layout);
+    } else {
+        const float top = layout.rail.y;
+        draw_start_screen(context, {0, top, size.x, layout.rail.height});
+    }
+    draw_status_line(context, layout.status);
+    app.files.draw(context, layout.window);
+    if (app.shown.prepare && app.place.document.is_open())
+        draw_prepare_dialog(context, layout.window);
+    if (app.shown.help) draw_help_overlay(context, layout.window);
+}
+
+bool App::is_moving() const {
+    return impl_->moved || impl_->place.document.busy() || impl_->viewport.pending();
+}
+
+bool App::is_settled() const {
+    return !is_moving();
+}
+
+void App::open(const std::filesystem::path& path) {
+    impl_->place.open(path);
+}
+
+int App::drawings() const {
+    return impl_->viewport.drawings();
+}
+
+Workplace& App::place() {
+    return impl_->place;
+}
+
+const Ui& App::ui() const {
+    return impl_->ui;
+}
+
+std::string App::title() const {
+    const Document& document = impl_->place.document;
+    if (!document.is_open()) return "vesselbench";
+    return document.project().filename().string() + " \u2013 vesselbench";
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "workbench/window/model/workplace.h"
+#include "workbench/window/widgets/ui.h"
+
+namespace vesselbench {
+
+struct AppOptions {
+    SessionOptions session;           ///< of every case
+    std::function<void()> wake;       ///< called by any thread when a frame should be drawn
+    std::filesystem::path settings;   ///< folder; empty: the user's
+    std::filesystem::path documents;  ///< folder; empty: the user's
+    std::string device;               ///< name of the OpenGL device, for the status line
+    double display_scale = 1.0;       ///< of the display: 2 where pixels are half as large
+};
+
+/// The window's content. It draws into the current ImGui and OpenGL contexts, and knows nothing of
+/// where these come from. Used by one thread.
+class App {
+public:
+    explicit App(AppOptions options);
+    ~App();
+
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
+
+    /// Before ImGui's new frame: fonts and colours for the theme and scale.
+    /// \return true if the fonts are new, so that their texture must be made again
+    bool restyle();
+
+    void set_display_scale(double scale);
+
+    /// One frame, between ImGui::NewFrame and ImGui::Render.
+    void draw();
+
+    /// True if the next frame would look different without any input: something has ended, or
+    /// progress is shown.
+    [[nodiscard]] bool is_moving() const;
+
+    /// A file that was dropped on the window or named on the command line.
+    void open(const std::filesystem::path& path);
+
+    /// True when nothing is being opened, read or measured, and it is drawn.
+    [[nodiscard]] bool is_settled() const;
+
+    /// Number of times that the model was drawn.
+    [[nodiscard]] int drawings() const;
+
+    [[nodiscard]] Workplace& place();
+    [[nodiscard]] const Ui& ui() const;
+
+    /// For the title bar.
+    [[nodiscard]] std::string title() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,37 @@
+#include "workbench/window/model/deviation_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/kernel/surface_distance.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Fraction of the vertices whose deviation is within the colours' range [-].
+constexpr double kShownShare = 0.98;
+
+/// The least range [mm]: smaller deviations are rounding errors.
+constexpr double kLeastRange = 1e-6;
+
+double range_of(const std::vector<double>& values) {
+    if (values.empty()) return kLeastRange;
+    std::vector<double> sizes(values.size());
+    std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(
+                                        kShownShare * static_cast<double>(sizes.size() - 1));
+    std::ranges::nth_element(sizes, at);
+    return std::max(*at, kLeastRange);
+}
+
+}  // namespace
+
+DeviationMap deviation_map(const Surface& surface, const Surface& reference) {
+    const Positions& positions = surface.points();
+    DeviationMap map{.values = SurfaceDistance(reference).signed_distances(positions)};
+    map.full = range_of(map.values);
+    return map;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,69 @@
+#include "workbench/window/model/folder_listing.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "geometry/formats/image_formats.h"
+#include "geometry/formats/surface_formats.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+bool has_suffix(const std::string& name, const std::vector<std::string>& suffixes) {
+    const std::string small = lower(name);
+    return suffixes.empty() ||
+           std::ranges::any_of(suffixes, [&](const std::string& s) { return small.ends_with(s); });
+}
+
+FolderEntry entry_of(const fs::directory_entry& file) {
+    std::error_code ignored;
+    FolderEntry entry{.name = file.path().filename().string(),
+                      .folder = file.is_directory(ignored)};
+    if (entry.folder)
+        entry.openable_folder = fs::exists(file.path() / "case.json", ignored);
+    else
+        entry.bytes = file.file_size(ignored);
+    return entry;
+}
+
+bool comes_before(const FolderEntry& a, const FolderEntry& b) {
+    if (a.folder != b.folder) return a.folder;
+    return lower(a.name) < lower(b.name);
+}
+
+}  // namespace
+
+std::vector<std::string> openable_suffixes() {
+    std::vector<std::string> suffixes = {".vbench"};
+    for (const std::string& suffix : read_suffixes(surface_formats())) suffixes.push_back(suffix);
+    for (const std::string& suffix : read_suffixes(image_formats())) suffixes.push_back(suffix);
+    std::ranges::sort(suffixes);
+    const auto repeated = std::ranges::unique(suffixes);
+    suffixes.erase(repeated.begin(), repeated.end());
+    return suffixes;
+}
+
+FolderListing list_folder(const fs::path& folder, const std::vector<std::string>& suffixes) {
+    FolderListing listing{.folder = folder};
+    std::error_code error;
+    fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, error);
+    for (const fs::directory_iterator end; !error && files != end; files.increment(error)) {
+        FolderEntry entry = entry_of(*files);
+        if (entry.name.starts_with(".")) continue;
+        if (entry.folder || has_suffix(entry.name, suffixes)) listing.entries.push_back(entry);
+    }
+    if (error)
+        listing.error = "'" + folder.filename().string() + "' cannot be read: " + error.message();
+    std::ranges::sort(listing.entries, comes_before);
+    return listing;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,57 @@
+#include "workbench/window/model/message.h"
+
+#include <cctype>
+#include <ctime>
+
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+bool is_part_of_word(char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' || letter == '_';
+}
+
+/// Where a whole word begins; npos: nowhere.
+std::size_t find_word(const std::string& text, const std::string& word) {
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        const std::size_t end = at + word.size();
+        if ((at == 0 || !is_part_of_word(text[at - 1])) &&
+            (end == text.size() || !is_part_of_word(text[end])))
+            return at;
+    }
+    return std::string::npos;
+}
+
+std::string time_of_day() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    char text[16];
+    std::strftime(text, sizeof text, "%H:%M:%S", &local);
+    return text;
+}
+
+}  // namespace
+
+std::string remedy_in(const std::string& text, const std::string& failed) {
+    std::string first;
+    std::size_t place = std::string::npos;
+    for (const Operation& operation : operation_table()) {
+        const std::size_t at = find_word(text, operation.name);
+        if (operation.name == failed || at >= place) continue;
+        place = at;
+        first = operation.name;
+    }
+    return first;
+}
+
+Message make_message(MessageKind kind, std::string text, const std::string& failed) {
+    Message message{.kind = kind, .text = std::move(text), .time = time_of_day()};
+    if (kind == MessageKind::Error || kind == MessageKind::Warning)
+        message.remedy = remedy_in(message.text, failed);
+    return message;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,111 @@
+#include "workbench/window/model/opening.h"
+
+#include <nlohmann/json.hpp>
+#include <stdlib.h>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+#include "workbench/prepare/prepare.h"
+#include "workbench/window/model/user_folders.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A case folder that describes a built-in phantom, for as long as it lives.
+class PhantomFolder {
+public:
+    explicit PhantomFolder(const std::string& phantom) {
+        std::string name = (fs::temp_directory_path() / "vesselbench-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw IoError("cannot create a temporary folder in '" +
+                          fs::temp_directory_path().string() + "'");
+        made_ = name;
+        fs::create_directory(folder());
+        write_file(folder() / "case.json",
+                   nlohmann::ordered_json({{"name", phantom}, {"phantom", phantom}}).dump());
+    }
+
+    ~PhantomFolder() {
+        std::error_code ignored;
+        fs::remove_all(made_, ignored);
+    }
+
+    PhantomFolder(const PhantomFolder&) = delete;
+    PhantomFolder& operator=(const PhantomFolder&) = delete;
+
+    [[nodiscard]] fs::path folder() const { return made_ / "case"; }
+
+private:
+    fs::path made_;
+};
+
+Opened open_project(const OpenRequest& request, const SessionOptions& options) {
+    Opened opened{.session = Session::open(request.path, options), .project = request.path};
+    const std::string reason = opened.session.read_only_reason();
+    if (!reason.empty()) opened.remarks.push_back("read-only: " + reason);
+    return opened;
+}
+
+Opened open_input(const fs::path& path, const fs::path& project, const SessionOptions& options,
+                  const Progress& progress) {
+    const Input input = resolve_input({.input = path.string()}, progress.part(0.0, 0.4));
+    std::vector<std::string> remarks;
+    const Teller tell = [&](const std::string& text) { remarks.push_back(text); };
+    Session session = start_project(project, input, options, tell, progress.part(0.4, 1.0));
+    return {std::move(session), project, true, input, std::move(remarks)};
+}
+
+Opened open_phantom(const OpenRequest& request, const SessionOptions& options,
+                    const Progress& progress) {
+    const PhantomFolder phantom(request.phantom);
+    const fs::path project = new_project_file(request.phantom, false, request.documents);
+    return open_input(phantom.folder(), project, options, progress);
+}
+
+}  // namespace
+
+std::string OpenRequest::name() const {
+    if (!phantom.empty()) return phantom;
+    return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+Opened open_case(const OpenRequest& request, const SessionOptions& options,
+                 const Progress& progress) {
+    progress.report(0.0, "opening " + request.name());
+    if (!request.phantom.empty()) return open_phantom(request, options, progress);
+    if (!fs::exists(request.path)) throw IoError("'" + request.name() + "' does not exist");
+    if (request.path.extension() == ".vbench") return open_project(request, options);
+    return open_input(request.path,
+                      new_project_file(request.path, request.beside_input, request.documents),
+                      options, progress);
+}
+
+Opening::Opening(OpenRequest request, SessionOptions options, std::function<void()> notify)
+    : request_(std::move(request)) {
+    thread_ = std::thread([this, options = std::move(options), notify = std::move(notify)] {
+        std::exception_ptr error;
+        if (job_->begin()) try {
+                result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
+            } catch (...) {
+                error = std::current_exception();
+            }
+        job_->end(error);
+        if (notify) notify();
+    });
+}
+
+Opening::~Opening() {
+    cancel();
+    thread_.join();
+}
+
+Opened Opening::take() {
+    job_->wait();
+    job_->rethrow();
+    return std::move(*result_);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,129 @@
+#include "workbench/window/model/operation_form.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+bool needs_no_quotes(char letter) {
+    static const std::string plain = "_-./=,:+@%";
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+           plain.find(letter) != std::string::npos;
+}
+
+/// Conditions of conditions; more than the table has, so that a circle ends.
+constexpr int kDeepestCondition = 4;
+
+/// The value that a field takes: its text, else its default; empty: decided by the operation.
+std::string effective_text(const FormField& field) {
+    if (!field.text.empty()) return field.text;
+    return field.parameter->default_value ? to_text(*field.parameter->default_value) : "";
+}
+
+std::string error_in(const FormField& field) {
+    if (field.text.empty()) return "";
+    try {
+        static_cast<void>(parse_value(*field.parameter, field.text));
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string shell_quoted(const std::string& text) {
+    if (!text.empty() && std::ranges::all_of(text, needs_no_quotes)) return text;
+    std::string quoted = "'";
+    for (const char letter : text) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
+    return quoted + "'";
+}
+
+OperationForm::OperationForm(const Operation& operation) : operation_(&operation) {
+    for (const Parameter& parameter : operation.parameters)
+        fields_.push_back({.parameter = &parameter});
+    check();
+}
+
+OperationForm::OperationForm(const Operation& operation, const EditRecord& edit)
+    : OperationForm(operation) {
+    edit_ = edit.edit.id;
+    for (FormField& field : fields_)
+        if (edit.given.has(field.parameter->name))
+            field.text = to_text(edit.given.values().at(field.parameter->name));
+    check();
+}
+
+const FormField& OperationForm::field(const std::string& name) const {
+    return const_cast<OperationForm*>(this)->find(name);
+}
+
+FormField& OperationForm::find(const std::string& name) {
+    const Parameter* parameter = &find_parameter(*operation_, name);
+    return *std::ranges::find(fields_, parameter, &FormField::parameter);
+}
+
+void OperationForm::set(const std::string& name, std::string text) {
+    FormField& field = find(name);
+    if (field.text == text) return;
+    field.text = std::move(text);
+    ++changes_;
+    check();
+}
+
+void OperationForm::reset() {
+    for (FormField& field : fields_) field.text.clear();
+    ++changes_;
+    check();
+}
+
+bool OperationForm::holds(const Condition& condition) const {
+    const Condition* next = &condition;
+    for (int depth = 0; next != nullptr && depth < kDeepestCondition; ++depth) {
+        const FormField& cause = field(next->parameter);
+        if (std::ranges::count(next->values, effective_text(cause)) == 0) return false;
+        next = cause.parameter->only_with ? &*cause.parameter->only_with : nullptr;
+    }
+    return true;
+}
+
+void OperationForm::check() {
+    error_.clear();
+    for (FormField& field : fields_) {
+        field.active = !field.parameter->only_with || holds(*field.parameter->only_with);
+        field.error = field.active ? error_in(field) : "";
+        if (error_.empty()) error_ = field.error;
+    }
+    if (!error_.empty()) return;
+    try {
+        static_cast<void>(checked_arguments(*operation_, arguments()));
+    } catch (const UsageError& error) {
+        error_ = error.what();
+    }
+}
+
+Arguments OperationForm::arguments() const {
+    Arguments arguments;
+    for (const FormField& field : fields_)
+        if (field.active && !field.text.empty())
+            arguments.set(field.parameter->name, parse_value(*field.parameter, field.text));
+    return arguments;
+}
+
+std::string OperationForm::as_command(const std::string& project,
+                                      const std::string& variant) const {
+    std::string command =
+        edit_ ? "vesselbench change " + shell_quoted(project) + " " + std::to_string(*edit_)
+              : "vesselbench apply " + shell_quoted(project) + " " + operation_->name;
+    for (const FormField& field : fields_)
+        if (field.active && !field.text.empty())
+            command += " " + shell_quoted(field.parameter->name + "=" + field.text);
+    if (!edit_ && belongs_to_variant(operation_->usual_step) && variant != "cfd")
+        command += " --variant " + shell_quoted(variant);
+    return command;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,93 @@
+#include "workbench/window/model/rail.h"
+
+#include <algorithm>
+#include <array>
+
+#include "workbench/case/argument_texts.h"
+#include "workbench/operations/table.h"
+#include "workbench/report/log_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+struct StepText {
+    const char* title;
+    const char* purpose;
+};
+
+constexpr std::array<StepText, 9> kSteps = {
+    {{"Source", "Load an image or a surface, extract and repair it"},
+     {"Branches", "Remove branches that the model does not need"},
+     {"Local repair", "Correct bumps, narrowings and holes by hand"},
+     {"Openings", "Cut the vessel's ends, cap and extend them"},
+     {"Smoothing", "Remove staircases and noise, keep the caps"},
+     {"Deformation", "Pose branches for a print"},
+     {"Remeshing", "Make well-shaped triangles"},
+     {"Product", "Fill with tetrahedra, or check for printing"},
+     {"Review", "Collect experts' verdicts, export"}}};
+
+bool is_shown(const EditPlace& place, const std::string& variant) {
+    return place.variant.empty() || place.variant == variant;
+}
+
+RailEdit rail_edit(const LogEntry& entry) {
+    const EditRecord& edit = entry.edit;
+    RailEdit row{.id = edit.edit.id,
+                 .revision = edit.edit.revision,
+                 .operation = edit.operation,
+                 .arguments = argument_summary(find_operation(edit.operation), edit.given),
+                 .status = entry.status,
+                 .reason = entry.reason};
+    if (entry.result) {
+        row.change = change_text(entry.result->change);
+        row.warnings = entry.result->warnings;
+    }
+    return row;
+}
+
+/// The worst of its edits' states.
+StepState state_of(const std::vector<RailEdit>& edits) {
+    StepState worst = StepState::Empty;
+    for (const RailEdit& edit : edits) {
+        const StepState state = edit.status == EditStatus::Stale     ? StepState::Stale
+                                : edit.status == EditStatus::Pending ? StepState::Pending
+                                : edit.warnings.empty()              ? StepState::Done
+                                                                     : StepState::Warnings;
+        worst = std::max(worst, state);
+    }
+    return worst;
+}
+
+}  // namespace
+
+std::string title_of(Step step) {
+    return kSteps.at(static_cast<std::size_t>(step) - 1).title;
+}
+
+std::vector<RailStep> empty_rail() {
+    std::vector<RailStep> rail;
+    for (std::size_t i = 0; i < kSteps.size(); ++i)
+        rail.push_back({.step = static_cast<Step>(i + 1),
+                        .title = kSteps[i].title,
+                        .purpose = kSteps[i].purpose});
+    return rail;
+}
+
+std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& variant) {
+    std::vector<RailStep> rail = empty_rail();
+    for (const LogEntry& entry : snapshot.log)
+        if (is_shown(entry.edit.place, variant))
+            rail.at(static_cast<std::size_t>(entry.edit.place.step) - 1)
+                .edits.push_back(rail_edit(entry));
+    for (RailStep& step : rail) step.state = state_of(step.edits);
+    return rail;
+}
+
+int pending_count(const Snapshot& snapshot, const std::string& variant) {
+    return static_cast<int>(std::ranges::count_if(snapshot.log, [&](const LogEntry& entry) {
+        return entry.status == EditStatus::Pending && is_shown(entry.edit.place, variant);
+    }));
+}
+
+}  // namespace vesselbench

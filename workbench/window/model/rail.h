@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "workbench/session/snapshot.h"
+
+namespace vesselbench {
+
+enum class StepState { Empty, Done, Warnings, Pending, Stale };
+
+/// An edit as the rail lists it.
+struct RailEdit {
+    EditId id = 0;
+    int revision = 1;
+    std::string operation;
+    std::string arguments;  ///< "lambda=0.3 iterations=5"
+    EditStatus status = EditStatus::Done;
+    std::string reason;  ///< of a stale edit
+    std::string change;  ///< "volume -2.1 %, moved up to 0.31 mm"
+    std::vector<std::string> warnings;
+};
+
+/// A step with the edits of the current state.
+struct RailStep {
+    Step step = Step::Source;
+    std::string title;    ///< "Local repair"
+    std::string purpose;  ///< what it is for, one line
+    StepState state = StepState::Empty;
+    std::vector<RailEdit> edits;
+};
+
+/// The nine steps in order. \param variant whose edits are listed from deformation on
+[[nodiscard]] std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& variant);
+
+/// The nine steps of a case that is not open.
+[[nodiscard]] std::vector<RailStep> empty_rail();
+
+/// "Local repair"
+[[nodiscard]] std::string title_of(Step step);
+
+/// Number of pending edits that the variant's model consists of.
+[[nodiscard]] int pending_count(const Snapshot& snapshot, const std::string& variant);
+
+}  // namespace vesselbench

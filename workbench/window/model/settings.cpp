@@ -1,0 +1,87 @@
+#include "workbench/window/model/settings.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/whole_file.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFile = "settings.json";
+constexpr double kSmallestScale = 0.75, kLargestScale = 3.0;
+
+std::string now_text() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
+    return text;
+}
+
+fs::path whole_path(const fs::path& file) {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(file, error);
+    return error ? file : whole;
+}
+
+}  // namespace
+
+Settings::Settings(fs::path folder) : folder_(std::move(folder)) {
+    try {
+        read();
+    } catch (const std::exception&) {  // the window opens with its defaults
+        recent_.clear();
+    }
+    refresh();
+}
+
+void Settings::read() {
+    if (!fs::exists(folder_ / kFile)) return;
+    const Json json = Json::parse(file_content(folder_ / kFile));
+    dark = json.value("theme", "dark") != "light";
+    scale = std::clamp(json.value("scale", 1.0), kSmallestScale, kLargestScale);
+    for (const Json& entry : json.value("recent", Json::array()))
+        recent_.push_back(
+            {entry.at("file").get<std::string>(), entry.value("opened", std::string())});
+}
+
+void Settings::remember(const fs::path& project) {
+    const fs::path file = whole_path(project);
+    forget(file);
+    recent_.insert(recent_.begin(), {.file = file, .opened = now_text()});
+    if (recent_.size() > kMostRecent) recent_.resize(kMostRecent);
+}
+
+void Settings::forget(const fs::path& project) {
+    const fs::path file = whole_path(project);
+    std::erase_if(recent_, [&](const RecentProject& entry) { return entry.file == file; });
+}
+
+void Settings::refresh() {
+    std::error_code ignored;
+    for (RecentProject& entry : recent_) entry.missing = !fs::exists(entry.file, ignored);
+}
+
+bool Settings::save() const {
+    Json list = Json::array();
+    for (const RecentProject& entry : recent_)
+        list.push_back({{"file", entry.file.string()}, {"opened", entry.opened}});
+    const Json json = {{"theme", dark ? "dark" : "light"}, {"scale", scale}, {"recent", list}};
+    try {
+        fs::create_directories(folder_);
+        write_file(folder_ / kFile, json.dump(2) + "\n");
+    } catch (const std::exception&) {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vesselbench {
+
+/// A project that was open before.
+struct RecentProject {
+    std::filesystem::path file;
+    std::string opened;    ///< local time, "2024-05-17 09:30"
+    bool missing = false;  ///< the file is not there now
+};
+
+/// What the window remembers between two starts: appearance and recent projects, newest first.
+class Settings {
+public:
+    static constexpr std::size_t kMostRecent = 12;
+
+    /// Reads settings.json of this folder; a missing or damaged file gives the defaults.
+    explicit Settings(std::filesystem::path folder);
+
+    bool dark = true;
+    double scale = 1.0;  ///< of all sizes, on top of the display's
+
+    [[nodiscard]] const std::vector<RecentProject>& recent() const { return recent_; }
+
+    /// Puts a project first in the list.
+    void remember(const std::filesystem::path& project);
+    void forget(const std::filesystem::path& project);
+
+    /// Looks which projects are missing.
+    void refresh();
+
+    /// \return false if the file cannot be written, which is no error for the user's work
+    bool save() const;
+
+private:
+    void read();
+
+    std::filesystem::path folder_;
+    std::vector<RecentProject> recent_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,74 @@
+#include "workbench/window/model/user_folders.h"
+
+#include <cstdlib>
+#include <string>
+
+#include <unistd.h>
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path from_environment(const char* name) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? fs::path() : fs::path(text);
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+/// The name without the suffixes of compressed images: "scan.nii.gz" is "scan".
+std::string plain_stem(const fs::path& input) {
+    fs::path name = input.has_filename() ? input.filename() : input.parent_path().filename();
+    if (name.extension() == ".gz") name = name.stem();
+    if (!is_folder(input)) name = name.stem();
+    return name.empty() ? "case" : name.string();
+}
+
+}  // namespace
+
+fs::path home_folder() {
+    const fs::path home = from_environment("HOME");
+    return home.empty() ? fs::path("/") : home;
+}
+
+fs::path settings_folder() {
+    const fs::path given = from_environment("XDG_CONFIG_HOME");
+    return (given.empty() ? home_folder() / ".config" : given) / "vesselbench";
+}
+
+fs::path documents_folder() {
+    const fs::path given = from_environment("XDG_DOCUMENTS_DIR");
+    if (is_folder(given)) return given;
+    const fs::path usual = home_folder() / "Documents";
+    return is_folder(usual) ? usual : home_folder();
+}
+
+bool is_writable_folder(const fs::path& folder) {
+    return is_folder(folder) && ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+fs::path bundled_cases_folder() {
+    std::error_code error;
+    fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    for (; !error && folder != folder.root_path(); folder = folder.parent_path())
+        if (fs::exists(folder / "cases" / "aneurysm" / "case.json", error)) return folder / "cases";
+    return {};
+}
+
+fs::path new_project_file(const fs::path& input, bool beside, const fs::path& otherwise) {
+    const fs::path parent = (input.has_filename() ? input : input.parent_path()).parent_path();
+    const fs::path near = parent.empty() ? fs::path(".") : parent;
+    const fs::path folder = beside && is_writable_folder(near) ? near : otherwise;
+    const std::string stem = plain_stem(input);
+    fs::path file = folder / (stem + ".vbench");
+    for (int number = 2; fs::exists(file); ++number)
+        file = folder / (stem + "-" + std::to_string(number) + ".vbench");
+    return file;
+}
+
+}  // namespace vesselbench

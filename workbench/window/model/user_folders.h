@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+namespace vesselbench {
+
+/// $XDG_CONFIG_HOME/vesselbench, or its default below the home folder. It may not exist.
+[[nodiscard]] std::filesystem::path settings_folder();
+
+/// $XDG_DOCUMENTS_DIR, else Documents in the home folder if it exists, else the home folder.
+[[nodiscard]] std::filesystem::path documents_folder();
+
+[[nodiscard]] std::filesystem::path home_folder();
+
+/// A file in it can be created.
+[[nodiscard]] bool is_writable_folder(const std::filesystem::path& folder);
+
+/// The folder with the bundled cases, found from the program upward; empty: none.
+[[nodiscard]] std::filesystem::path bundled_cases_folder();
+
+/// Where the project of an input goes: NAME.vbench beside the input if that folder can be written
+/// (`beside`), else in `otherwise`; never an existing file (NAME-2.vbench ...).
+[[nodiscard]] std::filesystem::path new_project_file(const std::filesystem::path& input,
+                                                     bool beside,
+                                                     const std::filesystem::path& otherwise);
+
+}  // namespace vesselbench

@@ -1,0 +1,168 @@
+#include "workbench/window/model/workplace.h"
+
+#include <utility>
+
+#include "workbench/operations/table.h"
+#include "workbench/window/model/user_folders.h"
+
+namespace vesselbench {
+
+Workplace::Workplace(DocumentOptions options, Settings remembered)
+    : document(std::move(options)), settings(std::move(remembered)) {}
+
+bool Workplace::update() {
+    const bool changed = document.poll();
+    if (was_opening_ && !document.is_opening() && document.is_open() && !document.failure()) {
+        settings.remember(document.project());
+        settings.save();
+        choose_step(Step::Source);
+    }
+    was_opening_ = document.is_opening();
+    if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
+    if (seen_entered_ != document.entered()) {
+        seen_entered_ = document.entered();
+        form_.reset();
+    }
+    return changed;
+}
+
+void Workplace::renew_lists() {
+    seen_snapshots_ = document.snapshot_changes();
+    if (!document.is_open()) {
+        rail_ = empty_rail();
+        history_ = {};
+        return;
+    }
+    rail_ = rail_of(*document.snapshot(), document.variant());
+    history_ = history_tree(*document.snapshot());
+}
+
+// --- cases
+
+void Workplace::open(const std::filesystem::path& path) {
+    const std::filesystem::path bundled = bundled_cases_folder();
+    std::error_code error;
+    const bool own = !bundled.empty() && std::filesystem::equivalent(
+                                             path.has_filename() ? path.parent_path()
+                                                                 : path.parent_path().parent_path(),
+                                             bundled, error);
+    document.open({.path = path, .beside_input = !own});
+}
+
+void Workplace::open_bundled(const std::filesystem::path& path) {
+    document.open({.path = path, .beside_input = false});
+}
+
+void Workplace::open_phantom(const std::string& name) {
+    document.open({.phantom = name});
+}
+
+void Workplace::close() {
+    leave_form();
+    document.close();
+    settings.refresh();
+    renew_lists();
+}
+
+// --- the operation panel
+
+void Workplace::choose_step(Step step) {
+    leave_form();
+    step_ = step;
+}
+
+void Workplace::choose(const std::string& operation) {
+    leave_form();
+    form_.emplace(find_operation(operation));
+    step_ = form_->operation().usual_step;
+}
+
+void Workplace::choose_edit(EditId edit) {
+    leave_form();
+    for (const LogEntry& entry : document.snapshot()->log) {
+        if (entry.edit.edit.id != edit) continue;
+        form_.emplace(find_operation(entry.edit.operation), entry.edit);
+        step_ = entry.edit.place.step;
+    }
+}
+
+void Workplace::set_field(const std::string& parameter, const std::string& text) {
+    const int before = form_->changes();
+    form_->set(parameter, text);
+    if (form_->changes() == before) return;
+    document.forget_failure();
+    document.drop_preview();
+}
+
+void Workplace::reset_form() {
+    form_->reset();
+    document.forget_failure();
+    document.drop_preview();
+}
+
+void Workplace::leave_form() {
+    document.drop_preview();
+    if (form_) document.forget_failure();
+    form_.reset();
+    previewed_changes_ = -1;
+}
+
+bool Workplace::can_change() const {
+    return document.is_open() && !document.activity() &&
+           document.snapshot()->read_only_reason.empty();
+}
+
+bool Workplace::can_apply() const {
+    return form_ && form_->valid() && can_change();
+}
+
+bool Workplace::preview_is_current() const {
+    return document.previewed() && form_ && previewed_changes_ == form_->changes();
+}
+
+void Workplace::preview() {
+    if (!form_ || !form_->valid() || document.activity()) return;
+    previewed_changes_ = form_->changes();
+    if (form_->edit())
+        document.preview_change(*form_->edit(), form_->arguments());
+    else
+        document.preview(form_->operation().name, form_->arguments());
+}
+
+void Workplace::apply() {
+    if (!can_apply()) return;
+    if (preview_is_current()) return document.commit_preview();
+    if (form_->edit())
+        document.change(*form_->edit(), form_->arguments());
+    else
+        document.apply(form_->operation().name, form_->arguments());
+}
+
+std::string Workplace::command() const {
+    const std::filesystem::path& project = document.project();
+    return form_ ? form_->as_command(project.string(), document.variant()) : "";
+}
+
+// --- questions for a file
+
+void Workplace::ask(FileQuestion question, const std::string& parameter) {
+    question_ = question;
+    asked_parameter_ = parameter;
+}
+
+void Workplace::answer(const std::filesystem::path& file) {
+    switch (std::exchange(question_, FileQuestion::None)) {
+        case FileQuestion::Open:
+            return open(file);
+        case FileQuestion::SaveCopy:
+            return document.save_copy(file);
+        case FileQuestion::Export:
+            return document.export_to(file);
+        case FileQuestion::Parameter:
+            return form_ ? set_field(asked_parameter_, file.string()) : void();
+        case FileQuestion::None:
+            return;
+    }
+}
+
+}  // namespace vesselbench

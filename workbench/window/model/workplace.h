@@ -1,0 +1,102 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/window/model/document.h"
+#include "workbench/window/model/history_tree.h"
+#include "workbench/window/model/operation_form.h"
+#include "workbench/window/model/rail.h"
+#include "workbench/window/model/settings.h"
+
+namespace vesselbench {
+
+/// What a file is asked for.
+enum class FileQuestion { None, Open, SaveCopy, Export, Parameter };
+
+/// Everything the window is about, without drawing: the document, what the user has chosen and
+/// typed, and the lists that panels show.
+class Workplace {
+public:
+    Workplace(DocumentOptions options, Settings settings);
+
+    /// Collects what has ended; once a frame. \return true if something shown has changed
+    bool update();
+
+    Document document;
+    Settings settings;
+
+    // --- cases
+
+    /// Opens a file or folder that the user chose, or a bundled one, whose project goes to the
+    /// documents folder.
+    void open(const std::filesystem::path& path);
+    void open_bundled(const std::filesystem::path& path);
+    void open_phantom(const std::string& name);
+    void close();
+
+    // --- lists, current as of the last update
+
+    [[nodiscard]] const std::vector<RailStep>& rail() const { return rail_; }
+
+    [[nodiscard]] const HistoryTree& history() const { return history_; }
+
+    // --- the operation panel
+
+    [[nodiscard]] std::optional<OperationForm>& form() { return form_; }
+
+    [[nodiscard]] const std::optional<OperationForm>& form() const { return form_; }
+
+    [[nodiscard]] Step step() const { return step_; }
+
+    /// Shows the operations of a step.
+    void choose_step(Step step);
+
+    /// Shows the form of an operation. \throw UsageError if there is none of this name
+    void choose(const std::string& operation);
+
+    /// Shows the form of an edit of the current state.
+    void choose_edit(EditId edit);
+
+    void set_field(const std::string& parameter, const std::string& text);
+    void reset_form();
+
+    /// Closes the form and drops its preview.
+    void leave_form();
+
+    [[nodiscard]] bool can_apply() const;
+    void preview();
+    /// Enters the preview if it is of what the form says, else runs the form.
+    void apply();
+
+    /// The form's command line.
+    [[nodiscard]] std::string command() const;
+
+    // --- questions for a file
+
+    [[nodiscard]] FileQuestion question() const { return question_; }
+
+    [[nodiscard]] const std::string& asked_parameter() const { return asked_parameter_; }
+
+    void ask(FileQuestion question, const std::string& parameter = {});
+    void answer(const std::filesystem::path& file);
+
+private:
+    void renew_lists();
+    [[nodiscard]] bool preview_is_current() const;
+    [[nodiscard]] bool can_change() const;
+
+    std::vector<RailStep> rail_ = empty_rail();
+    HistoryTree history_;
+    std::optional<OperationForm> form_;
+    Step step_ = Step::Source;
+    int previewed_changes_ = -1;  ///< the form's, when its preview was asked for
+    int seen_snapshots_ = 0, seen_entered_ = 0;
+    bool was_opening_ = false;
+    FileQuestion question_ = FileQuestion::None;
+    std::string asked_parameter_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,117 @@
+#include "workbench/window/panels/banners.h"
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/model/readable.h"
+#include "workbench/window/panels/message_panel.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A line over the view: an icon, a text, and at its end up to two buttons.
+struct Banner {
+    const char* icon;
+    Paint colour = 0;
+    std::string text;
+    std::string action = {};  ///< label of the button
+    bool can_close = false;
+};
+
+enum class Answer { None, Action, Close };
+
+Answer draw_banner(PanelContext& c, const std::string& name, const Banner& banner,
+                   const ScreenRect& rect) {
+    const Ui& ui = c.ui;
+    begin_frame(ui, "banner." + name, rect,
+                {.back = ui.theme.raised,
+                 .padding = ui.grid(1),
+                 .scrolls = false,
+                 .floats = true,
+                 .bordered = true});
+    ImGui::AlignTextToFramePadding();
+    text(ui, banner.icon, banner.colour);
+    ImGui::SameLine();
+    const float action =
+        banner.action.empty() ? 0 : ImGui::CalcTextSize(banner.action.c_str()).x + ui.grid(4);
+    const float close = banner.can_close ? ImGui::GetFrameHeight() + ui.grid(1) : 0;
+    const float end = rect.width - ui.grid(1) - action - close;
+    ImGui::PushTextWrapPos(end);
+    text(ui, banner.text, ui.theme.text);
+    ImGui::PopTextWrapPos();
+    Answer answer = Answer::None;
+    ImGui::SetCursorPos({end + ui.grid(1), ui.grid(1)});
+    if (action > 0 && button(c.ui, "banner." + name + ".action", banner.action))
+        answer = Answer::Action;
+    ImGui::SetCursorPos({rect.width - ui.grid(1) - ImGui::GetFrameHeight(), ui.grid(1)});
+    if (banner.can_close && icon_button(c.ui, "banner." + name + ".close", icons::kClose, "Close"))
+        answer = Answer::Close;
+    end_frame();
+    return answer;
+}
+
+/// Tall enough for its text.
+float height_of(const Ui& ui, const Banner& banner, float width) {
+    const float room = width - ui.em * (banner.action.empty() ? 6 : 16);
+    const float text = ImGui::CalcTextSize(banner.text.c_str(), nullptr, false, room).y;
+    return std::max(text + ui.em * 0.8F, ImGui::GetFrameHeight()) + ui.grid(2);
+}
+
+bool is_about_form(const PanelContext& c) {
+    return c.place.form().has_value();
+}
+
+void draw_failure(PanelContext& c, ScreenRect& place) {
+    const Message failure = *c.place.document.failure();
+    const Banner banner{icon_of(failure.kind), c.ui.theme.danger, failure.text,
+                        failure.remedy.empty() ? "" : "Go to " + readable(failure.remedy), true};
+    place.height = height_of(c.ui, banner, place.width);
+    const Answer answer = draw_banner(c, "failure", banner, place);
+    if (answer == Answer::None) return;
+    c.place.document.forget_failure();
+    if (answer == Answer::Action) c.place.choose(failure.remedy);
+}
+
+void draw_pending(PanelContext& c, ScreenRect& place, int count) {
+    const Banner banner{icons::kPending, c.ui.theme.accent,
+                        counted(static_cast<std::size_t>(count), "edit") +
+                            (count == 1 ? " is" : " are") +
+                            " pending: the model is shown as it is before",
+                        c.place.document.activity() ? "" : "Run"};
+    place.height = height_of(c.ui, banner, place.width);
+    if (draw_banner(c, "pending", banner, place) == Answer::Action) c.place.document.run_pending();
+}
+
+void draw_preview(PanelContext& c, ScreenRect& place) {
+    const Banner banner{icons::kPreview, c.ui.theme.accent,
+                        "Preview of " + readable(c.place.document.previewed()->edit().operation) +
+                            ": not entered yet"};
+    place.height = height_of(c.ui, banner, place.width);
+    draw_banner(c, "preview", banner, place);
+}
+
+}  // namespace
+
+void draw_banners(PanelContext& c, const ScreenRect& view) {
+    const Document& document = c.place.document;
+    if (!document.is_open()) return;
+    const float gap = c.ui.grid(1.5F);
+    const float tools = c.ui.em * 13.5F;  // the view's buttons
+    ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
+    if (document.failure() && !is_about_form(c)) {
+        draw_failure(c, place);
+        place.y += place.height + gap;
+    }
+    const int pending = pending_count(*document.snapshot(), document.variant());
+    if (pending > 0) {
+        draw_pending(c, place, pending);
+        place.y += place.height + gap;
+    }
+    if (document.previewed()) draw_preview(c, place);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,56 @@
+#include "workbench/window/panels/bottom_panel.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "workbench/window/panels/history_panel.h"
+#include "workbench/window/panels/message_panel.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+void draw_tab(PanelContext& c, const std::string& name, const char* icon, const std::string& label,
+              BottomTab tab) {
+    const bool chosen = c.shown.bottom == tab;
+    ImGui::PushFont(chosen ? c.ui.fonts.medium : c.ui.fonts.regular);
+    if (button(c.ui, name, label, {.icon = icon, .quiet = true})) c.shown.bottom = tab;
+    ImGui::PopFont();
+    if (!chosen) return;
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddRectFilled({from.x, to.y}, {to.x, to.y + c.ui.grid(0.25F)},
+                                              c.ui.theme.accent);
+}
+
+std::string message_label(const Document& document) {
+    const auto& all = document.messages();
+    const auto serious = std::ranges::count_if(all, [](const Message& message) {
+        return message.kind == MessageKind::Warning || message.kind == MessageKind::Error;
+    });
+    return serious == 0 ? "Messages" : "Messages (" + std::to_string(serious) + ")";
+}
+
+}  // namespace
+
+void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
+    begin_frame(c.ui, "bottom", rect, {.padding = c.ui.grid(0.5F), .scrolls = false});
+    draw_tab(c, "tab.history", icons::kHistory, "History", BottomTab::History);
+    ImGui::SameLine();
+    draw_tab(c, "tab.messages", icons::kMessages, message_label(c.place.document),
+             BottomTab::Messages);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - c.ui.grid(0.5F));
+    separator(c.ui);
+    ImGui::BeginChild("bottom content");
+    if (c.shown.bottom == BottomTab::History)
+        draw_history(c);
+    else
+        draw_messages(c);
+    ImGui::EndChild();
+    end_frame();
+}
+
+}  // namespace vesselbench

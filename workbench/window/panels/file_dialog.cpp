@@ -1,0 +1,215 @@
+#include "workbench/window/panels/file_dialog.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "workbench/export/export_formats.h"
+#include "workbench/window/model/user_folders.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/row.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> suffixes_for(FileQuestion question) {
+    if (question == FileQuestion::SaveCopy) return {".vbench"};
+    if (question == FileQuestion::Open) return openable_suffixes();
+    if (question == FileQuestion::Parameter) {
+        std::vector<std::string> suffixes = openable_suffixes();
+        std::erase(suffixes, ".vbench");
+        return suffixes;
+    }
+    std::vector<std::string> written;
+    for (const ExportFormat& format : export_formats())
+        written.insert(written.end(), format.suffixes.begin(), format.suffixes.end());
+    return written;
+}
+
+const char* title_of(FileQuestion question) {
+    switch (question) {
+        case FileQuestion::Open:
+            return "Open";
+        case FileQuestion::SaveCopy:
+            return "Save a copy of the project";
+        case FileQuestion::Export:
+            return "Export the model";
+        case FileQuestion::Parameter:
+            return "Choose a file";
+        case FileQuestion::None:
+            break;
+    }
+    return "";
+}
+
+std::string size_text(std::uintmax_t bytes) {
+    if (bytes < 1024) return std::to_string(bytes) + " B";
+    if (bytes < 1024 * 1024) return std::to_string(bytes / 1024) + " KB";
+    return std::to_string(bytes / (1024 * 1024)) + " MB";
+}
+
+}  // namespace
+
+bool FileDialog::writes() const {
+    return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export;
+}
+
+void FileDialog::enter(const fs::path& folder) {
+    listing_ = list_folder(folder, suffixes_for(question_));
+    typed_folder_ = folder.string();
+    error_ = listing_.error;
+}
+
+void FileDialog::begin(PanelContext& c) {
+    question_ = c.place.question();
+    const fs::path project = c.place.document.project();
+    const fs::path near = project.parent_path();
+    name_.clear();
+    if (writes())
+        name_ =
+            project.stem().string() + (question_ == FileQuestion::Export ? ".stl" : " copy.vbench");
+    enter(!near.empty() ? near : !listing_.folder.empty() ? listing_.folder : documents_folder());
+}
+
+void FileDialog::draw_folder_line(PanelContext& c) {
+    if (icon_button(c.ui, "file.up", icons::kUp, "To the folder above"))
+        enter(listing_.folder.parent_path());
+    ImGui::SameLine();
+    if (icon_button(c.ui, "file.home", icons::kHome, "To the home folder")) enter(home_folder());
+    ImGui::SameLine();
+    if (text_field(c.ui, "file.folder", typed_folder_) && fs::is_directory(typed_folder_))
+        enter(typed_folder_);
+}
+
+void FileDialog::choose(PanelContext& c, const FolderEntry& entry, bool twice) {
+    const bool browses = entry.folder && !(entry.openable_folder && !twice);
+    if (entry.folder && (browses || twice)) {
+        if (entry.openable_folder && question_ == FileQuestion::Open) {
+            name_ = entry.name;
+            return finish(c);
+        }
+        return enter(listing_.folder / entry.name);
+    }
+    name_ = entry.name;
+    error_.clear();
+    if (twice && !writes()) finish(c);
+}
+
+void FileDialog::draw_entries(PanelContext& c, float height) {
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, c.ui.theme.field);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    ImGui::BeginChild("entries", {0, height});
+    const FolderListing listing = listing_;  // entering a folder changes it
+    for (const FolderEntry& entry : listing.entries) {
+        const bool clicked = row(c.ui, "file.entry." + entry.name,
+                                 {.icon = entry.openable_folder ? icons::kCube
+                                          : entry.folder        ? icons::kFolder
+                                                                : icons::kFile,
+                                  .icon_colour = entry.folder ? c.ui.theme.accent : 0,
+                                  .title = entry.name,
+                                  .right = entry.folder ? "" : size_text(entry.bytes),
+                                  .selected = entry.name == name_});
+        const bool twice = row_double_clicked();
+        if (clicked || twice) choose(c, entry, twice);
+        if (listing_.folder != listing.folder) break;
+    }
+    if (listing.entries.empty()) {
+        ImGui::SetCursorPos({c.ui.grid(1.5F), c.ui.grid(1)});
+        text(c.ui, writes() ? "No such files here." : "Nothing to open here.", c.ui.theme.muted);
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+}
+
+/// Another suffix for the name.
+void FileDialog::draw_formats(PanelContext& c) {
+    group_heading(c.ui, "Format");
+    space(c.ui, 0.5F);
+    ImGui::BeginChild("formats");
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
+    const std::string suffix = fs::path(name_).extension().string();
+    for (const ExportFormat& format : export_formats()) {
+        const std::string own = format.suffixes.empty() ? "" : format.suffixes[0];
+        if (row(c.ui, "format." + (own.empty() ? format.name : own),
+                {.title = format.name + (own.empty() ? "" : "  " + own),
+                 .detail = format.content + ", in " + format.unit,
+                 .selected = suffix == own,
+                 .help = format.content}))
+            name_ = fs::path(name_).stem().string() + own;
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+}
+
+bool FileDialog::can_finish() const {
+    return !name_.empty();
+}
+
+void FileDialog::finish(PanelContext& c) {
+    const fs::path file = listing_.folder / name_;
+    if (!writes() && !fs::exists(file)) {
+        error_ = "'" + name_ + "' does not exist";
+        return;
+    }
+    if (writes() && fs::exists(file)) {
+        error_ = "'" + name_ + "' exists: choose another name";
+        return;
+    }
+    question_ = FileQuestion::None;
+    c.place.answer(file);
+}
+
+void FileDialog::draw_name_line(PanelContext& c) {
+    const float width = c.ui.em * 8;
+    const float field = ImGui::GetContentRegionAvail().x - 2 * (width + c.ui.grid(1));
+    if (text_field(c.ui, "file.name", name_, {.hint = "File name", .width = field})) error_.clear();
+    ImGui::SameLine(0, c.ui.grid(1));
+    if (button(c.ui, "file.cancel", "Cancel", {.width = width})) {
+        question_ = FileQuestion::None;
+        return c.place.ask(FileQuestion::None);
+    }
+    ImGui::SameLine(0, c.ui.grid(1));
+    const char* label = question_ == FileQuestion::Export     ? "Export"
+                        : question_ == FileQuestion::SaveCopy ? "Save"
+                                                              : "Open";
+    if (button(c.ui, "file.accept", label,
+               {.primary = true, .enabled = can_finish(), .width = width}))
+        finish(c);
+}
+
+void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
+    if (c.place.question() == FileQuestion::None) {
+        question_ = FileQuestion::None;
+        return;
+    }
+    if (question_ != c.place.question()) begin(c);
+    const Ui& ui = c.ui;
+    begin_dialog(ui, "file dialog", window, ui.em * 56, ui.em * 36);
+    heading(ui, title_of(question_));
+    space(ui, 1);
+    draw_folder_line(c);
+    const float line = ImGui::GetFrameHeight();
+    const float error = ImGui::GetTextLineHeight() + ui.grid(1);
+    const float height = ImGui::GetContentRegionAvail().y - line - error - ui.grid(2);
+    const bool exports = question_ == FileQuestion::Export;
+    ImGui::BeginChild("list", {exports ? ImGui::GetContentRegionAvail().x * 0.6F : 0, height});
+    draw_entries(c, 0);
+    ImGui::EndChild();
+    if (exports) {
+        ImGui::SameLine(0, ui.grid(2));
+        ImGui::BeginChild("format list", {0, height});
+        draw_formats(c);
+        ImGui::EndChild();
+    }
+    text(ui, error_.empty() ? " " : error_, ui.theme.danger);
+    draw_name_line(c);
+    end_frame();
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "workbench/window/model/folder_listing.h"
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// The window's own dialog for a file to open or to write, shown while the workplace asks for one.
+class FileDialog {
+public:
+    void draw(PanelContext& context, const ScreenRect& window);
+
+private:
+    void begin(PanelContext& context);
+    void enter(const std::filesystem::path& folder);
+    void draw_folder_line(PanelContext& context);
+    void draw_entries(PanelContext& context, float height);
+    void draw_formats(PanelContext& context);
+    void draw_name_line(PanelContext& context);
+    void choose(PanelContext& context, const FolderEntry& entry, bool twice);
+    void finish(PanelContext& context);
+    [[nodiscard]] bool writes() const;
+    [[nodiscard]] bool can_finish() const;
+
+    FileQuestion question_ = FileQuestion::None;
+    FolderListing listing_;
+    std::string typed_folder_;
+    std::string name_;
+    std::string error_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,79 @@
+#include "workbench/window/panels/message_panel.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "workbench/window/model/readable.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+const char* icon_of(MessageKind kind) {
+    switch (kind) {
+        case MessageKind::Remark:
+            return icons::kInformation;
+        case MessageKind::Success:
+            return icons::kCheck;
+        case MessageKind::Warning:
+            return icons::kWarning;
+        case MessageKind::Error:
+            return icons::kError;
+    }
+    return "";
+}
+
+Paint colour_of(const Theme& theme, MessageKind kind) {
+    switch (kind) {
+        case MessageKind::Remark:
+            return theme.muted;
+        case MessageKind::Success:
+            return theme.good;
+        case MessageKind::Warning:
+            return theme.warning;
+        case MessageKind::Error:
+            return theme.danger;
+    }
+    return theme.text;
+}
+
+namespace {
+
+void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
+    if (message.remedy.empty()) return;
+    const std::string label = "Go to " + readable(message.remedy);
+    const float width = ImGui::CalcTextSize(label.c_str()).x + c.ui.grid(3);
+    ImGui::SameLine(
+        std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - c.ui.grid(2)));
+    if (button(c.ui, "message.remedy." + std::to_string(index), label,
+               {.quiet = true, .enabled = c.place.document.is_open()}))
+        c.place.choose(message.remedy);
+}
+
+void draw_message(PanelContext& c, const Message& message, std::size_t index) {
+    const Ui& ui = c.ui;
+    ImGui::SetCursorPosX(ui.grid(1));
+    ImGui::AlignTextToFramePadding();
+    text(ui, message.time, ui.theme.muted);
+    ImGui::SameLine(ui.em * 5.5F);
+    text(ui, icon_of(message.kind), colour_of(ui.theme, message.kind));
+    ImGui::SameLine(ui.em * 7.5F);
+    const float room = message.remedy.empty() ? ui.grid(2) : ui.em * 12;
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - room);
+    text(ui, message.text, ui.theme.text);
+    ImGui::PopTextWrapPos();
+    draw_remedy(c, message, index);
+}
+
+}  // namespace
+
+void draw_messages(PanelContext& c) {
+    const auto& all = c.place.document.messages();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.ui.grid(1), 0});
+    for (std::size_t i = all.size(); i-- > 0;) draw_message(c, all[i], i);
+    if (all.empty()) text(c.ui, "No messages yet.", c.ui.theme.muted);
+    ImGui::PopStyleVar();
+}
+
+}  // namespace vesselbench

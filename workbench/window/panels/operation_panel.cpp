@@ -1,0 +1,198 @@
+#include "workbench/window/panels/operation_panel.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "workbench/case/parameter_texts.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/model/readable.h"
+#include "workbench/window/panels/form_fields.h"
+#include "workbench/window/panels/message_panel.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/row.h"
+
+namespace vesselbench {
+
+namespace {
+
+void draw_operation_row(PanelContext& c, const Operation& operation) {
+    if (row(c.ui, "choose." + operation.name,
+            {.title = readable(operation.name),
+             .detail = readable_sentence(operation.summary),
+             .enabled = c.place.document.is_open(),
+             .help = readable_sentence(operation.summary)}))
+        c.place.choose(operation.name);
+}
+
+void draw_group(PanelContext& c, const std::string& title, Step step, bool usual) {
+    bool any = false;
+    for (const Operation& operation : operation_table()) {
+        const bool is_usual = operation.usual_step == step;
+        const bool allowed = std::ranges::count(operation.allowed, step) > 0;
+        if (usual ? !is_usual : (is_usual || !allowed)) continue;
+        if (!any && !title.empty()) {
+            space(c.ui, 1);
+            ImGui::SetCursorPosX(c.ui.grid(2));
+            group_heading(c.ui, title);
+        }
+        any = true;
+        draw_operation_row(c, operation);
+    }
+    if (any || !usual) return;
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    wrapped(c.ui, "No operation of this version belongs to this step.", c.ui.theme.muted);
+}
+
+void draw_list(PanelContext& c, const ScreenRect& rect) {
+    begin_frame(c.ui, "operations", rect, {.padding = c.ui.grid(1)});
+    const RailStep& step = c.place.rail().at(static_cast<std::size_t>(c.place.step()) - 1);
+    ImGui::Dummy({0, 0});
+    ImGui::SetCursorPos({c.ui.grid(2), c.ui.grid(1.75F)});
+    heading(c.ui, step.title);
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    wrapped(c.ui, step.purpose, c.ui.theme.muted);
+    space(c.ui, 1.5F);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
+    draw_group(c, "", step.step, true);
+    draw_group(c, "Also allowed here", step.step, false);
+    ImGui::PopStyleVar();
+    end_frame();
+}
+
+void draw_title(PanelContext& c, const OperationForm& form) {
+    if (icon_button(c.ui, "operation.back", icons::kLeft, "Back to the operations"))
+        return c.place.leave_form();
+    ImGui::SameLine(0, c.ui.grid(0.5F));
+    ImGui::AlignTextToFramePadding();
+    heading(c.ui, readable(form.operation().name));
+    const float side = ImGui::GetFrameHeight();
+    ImGui::SameLine(ImGui::GetWindowWidth() - c.ui.grid(1.5F) - 2 * side);
+    if (icon_button(c.ui, "operation.reset", icons::kRefresh, "Empty all fields"))
+        c.place.reset_form();
+    ImGui::SameLine(0, 0);
+    if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
+                    form.valid()))
+        c.to_clipboard(c.place.command());
+}
+
+std::string help_of(const Parameter& parameter) {
+    std::string range = range_text(parameter);
+    std::ranges::replace(range, '|', ' ');
+    const std::string unit = unit_text(parameter);
+    std::string help = readable(parameter.name) + ": " + parameter.help + ".";
+    if (parameter.type != ParameterType::Choice && parameter.type != ParameterType::Flag)
+        help += "  Allowed: " + range + (unit.empty() ? "" : " " + unit) + ".";
+    return help + "  Default: " + default_text(parameter) + ".";
+}
+
+/// Why the operation cannot run, or the help of a parameter: always in the same place.
+void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
+    const auto& failure = c.place.document.failure();
+    const bool missing =
+        !form.valid() && std::ranges::all_of(form.fields(), [](const FormField& field) {
+            return field.error.empty();
+        });
+    if (parameter != nullptr) return wrapped(c.ui, help_of(*parameter), c.ui.theme.muted);
+    if (failure) return wrapped(c.ui, failure->text, c.ui.theme.danger);
+    if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
+    wrapped(c.ui, "Point at a field to read about it. Empty fields take their defaults.",
+            c.ui.theme.muted);
+}
+
+void draw_remedy(PanelContext& c) {
+    const auto& failure = c.place.document.failure();
+    if (!failure || failure->remedy.empty()) return;
+    const std::string remedy = failure->remedy;
+    if (button(c.ui, "operation.remedy", "Go to " + readable(remedy),
+               {.icon = icons::kRight, .width = -1}))
+        c.place.choose(remedy);
+}
+
+void draw_actions(PanelContext& c, const OperationForm& form) {
+    Workplace& place = c.place;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
+    const bool idle = !place.document.activity().has_value();
+    if (button(c.ui, "operation.preview", "Preview",
+               {.enabled = form.valid() && idle,
+                .width = width,
+                .help = "Run it and show the result without entering it"}))
+        place.preview();
+    ImGui::SameLine(0, c.ui.grid(1));
+    const bool change = form.edit().has_value();
+    if (button(c.ui, "operation.apply", change ? "Change" : "Apply",
+               {.primary = true,
+                .enabled = place.can_apply(),
+                .width = width,
+                .help = change ? "Run the edit with these arguments; later edits become pending"
+                               : "Run it and enter it as an edit, which can be undone"}))
+        place.apply();
+    ImGui::SameLine(0, c.ui.grid(1));
+    if (!place.form()) return;
+    if (button(c.ui, "operation.cancel", "Cancel",
+               {.width = width, .help = "Stop what runs, or close this form"})) {
+        if (!idle) return place.document.cancel();
+        place.leave_form();
+    }
+}
+
+void draw_removal(PanelContext& c, EditId edit) {
+    const bool idle = !c.place.document.activity().has_value();
+    if (!button(c.ui, "operation.remove", "Leave this edit out",
+                {.icon = icons::kDelete,
+                 .enabled = idle,
+                 .width = -1,
+                 .help = "Later edits become pending; undo takes it back"}))
+        return;
+    c.place.leave_form();
+    c.place.document.remove(edit);
+}
+
+/// Height of the part below the fields.
+float footer_height(const PanelContext& c, const OperationForm& form) {
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    const auto& failure = c.place.document.failure();
+    const float more = (form.edit() ? line : 0) + (failure && !failure->remedy.empty() ? line : 0);
+    return c.ui.em * 7.5F + line + more + c.ui.grid(1);
+}
+
+void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
+    const std::optional<EditId> edit = form.edit();
+    separator(c.ui);
+    ImGui::BeginChild("advice", {0, c.ui.em * 7.5F - c.ui.grid(1)});
+    draw_advice(c, form, parameter);
+    ImGui::EndChild();
+    draw_remedy(c);
+    if (!c.place.form()) return;
+    if (edit) draw_removal(c, *edit);
+    if (c.place.form()) draw_actions(c, form);
+}
+
+void draw_form(PanelContext& c, const ScreenRect& rect) {
+    begin_frame(c.ui, "operation", rect, {.scrolls = false});
+    draw_title(c, *c.place.form());
+    if (c.place.form()) {
+        OperationForm& form = *c.place.form();
+        wrapped(c.ui, readable_sentence(form.operation().summary), c.ui.theme.muted);
+        space(c.ui, 1);
+        const float height = ImGui::GetContentRegionAvail().y - footer_height(c, form);
+        ImGui::BeginChild("fields", {0, std::max(height, c.ui.em * 4)});
+        const Parameter* parameter = draw_form_fields(c, form);
+        ImGui::EndChild();
+        draw_footer(c, form, parameter);
+    }
+    end_frame();
+}
+
+}  // namespace
+
+void draw_operation_panel(PanelContext& c, const ScreenRect& rect) {
+    if (c.place.form())
+        draw_form(c, rect);
+    else
+        draw_list(c, rect);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// Right: the operations of a step, or the form of the chosen one.
+void draw_operation_panel(PanelContext& context, const ScreenRect& rect);
+
+}  // namespace vesselbench

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "workbench/window/model/workplace.h"
+#include "workbench/window/widgets/ui.h"
+
+namespace vesselbench {
+
+enum class BottomTab { History, Messages };
+
+/// Which parts of the window are shown.
+struct Shown {
+    BottomTab bottom = BottomTab::History;
+    bool help = false;
+    bool prepare = false;         ///< the question for what to prepare
+    std::string purpose = "cfd";  ///< answer so far
+    bool compact = false;         ///< little room: tool buttons without labels
+};
+
+/// What panels draw from, and where their requests go.
+struct PanelContext {
+    Ui& ui;
+    Workplace& place;
+    Shown& shown;
+    std::string device;  ///< of OpenGL
+    std::function<void(const std::string&)> to_clipboard;
+};
+
+}  // namespace vesselbench

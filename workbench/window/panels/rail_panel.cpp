@@ -1,0 +1,117 @@
+#include "workbench/window/panels/rail_panel.h"
+
+#include <imgui.h>
+
+#include "workbench/window/model/readable.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/row.h"
+
+namespace vesselbench {
+
+namespace {
+
+struct StateLook {
+    const char* icon;
+    Paint colour;
+    const char* words;
+};
+
+StateLook look_of(const Theme& theme, StepState state) {
+    switch (state) {
+        case StepState::Empty:
+            return {"", theme.muted, "no edits yet"};
+        case StepState::Done:
+            return {icons::kDone, theme.good, "done"};
+        case StepState::Warnings:
+            return {icons::kWarning, theme.warning, "done, with warnings"};
+        case StepState::Pending:
+            return {icons::kPending, theme.accent, "pending: an earlier edit has changed"};
+        case StepState::Stale:
+            return {icons::kStale, theme.danger, "an edit no longer applies"};
+    }
+    return {"", theme.muted, ""};
+}
+
+StepState state_of(const RailEdit& edit) {
+    if (edit.status == EditStatus::Stale) return StepState::Stale;
+    if (edit.status == EditStatus::Pending) return StepState::Pending;
+    return edit.warnings.empty() ? StepState::Done : StepState::Warnings;
+}
+
+/// The step's number in a circle, or the icon of its state.
+void draw_badge(const Ui& ui, const RailStep& step, ImVec2 middle) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const StateLook look = look_of(ui.theme, step.state);
+    const std::string sign =
+        *look.icon == '\0' ? std::to_string(static_cast<int>(step.step)) : std::string(look.icon);
+    if (*look.icon == '\0')
+        draw.AddCircle(middle, ui.em * 0.62F, faded(ui.theme.muted, 0.6), 0, ui.em / 15);
+    ImFont* font = *look.icon == '\0' ? ui.fonts.small : ui.fonts.heading;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, sign.c_str());
+    draw.AddText(font, font->FontSize, {middle.x - size.x / 2, middle.y - size.y / 2}, look.colour,
+                 sign.c_str());
+}
+
+void draw_step(PanelContext& c, const RailStep& step) {
+    const Ui& ui = c.ui;
+    const bool selected =
+        c.place.step() == step.step && !(c.place.form() && c.place.form()->edit());
+    const std::string count = step.edits.empty() ? "" : std::to_string(step.edits.size());
+    if (row(c.ui, "rail." + to_string(step.step),
+            {.title = step.title,
+             .right = count,
+             .selected = selected,
+             .strong = !step.edits.empty(),
+             .enabled = c.place.document.is_open(),
+             .indent = ui.em * 1.9F,
+             .help = step.purpose + "\n" + look_of(ui.theme, step.state).words}))
+        c.place.choose_step(step.step);
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    draw_badge(ui, step, {from.x + ui.em * 1.2F, (from.y + to.y) / 2});
+}
+
+std::string help_of(const RailEdit& edit) {
+    std::string help = edit.operation + (edit.arguments.empty() ? "" : " " + edit.arguments);
+    if (!edit.change.empty()) help += "\n" + edit.change;
+    if (!edit.reason.empty()) help += "\nno longer applies: " + edit.reason;
+    for (const std::string& warning : edit.warnings) help += "\nwarning: " + warning;
+    return help + "\nClick to change its arguments.";
+}
+
+void draw_edit(PanelContext& c, const RailEdit& edit) {
+    const auto& form = c.place.form();
+    const StepState state = state_of(edit);
+    const StateLook look = look_of(c.ui.theme, state);
+    const std::string detail = !edit.reason.empty() ? edit.reason : edit.change;
+    const std::string name = "rail.edit." + std::to_string(edit.id);
+    if (row(c.ui, name,
+            {.icon = state == StepState::Done ? "" : look.icon,
+             .icon_colour = look.colour,
+             .title = readable(edit.operation),
+             .detail = detail.empty() ? edit.arguments : detail,
+             .right = edit.revision > 1 ? "rev. " + std::to_string(edit.revision) : "",
+             .selected = form && form->edit() == edit.id,
+             .indent = c.ui.em * 1.9F,
+             .help = help_of(edit)}))
+        c.place.choose_edit(edit.id);
+}
+
+}  // namespace
+
+void draw_rail(PanelContext& c, const ScreenRect& rect) {
+    begin_frame(c.ui, "rail", rect, {.padding = c.ui.grid(1)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    group_heading(c.ui, "Steps");
+    ImGui::Dummy({0, c.ui.grid(0.25F)});
+    for (const RailStep& step : c.place.rail()) {
+        draw_step(c, step);
+        for (const RailEdit& edit : step.edits) draw_edit(c, edit);
+    }
+    ImGui::PopStyleVar();
+    end_frame();
+}
+
+}  // namespace vesselbench

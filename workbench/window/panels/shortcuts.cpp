@@ -1,0 +1,54 @@
+#include "workbench/window/panels/shortcuts.h"
+
+#include <imgui.h>
+
+#include "workbench/window/keys.h"
+
+namespace vesselbench {
+
+namespace {
+
+bool pressed(int key) {
+    return ImGui::IsKeyPressed(key, false);
+}
+
+void handle_escape(PanelContext& c) {
+    if (c.shown.help || c.shown.prepare) {
+        c.shown.help = c.shown.prepare = false;
+    } else if (c.place.question() != FileQuestion::None) {
+        c.place.ask(FileQuestion::None);
+    } else if (c.place.document.activity()) {
+        c.place.document.cancel();
+    } else if (!ImGui::GetIO().WantTextInput) {
+        c.place.leave_form();
+    }
+}
+
+void handle_history(PanelContext& c) {
+    if (c.place.document.activity() || !c.place.document.is_open()) return;
+    const bool redo = ImGui::GetIO().KeyShift;
+    const HistoryTree& history = c.place.history();
+    if (pressed(keys::letter('Z')) && !redo && history.can_undo) c.place.document.undo();
+    if (((pressed(keys::letter('Z')) && redo) || pressed(keys::letter('Y'))) && history.can_redo)
+        c.place.document.redo();
+}
+
+void handle_control(PanelContext& c) {
+    const bool open = c.place.document.is_open();
+    if (!ImGui::GetIO().WantTextInput) handle_history(c);
+    if (pressed(keys::letter('O'))) c.place.ask(FileQuestion::Open);
+    if (pressed(keys::letter('E')) && open) c.place.ask(FileQuestion::Export);
+    if (pressed(keys::letter('P'))) c.place.preview();
+    if (pressed(keys::kEnter)) c.place.apply();
+}
+
+}  // namespace
+
+void handle_shortcuts(PanelContext& c) {
+    if (pressed(keys::kF1)) c.shown.help = !c.shown.help;
+    if (pressed(keys::kEscape)) handle_escape(c);
+    const bool dialog = c.shown.help || c.shown.prepare || c.place.question() != FileQuestion::None;
+    if (ImGui::GetIO().KeyCtrl && !dialog) handle_control(c);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,96 @@
+#include "workbench/window/panels/status_line.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
+    return digits;
+}
+
+namespace {
+
+float text_top(const Ui& ui) {
+    return (ImGui::GetWindowHeight() - ui.em) / 2;
+}
+
+void figure(const Ui& ui, const std::string& name, const std::string& value) {
+    text(ui, name, ui.theme.muted);
+    ImGui::SameLine(0, ui.grid(0.75F));
+    text(ui, value, ui.theme.text);
+    ImGui::SameLine(0, ui.grid(3));
+}
+
+void draw_figures(const PanelContext& c) {
+    const Document& document = c.place.document;
+    const Scene* scene = document.shown();
+    if (scene == nullptr) return;
+    if (scene->surface) figure(c.ui, "Triangles", grouped(scene->surface->triangle_count()));
+    if (scene->volume_mesh)
+        figure(c.ui, "Tetrahedra", grouped(scene->volume_mesh->tetrahedra.size()));
+    const ShownFigures& figures = document.figures();
+    const SurfaceChange* change =
+        document.previewed() ? &document.previewed()->result().change : nullptr;
+    const auto volume = change != nullptr ? change->volume_after : figures.volume;
+    if (volume) figure(c.ui, "Volume", formatted(*volume, "%.1f mm\u00B3"));
+    if (change != nullptr && change->largest_deviation)
+        figure(c.ui, "Preview moves up to", formatted(*change->largest_deviation, "%.3f mm"));
+    else if (figures.largest_deviation)
+        figure(c.ui, "Deviation from source", formatted(*figures.largest_deviation, "%.3f mm"));
+}
+
+void draw_progress(PanelContext& c, const Activity& activity, float width) {
+    const Ui& ui = c.ui;
+    const float high = ui.em * 0.4F, bar = ui.em * 9, side = ImGui::GetFrameHeight();
+    const std::string words = fitted(activity.what, width - bar - side - ui.grid(4));
+    const float total = ImGui::CalcTextSize(words.c_str()).x + bar + side + ui.grid(2.5F);
+    ImGui::SetCursorPos({ImGui::GetWindowWidth() - total - ui.grid(1), text_top(ui)});
+    text(ui, words, ui.theme.text);
+    ImGui::SameLine(0, ui.grid(1));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float y = at.y + (ui.em - high) / 2 + ui.em * 0.05F;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({at.x, y}, {at.x + bar, y + high}, ui.theme.hover, high / 2);
+    const float done = std::max(high, bar * static_cast<float>(activity.fraction));
+    draw.AddRectFilled({at.x, y}, {at.x + done, y + high}, ui.theme.accent, high / 2);
+    ImGui::Dummy({bar, ui.em});
+    ImGui::SameLine(0, ui.grid(0.5F));
+    ImGui::SetCursorPosY((ImGui::GetWindowHeight() - side) / 2);
+    if (icon_button(c.ui, "status.cancel", icons::kClose, "Cancel  Esc")) c.place.document.cancel();
+}
+
+void draw_device(const PanelContext& c) {
+    const Ui& ui = c.ui;
+    const std::string words = fitted("mm    " + c.device, ui.em * 20);
+    ImGui::SetCursorPos(
+        {ImGui::GetWindowWidth() - ImGui::CalcTextSize(words.c_str()).x - ui.grid(2),
+         text_top(ui)});
+    text(ui, words, ui.theme.muted);
+    help_on_hover(ui, "Lengths are in millimetres. OpenGL device: " + c.device);
+}
+
+}  // namespace
+
+void draw_status_line(PanelContext& c, const ScreenRect& rect) {
+    begin_frame(c.ui, "status", rect, {.padding = 0, .scrolls = false});
+    ImGui::PushFont(c.ui.fonts.small);
+    ImGui::SetCursorPos({c.ui.grid(2), text_top(c.ui)});
+    draw_figures(c);
+    if (const auto activity = c.place.document.activity())
+        draw_progress(c, *activity, rect.width * 0.55F);
+    else
+        draw_device(c);
+    ImGui::PopFont();
+    end_frame();
+}
+
+}  // namespace vesselbench

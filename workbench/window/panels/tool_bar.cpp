@@ -1,0 +1,139 @@
+#include "workbench/window/panels/tool_bar.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+void draw_files(PanelContext& c) {
+    Workplace& place = c.place;
+    const bool open = place.document.is_open();
+    if (icon_button(c.ui, "tool.home", icons::kHome, "Close the case and show the start screen",
+                    open))
+        place.close();
+    ImGui::SameLine();
+    if (icon_button(c.ui, "tool.open", icons::kOpen,
+                    "Open a project, a surface or an image  Ctrl+O"))
+        place.ask(FileQuestion::Open);
+    ImGui::SameLine();
+    if (icon_button(c.ui, "tool.save_copy", icons::kSave,
+                    "Save a copy of the project. The project itself is written at every edit.",
+                    open))
+        place.ask(FileQuestion::SaveCopy);
+}
+
+void draw_undo(PanelContext& c) {
+    const HistoryTree& history = c.place.history();
+    const bool idle = !c.place.document.activity().has_value();
+    const bool wide = !c.shown.compact;
+    if (button(c.ui, "tool.undo", wide ? "Undo" : "",
+               {.icon = icons::kUndo,
+                .quiet = true,
+                .enabled = history.can_undo && idle,
+                .help =
+                    history.can_undo ? "Undo " + history.undo_title + "  Ctrl+Z" : "Undo  Ctrl+Z"}))
+        c.place.document.undo();
+    ImGui::SameLine();
+    if (button(c.ui, "tool.redo", wide ? "Redo" : "",
+               {.icon = icons::kRedo,
+                .quiet = true,
+                .enabled = history.can_redo && idle,
+                .help = history.can_redo ? "Redo " + history.redo_title + "  Ctrl+Shift+Z"
+                                         : "Redo  Ctrl+Shift+Z"}))
+        c.place.document.redo();
+}
+
+void draw_products(PanelContext& c) {
+    const Document& document = c.place.document;
+    const bool ready = document.is_open() && !document.activity();
+    if (button(c.ui, "tool.prepare", "Prepare",
+               {.icon = icons::kPrepare,
+                .primary = true,
+                .enabled = ready,
+                .help = "Run a whole recipe; its edits stay in the rail"}))
+        c.shown.prepare = true;
+    ImGui::SameLine();
+    if (button(c.ui, "tool.export", "Export",
+               {.icon = icons::kExport, .enabled = ready, .help = "Write the model as a file"}))
+        c.place.ask(FileQuestion::Export);
+}
+
+std::vector<std::string> variants_of(const Document& document) {
+    std::vector<std::string> variants = {"cfd", "rp"};
+    if (!document.is_open()) return variants;
+    for (const std::string& variant : document.snapshot()->history->variants())
+        if (std::ranges::count(variants, variant) == 0) variants.push_back(variant);
+    if (std::ranges::count(variants, document.variant()) == 0)
+        variants.push_back(document.variant());
+    return variants;
+}
+
+void draw_variant(PanelContext& c) {
+    const Ui& ui = c.ui;
+    ImGui::AlignTextToFramePadding();
+    text(ui, "Variant", ui.theme.muted);
+    ImGui::SameLine();
+    std::string variant = c.place.document.variant();
+    if (choice(c.ui, "tool.variant", variants_of(c.place.document), variant, ui.em * 7))
+        c.place.document.show_variant(variant);
+    help_on_hover(ui, "Steps 6 to 8 belong to a variant: cfd for flow simulation, rp for printing");
+}
+
+void switch_theme(PanelContext& c) {
+    c.place.settings.dark = !c.place.settings.dark;
+    c.place.settings.save();
+}
+
+void draw_right_end(PanelContext& c, const ScreenRect& rect) {
+    const Ui& ui = c.ui;
+    const float frame = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+    const bool open = c.place.document.is_open();
+    const float variant = open ? ui.em * 7 + gap * 3 + ImGui::CalcTextSize("Variant").x : 0;
+    ImGui::SameLine(rect.width - ui.grid(1) - 2 * frame - gap - variant);
+    if (open) {
+        draw_variant(c);
+        ImGui::SameLine(0, gap * 2);
+    }
+    const bool dark = c.place.settings.dark;
+    if (icon_button(c.ui, "tool.theme", dark ? icons::kSun : icons::kMoon,
+                    dark ? "Light theme" : "Dark theme"))
+        switch_theme(c);
+    ImGui::SameLine();
+    if (icon_button(c.ui, "tool.help", icons::kHelp, "Keys and first steps  F1", true,
+                    c.shown.help))
+        c.shown.help = !c.shown.help;
+}
+
+void gap(const Ui& ui) {
+    ImGui::SameLine(0, ui.grid(1.5F));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddLine({at.x, at.y + ui.grid(0.5F)},
+                                        {at.x, at.y + ImGui::GetFrameHeight() - ui.grid(0.5F)},
+                                        ui.theme.border);
+    ImGui::Dummy({1, ImGui::GetFrameHeight()});
+    ImGui::SameLine(0, ui.grid(1.5F));
+}
+
+}  // namespace
+
+void draw_tool_bar(PanelContext& c, const ScreenRect& rect) {
+    const float padding = (rect.height - ImGui::GetFrameHeight()) / 2;
+    begin_frame(c.ui, "tool bar", rect, {.padding = padding, .scrolls = false});
+    ImGui::SetCursorPosX(c.ui.grid(1));
+    draw_files(c);
+    gap(c.ui);
+    draw_undo(c);
+    gap(c.ui);
+    draw_products(c);
+    draw_right_end(c, rect);
+    end_frame();
+}
+
+}  // namespace vesselbench

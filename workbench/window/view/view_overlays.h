@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gpu/render/view_camera.h"
+#include "workbench/window/widgets/ui.h"
+
+namespace vesselbench {
+
+/// A length of 1, 2 or 5 times a power of ten, and its text.
+struct ScaleLength {
+    double millimetres = 0.0;
+    std::string text;  ///< "5 mm"
+};
+
+/// The longest such length that is at most `most` [mm].
+[[nodiscard]] ScaleLength scale_length(double most);
+
+/// A bar in the lower right corner of the view.
+void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& camera);
+
+/// The patient's axes in the lower left corner: L and R, A and P, S and I. A click on a letter
+/// looks from there. \return the side that was clicked
+[[nodiscard]] std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
+                                                           const ViewCamera& camera);
+
+/// The colours of deviations from -full to full [mm], in the upper right corner.
+void draw_deviation_legend(const Ui& ui, const ScreenRect& view, double full,
+                           const std::string& title);
+
+}  // namespace vesselbench

@@ -1,0 +1,265 @@
+#include "workbench/window/view/viewport.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <imgui.h>
+
+#include "gpu/render/pick.h"
+#include "gpu/render/renderer.h"
+#include "gpu/render/target.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/view/model_drawing.h"
+#include "workbench/window/view/view_overlays.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns by this [rad]
+constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
+
+Colour linear(Paint colour) {
+    const auto part = [&](int shift) {
+        return std::pow(static_cast<float>((colour >> shift) & 0xFF) / 255.0F, 2.2F);
+    };
+    return {part(0), part(8), part(16)};
+}
+
+/// All that the picture depends on besides the model.
+struct DrawnAs {
+    ViewCamera camera;
+    ViewLook look;
+    int width = 0, height = 0;
+    bool dark = false;
+
+    bool operator==(const DrawnAs&) const = default;
+};
+
+}  // namespace
+
+struct Viewport::Impl {
+    explicit Impl(std::function<void()> wake) : model(std::move(wake)), picker(renderer) {}
+
+    void take_scene(PanelContext& c);
+    void frame_model();
+    void draw_model(const Ui& ui);
+    void handle_mouse();
+    void handle_keys(bool over_view);
+    void set_centre();
+    void draw_toolbar(PanelContext& c);
+    void draw_toggle(PanelContext& c, const std::string& name, const char* icon,
+                     const std::string& help, bool& on);
+    void draw_overlays(PanelContext& c);
+    void draw_empty(PanelContext& c) const;
+    [[nodiscard]] SceneView scene_view(const Ui& ui) const;
+    [[nodiscard]] Layers layers(const Ui& ui) const;
+    [[nodiscard]] Eigen::Vector2d mouse_ndc() const;
+
+    [[nodiscard]] double aspect() const { return rect.height > 0 ? rect.width / rect.height : 1; }
+
+    ModelDrawing model;
+    Renderer renderer;
+    Picker picker;
+    std::optional<RenderTarget> target;
+    unsigned texture = 0;
+    ViewCamera camera;
+    ViewLook look;
+    ScreenRect rect;
+    std::optional<DrawnAs> drawn;
+    std::filesystem::path framed_project;  ///< whose model the camera was set for
+    int seen_scenes = -1;
+    int drawings = 0;
+    bool dark = true;
+};
+
+Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(std::move(wake))) {}
+
+Viewport::~Viewport() = default;
+
+bool Viewport::pending() const {
+    return impl_->model.pending();
+}
+
+int Viewport::drawings() const {
+    return impl_->drawings;
+}
+
+void Viewport::Impl::take_scene(PanelContext& c) {
+    Document& document = c.place.document;
+    if (seen_scenes != document.scene_changes()) {
+        seen_scenes = document.scene_changes();
+        model.show(document.shown());
+        drawn.reset();
+    }
+    document.want_deviation(look.deviation);
+    model.set_deviation(document.deviation());
+    if (!model.update()) return;
+    drawn.reset();
+    if (framed_project != document.project() && model.surface() != nullptr) {
+        framed_project = document.project();
+        camera = facing(camera, StandardView::Anterior);
+        frame_model();
+    }
+}
+
+void Viewport::Impl::frame_model() {
+    if (model.surface() != nullptr)
+        camera = framed(camera, model.surface()->points(), aspect(), 0.12);
+}
+
+Layers Viewport::Impl::layers(const Ui& ui) const {
+    return model.layers(look, std::max(1.0, ui.em / 15.0));
+}
+
+SceneView Viewport::Impl::scene_view(const Ui& ui) const {
+    return {.camera = camera,
+            .rectangle = target->rectangle(),
+            .background = Background{linear(ui.theme.view_above), linear(ui.theme.view_below)}};
+}
+
+void Viewport::Impl::draw_model(const Ui& ui) {
+    const int width = std::max(1, static_cast<int>(rect.width));
+    const int height = std::max(1, static_cast<int>(rect.height));
+    const DrawnAs now{camera, look, width, height, ui.theme.dark};
+    if (drawn == now) return;
+    if (!target) target.emplace(width, height);
+    target->resize(width, height);
+    target->bind();
+    renderer.draw(scene_view(ui), layers(ui));
+    texture = target->resolve();
+    drawn = now;
+    ++drawings;
+}
+
+Eigen::Vector2d Viewport::Impl::mouse_ndc() const {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return {2.0 * (mouse.x - rect.x) / rect.width - 1.0,
+            1.0 - 2.0 * (mouse.y - rect.y) / rect.height};
+}
+
+void Viewport::Impl::handle_mouse() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Eigen::Vector2d now = mouse_ndc();
+    const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
+                                -2.0 * io.MouseDelta.y / rect.height);
+    if (ImGui::IsItemActive() && moved.norm() > 0) {
+        const bool pans = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift;
+        const double turn = kTurnPerHeight / rect.height;
+        if (pans)
+            camera = panned(camera, aspect(), now - moved, now);
+        else
+            camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
+    }
+    if (!ImGui::IsItemHovered()) return;
+    if (io.MouseWheel != 0)
+        camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
+}
+
+void Viewport::Impl::set_centre() {
+    if (!target) return;
+    Ui plain;  // ids do not depend on colours
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const Picked picked =
+        picker.pick(scene_view(plain), layers(plain), static_cast<int>(mouse.x - rect.x),
+                    static_cast<int>(rect.height - 1 - (mouse.y - rect.y)));
+    if (picked.layer != 0) camera.centre = picked.point;
+}
+
+void Viewport::Impl::handle_keys(bool over_view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput || !over_view) return;
+    const auto pressed = [](int digit) {
+        return ImGui::IsKeyPressed(keys::k0 + digit, false) ||
+               ImGui::IsKeyPressed(keys::kPad0 + digit, false);
+    };
+    const bool opposite = io.KeyCtrl;
+    using enum StandardView;
+    if (pressed(1)) camera = facing(camera, opposite ? Posterior : Anterior);
+    if (pressed(3)) camera = facing(camera, opposite ? Right : Left);
+    if (pressed(7)) camera = facing(camera, opposite ? Inferior : Superior);
+    if (pressed(5)) camera.perspective = !camera.perspective;
+    if (ImGui::IsKeyPressed(keys::kHome, false)) frame_model();
+}
+
+void Viewport::Impl::draw_toggle(PanelContext& c, const std::string& name, const char* icon,
+                                 const std::string& help, bool& on) {
+    ImGui::SameLine(0, c.ui.grid(0.25F));
+    if (icon_button(c.ui, name, icon, help, true, on)) on = !on;
+}
+
+void Viewport::Impl::draw_toolbar(PanelContext& c) {
+    const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
+    const ImVec2 at{rect.x + c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)};
+    const float width = 6 * side + 5 * c.ui.grid(0.25F) + 2 * pad;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 to{at.x + width, at.y + side + 2 * pad};
+    draw.AddRectFilled(at, to, faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
+    ImGui::SetCursorScreenPos({at.x + pad, at.y + pad});
+    if (icon_button(c.ui, "view.fit", icons::kFit, "Show everything  Home")) frame_model();
+    draw_toggle(c, "view.edges", icons::kGrid, "Triangles' edges", look.edges);
+    draw_toggle(c, "view.flat", icons::kFlat, "Flat shading", look.flat);
+    draw_toggle(c, "view.transparent", icons::kTransparent, "Transparent", look.transparent);
+    draw_toggle(c, "view.deviation", icons::kPalette,
+                "Colours show the distance from the source, or of a preview from before it",
+                look.deviation);
+    draw_toggle(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective);
+}
+
+void Viewport::Impl::draw_overlays(PanelContext& c) {
+    draw_toolbar(c);
+    if (model.surface() == nullptr) return draw_empty(c);
+    draw_scale_bar(c.ui, rect, camera);
+    if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
+    if (model.shows_deviation(look))
+        draw_deviation_legend(c.ui, rect, model.deviation()->full,
+                              c.place.document.previewed() ? "Distance from before [mm]"
+                                                           : "Distance from the source [mm]");
+}
+
+/// What to do while there is no surface.
+void Viewport::Impl::draw_empty(PanelContext& c) const {
+    const Scene* scene = c.place.document.shown();
+    const bool image = scene != nullptr && scene->image;
+    const std::string words = scene == nullptr || model.pending() ? "Reading the model"
+                              : image                             ? "The image has no surface yet"
+                                                                  : "The case is empty";
+    const float width = ImGui::CalcTextSize(words.c_str()).x;
+    const float x = rect.x + rect.width / 2, y = rect.y + rect.height / 2;
+    ImGui::SetCursorScreenPos({x - width / 2, y - c.ui.em * 2});
+    text(c.ui, words, c.ui.theme.text);
+    if (!image) return;
+    const float wide = c.ui.em * 12;
+    ImGui::SetCursorScreenPos({x - wide / 2, y - c.ui.em * 0.5F});
+    if (button(c.ui, "view.extract", "Extract surface", {.primary = true, .width = wide}))
+        c.place.choose("extract-surface");
+}
+
+void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
+    Impl& view = *impl_;
+    view.rect = rect;
+    begin_frame(c.ui, "view", rect,
+                {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
+    view.take_scene(c);
+    ImGui::InvisibleButton("view.area", {rect.width, rect.height},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::SetItemAllowOverlap();
+    c.ui.item("view.area");
+    const bool over = ImGui::IsItemHovered();
+    if (view.model.surface() != nullptr) view.handle_mouse();
+    view.handle_keys(over);
+    view.draw_model(c.ui);
+    const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
+    ImGui::GetWindowDrawList()->AddImage(
+        reinterpret_cast<ImTextureID>(std::uintptr_t{view.texture}), {rect.x, rect.y}, to, {0, 1},
+        {1, 0});
+    view.draw_overlays(c);
+    end_frame();
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// The 3D view in the window's centre: draws the shown scene when something has changed, else the
+/// picture of the last time; turns, moves and zooms by mouse and keys.
+class Viewport {
+public:
+    /// Needs the window's OpenGL context, as draw() and the destructor do.
+    /// \param wake called by other threads when a frame should be drawn
+    explicit Viewport(std::function<void()> wake);
+    ~Viewport();
+
+    Viewport(const Viewport&) = delete;
+    Viewport& operator=(const Viewport&) = delete;
+
+    void draw(PanelContext& context, const ScreenRect& rect);
+
+    /// True while the shown scene is not drawn yet.
+    [[nodiscard]] bool pending() const;
+
+    /// Number of times that the scene was drawn, for tests of idle windows.
+    [[nodiscard]] int drawings() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vesselbench
