@@ -13,6 +13,7 @@ std::span<const Purpose> purposes() {
         {.name = "cfd",
          .title = "Model for flow simulation",
          .help = "flow simulation (cfd)",
+         .summary = "Closed, capped, remeshed, with tetrahedra",
          .products = {"volume.vtu", "volume.msh", "openfoam"},
          .result = "CFD case",
          .result_file = "openfoam",
@@ -20,15 +21,18 @@ std::span<const Purpose> purposes() {
         {.name = "rp",
          .title = "Model for printing",
          .help = "printing (rp)",
+         .summary = "Watertight, checked for thin places",
          .products = {"print.stl", "print.3mf"},
          .result = "print model",
          .result_file = "print.stl"},
         {.name = "planning",
          .title = "Model for treatment planning",
-         .help = "pictures\n(planning: keeps raw triangles)"},
+         .help = "pictures\n(planning: keeps raw triangles)",
+         .summary = "Smooth surface with its own triangles"},
         {.name = "simulation",
          .title = "Model for surgery simulation",
-         .help = "surgery simulation (simulation)"}};
+         .help = "surgery simulation (simulation)",
+         .summary = "Smooth, remeshed surface"}};
     return table;
 }
 

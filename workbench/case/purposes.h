@@ -11,6 +11,7 @@ struct Purpose {
     std::string name;                        ///< "cfd"
     std::string title;                       ///< of the report: "Model for flow simulation"
     std::string help;                        ///< with its name: "flow simulation (cfd)"
+    std::string summary;                     ///< what is special about the model, one line
     std::vector<std::string> products = {};  ///< file names, besides those of the surface
     std::string result = "surface";          ///< what the user asked for
     std::string result_file = "surface.vtp";

@@ -81,9 +81,9 @@ const Scene* scene_at_hand(const Snapshot& snapshot, const std::string& variant)
 
 /// True for a recipe's entry of the source's step that the case has an edit for.
 bool is_done(const Snapshot& snapshot, const RecipeEntry& entry) {
-    const Step step = entry.step.value_or(find_operation(entry.operation).usual_step);
+    const Step step = entry.step.value_or(entry.given.operation().usual_step);
     return step == Step::Source && std::ranges::any_of(snapshot.log, [&](const LogEntry& made) {
-               return made.edit.operation == entry.operation &&
+               return made.edit.operation == entry.given.operation().name &&
                       made.edit.place.step == Step::Source;
            });
 }
@@ -178,7 +178,7 @@ void Document::take_opened() {
         project_ = opened.project;
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
-        variant_ = "cfd";
+        variant_ = kDefaultVariant;
         if (opened.is_new)
             tell(make_message(MessageKind::Success, "new project " + project_.string()));
         else
@@ -390,8 +390,7 @@ Recipe Document::recipe(const std::string& purpose) const {
     const nlohmann::ordered_json own = input_ ? own_recipe(*input_, purpose) : nullptr;
     Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
     std::erase_if(recipe, [&](const RecipeEntry& entry) {
-        return find_operation(entry.operation).recipe.loads.has_value() ||
-               is_done(*snapshot_, entry);
+        return entry.given.operation().recipe.loads.has_value() || is_done(*snapshot_, entry);
     });
     return recipe;
 }
@@ -419,7 +418,8 @@ void Document::prepare_next() {
         apply_recipe(session, {entry}, purpose, note, progress);
         return Nothing{};
     });
-    watch(job, entry.operation, entry.operation, false, [this, texts](const Nothing&) {
+    const std::string& name = entry.given.operation().name;
+    watch(job, name, name, false, [this, texts](const Nothing&) {
         for (const std::string& text : texts->take()) tell(told(text));
         ++preparation_->next;
         prepare_next();

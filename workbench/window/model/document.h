@@ -166,7 +166,7 @@ private:
     std::vector<std::unique_ptr<Watched>> jobs_;
     std::filesystem::path project_;
     std::optional<Input> input_;
-    std::string variant_ = "cfd";
+    std::string variant_ = kDefaultVariant;
     std::shared_ptr<const Snapshot> snapshot_;
     std::optional<Scene> scene_;
     std::optional<Preview> preview_;

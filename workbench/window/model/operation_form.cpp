@@ -26,7 +26,7 @@ std::string effective_text(const FormField& field) {
 std::string error_in(const FormField& field) {
     if (field.text.empty()) return "";
     try {
-        static_cast<void>(parse_value(*field.parameter, field.text));
+        static_cast<void>(checked_value(*field.parameter, Value(field.text)));
     } catch (const UsageError& error) {
         return error.what();
     }
@@ -109,7 +109,7 @@ Arguments OperationForm::arguments() const {
     Arguments arguments;
     for (const FormField& field : fields_)
         if (field.active && !field.text.empty())
-            arguments.set(field.parameter->name, parse_value(*field.parameter, field.text));
+            arguments.set(field.parameter->name, checked_value(*field.parameter, Value(field.text)));
     return arguments;
 }
 
@@ -121,7 +121,7 @@ std::string OperationForm::as_command(const std::string& project,
     for (const FormField& field : fields_)
         if (field.active && !field.text.empty())
             command += " " + shell_quoted(field.parameter->name + "=" + field.text);
-    if (!edit_ && belongs_to_variant(operation_->usual_step) && variant != "cfd")
+    if (!edit_ && belongs_to_variant(operation_->usual_step) && variant != kDefaultVariant)
         command += " --variant " + shell_quoted(variant);
     return command;
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "workbench/case/edit_record.h"
 #include "workbench/window/model/workplace.h"
 #include "workbench/window/widgets/ui.h"
 
@@ -14,9 +15,9 @@ enum class BottomTab { History, Messages };
 struct Shown {
     BottomTab bottom = BottomTab::History;
     bool help = false;
-    bool prepare = false;         ///< the question for what to prepare
-    std::string purpose = "cfd";  ///< answer so far
-    bool compact = false;         ///< little room: tool buttons without labels
+    bool prepare = false;                   ///< the question for what to prepare
+    std::string purpose = kDefaultVariant;  ///< answer so far
+    bool compact = false;                   ///< little room: tool buttons without labels
 };
 
 /// What panels draw from, and where their requests go.

@@ -1,11 +1,9 @@
 #include "workbench/window/panels/prepare_dialog.h"
 
-#include <array>
-
 #include <imgui.h>
 
 #include "workbench/case/argument_texts.h"
-#include "workbench/operations/table.h"
+#include "workbench/case/purposes.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -16,26 +14,20 @@ namespace vesselbench {
 
 namespace {
 
-struct Purpose {
-    const char* name;
-    const char* icon;
-    const char* title;
-    const char* detail;
-};
-
-constexpr std::array<Purpose, 4> kPurposes = {
-    {{"cfd", icons::kWater, "Flow simulation", "Closed, capped, remeshed, with tetrahedra"},
-     {"rp", icons::kPrinter, "Printing", "Watertight, checked for thin places"},
-     {"planning", icons::kImage, "Planning", "Smooth surface with its own triangles"},
-     {"simulation", icons::kCube, "Surgery simulation", "Smooth, remeshed surface"}}};
+const char* icon_of(const Purpose& purpose) {
+    if (purpose.simulates_flow) return icons::kWater;
+    return purpose.name == "rp"         ? icons::kPrinter
+           : purpose.name == "planning" ? icons::kImage
+                                        : icons::kCube;
+}
 
 void draw_purposes(PanelContext& c) {
-    for (const Purpose& purpose : kPurposes)
-        if (row(c.ui, std::string("prepare.") + purpose.name,
-                {.icon = purpose.icon,
+    for (const Purpose& purpose : purposes())
+        if (row(c.ui, "prepare." + purpose.name,
+                {.icon = icon_of(purpose),
                  .icon_colour = c.ui.theme.accent,
                  .title = purpose.title,
-                 .detail = purpose.detail,
+                 .detail = purpose.summary,
                  .selected = c.shown.purpose == purpose.name,
                  .strong = true}))
             c.shown.purpose = purpose.name;
@@ -46,9 +38,9 @@ void draw_entries(PanelContext& c) {
     space(c.ui, 0.5F);
     int number = 0;
     for (const RecipeEntry& entry : c.place.document.recipe(c.shown.purpose)) {
-        const std::string arguments =
-            argument_summary(find_operation(entry.operation), entry.given);
-        text(c.ui, std::to_string(++number) + ".  " + readable(entry.operation), c.ui.theme.text);
+        const std::string arguments = argument_summary(entry.given.operation(), entry.given);
+        text(c.ui, std::to_string(++number) + ".  " + readable(entry.given.operation().name),
+             c.ui.theme.text);
         ImGui::SameLine();
         clipped_text(c.ui, arguments, c.ui.theme.muted,
                      ImGui::GetContentRegionAvail().x - c.ui.grid(1));
