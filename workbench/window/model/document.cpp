@@ -88,6 +88,16 @@ bool is_done(const Snapshot& snapshot, const RecipeEntry& entry) {
            });
 }
 
+/// The variant of the newest edit that belongs to one.
+std::string newest_variant(const Snapshot& snapshot) {
+    const LogEntry* newest = nullptr;
+    for (const LogEntry& entry : snapshot.log)
+        if (!entry.edit.place.variant.empty() &&
+            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
+            newest = &entry;
+    return newest == nullptr ? kDefaultVariant : newest->edit.place.variant;
+}
+
 std::string entered_text(const LogEntry& entry) {
     const std::string change = entry.result ? change_text(entry.result->change) : "";
     return entry.edit.operation + (change.empty() ? "" : ": " + change);
@@ -178,12 +188,12 @@ void Document::take_opened() {
         project_ = opened.project;
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
-        variant_ = kDefaultVariant;
         if (opened.is_new)
             tell(make_message(MessageKind::Success, "new project " + project_.string()));
         else
             tell(make_message(MessageKind::Success, "opened " + project_.string()));
         for (const std::string& remark : opened.remarks) tell(told(remark));
+        variant_ = newest_variant(*runner_->snapshot());
         take_snapshot();
     } catch (const Cancelled&) {
         tell(make_message(MessageKind::Remark, "cancelled"));

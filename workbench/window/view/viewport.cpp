@@ -22,6 +22,8 @@ namespace {
 
 constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns by this [rad]
 constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
+constexpr double kMargin = 0.12;        ///< around a framed model [-]
+constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 
 Colour linear(Paint colour) {
     const auto part = [&](int shift) {
@@ -47,6 +49,7 @@ struct Viewport::Impl {
 
     void take_scene(PanelContext& c);
     void frame_model();
+    void follow_model();
     void draw_model(const Ui& ui);
     void handle_mouse();
     void handle_keys(bool over_view);
@@ -71,7 +74,8 @@ struct Viewport::Impl {
     ViewLook look;
     ScreenRect rect;
     std::optional<DrawnAs> drawn;
-    std::filesystem::path framed_project;  ///< whose model the camera was set for
+    std::filesystem::path framed_project;     ///< whose model the camera was set for
+    std::optional<ViewCamera> framed_camera;  ///< as it was set; another one is the user's
     int seen_scenes = -1;
     int drawings = 0;
     bool dark = true;
@@ -104,12 +108,24 @@ void Viewport::Impl::take_scene(PanelContext& c) {
         framed_project = document.project();
         camera = facing(camera, StandardView::Anterior);
         frame_model();
+    } else {
+        follow_model();
     }
 }
 
 void Viewport::Impl::frame_model() {
-    if (model.surface() != nullptr)
-        camera = framed(camera, model.surface()->points(), aspect(), 0.12);
+    if (model.surface() == nullptr) return;
+    camera = framed(camera, model.surface()->points(), aspect(), kMargin);
+    framed_camera = camera;
+}
+
+/// Frames a model that has outgrown the view, or shrunk in it, unless the user moved the camera.
+void Viewport::Impl::follow_model() {
+    if (model.surface() == nullptr || framed_camera != camera) return;
+    const ViewCamera fitting = framed(camera, model.surface()->points(), aspect(), kMargin);
+    const double growth = fitting.half_height / camera.half_height;
+    const double shift = (fitting.centre - camera.centre).norm() / camera.half_height;
+    if (growth > 1.0 + kSlack || growth < 1.0 - 3.0 * kSlack || shift > kSlack) frame_model();
 }
 
 Layers Viewport::Impl::layers(const Ui& ui) const {
