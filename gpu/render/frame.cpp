@@ -1,5 +1,6 @@
 #include "gpu/render/frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vesselbench {
@@ -33,6 +34,17 @@ Eigen::Matrix4d eye_matrix(const ViewCamera& camera, const Vec3& centre) {
     return matrix;
 }
 
+/// The scene's sphere, larger by what layers are pulled towards the eye.
+Sphere roomy_bounds(const SceneView& view, const Layers& layers) {
+    Sphere scene = bounds_of(layers);
+    double pull = 0.0;
+    for (const SurfaceLayer& layer : layers.surfaces) pull = std::max(pull, layer.pull);
+    for (const LinesLayer& layer : layers.lines) pull = std::max(pull, layer.pull);
+    if (!layers.points.empty()) pull = std::max(pull, mark_pull(view, scene.centre));
+    scene.radius = 1.002 * scene.radius + 1.5 * pull;
+    return scene;
+}
+
 Eigen::Vector4d plane_about(const std::optional<ClipPlane>& clip, const Vec3& centre) {
     if (!clip) return {0.0, 0.0, 0.0, 1.0};
     const Vec3 normal = clip->normal.normalized();
@@ -47,8 +59,13 @@ Eigen::Vector4d eye_about(const ViewCamera& camera, const Vec3& centre) {
 
 }  // namespace
 
+double mark_pull(const SceneView& view, const Vec3& place) {
+    constexpr double kPixels = 6.0;
+    return kPixels * pixel_size(view.camera, view.rectangle.height, place);
+}
+
 Frame make_frame(const SceneView& view, const Layers& layers, const PixelRectangle& region) {
-    Frame frame{view, region, bounds_of(layers)};
+    Frame frame{view, region, roomy_bounds(view, layers)};
     frame.clip = magnified(view.rectangle, region) *
                  to_clip(view.camera, view.rectangle.aspect(), frame.scene);
     return frame;

@@ -20,6 +20,10 @@ struct Frame {
 [[nodiscard]] Frame make_frame(const SceneView& view, const Layers& layers,
                                const PixelRectangle& region);
 
+/// How far marks are pulled towards the eye [mm]: their discs would sink into the surface they
+/// mark.
+[[nodiscard]] double mark_pull(const SceneView& view, const Vec3& place);
+
 /// Sets what gpu/shaders/camera.glsl and light.glsl need for something around a centre.
 void set_frame(const Uniforms& uniforms, const Frame& frame, const Vec3& centre, double pull);
 

@@ -20,7 +20,6 @@ namespace {
 constexpr int kScaleSteps = 256;             // gpu/shaders/surface.frag
 constexpr std::size_t kPatchColours = 1024;  // gpu/shaders/surface.vert
 constexpr double kEdgePull = 8e-4;           // of lines over their own triangles, by the radius [-]
-constexpr double kMarkPull = 6.0;            // [pixels] discs would sink into the surface they mark
 
 void enable(unsigned what, bool on) {
     if (on)
@@ -253,7 +252,9 @@ struct Renderer::Impl {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         glDepthMask(GL_FALSE);
         glDisable(GL_DEPTH_TEST);
+        glEnable(GL_DEPTH_CLAMP);  // faces before the near plane count
         draw_triangles(*layer.source);
+        glDisable(GL_DEPTH_CLAMP);
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_TRUE);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -316,8 +317,7 @@ struct Renderer::Impl {
 
     static void set_points(const Uniforms& uniforms, const Frame& frame, const PointsLayer& layer) {
         const Vec3 centre = layer.points->bounds().centre;
-        const double pixel = pixel_size(frame.view.camera, frame.view.rectangle.height, centre);
-        set_frame(uniforms, frame, centre, kMarkPull * pixel);
+        set_frame(uniforms, frame, centre, mark_pull(frame.view, centre));
         uniforms.set("highlighted", layer.highlighted ? static_cast<int>(*layer.highlighted) : -1);
         glDisable(GL_CLIP_DISTANCE0);
         layer.points->bind();

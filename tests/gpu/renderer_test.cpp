@@ -109,7 +109,8 @@ SCENARIO("A clip plane removes its side, and the section is filled", "[gpu][rend
               Approx(area).epsilon(0.02));
         THEN("a hollow sphere shows a ring") {
             Layers shell{.surfaces = {layer}};
-            shell.surfaces.front().source = drawn(sphere_shell(8.0, 2.0, 5));
+            shell.surfaces.front().source = drawn(
+                mapped(sphere_shell(8.0, 2.0, 5), [](const Vec3& p) { return Vec3(p + kCentre); }));
             CHECK(pixels_of(test->picture(view, shell), kSection) ==
                   Approx(area * (64.0 - 36.0) / (64.0 - 9.0)).epsilon(0.03));
         }
