@@ -55,6 +55,14 @@ std::string defines_of(const SurfaceLayer& layer) {
     return text;
 }
 
+/// Whether inner sides cannot be seen, so that half of the triangles need not be drawn.
+bool hides_inner_side(const Frame& frame, const SurfaceLayer& layer) {
+    if (!layer.source->is_solid() || (layer.clipped && frame.view.clip)) return false;
+    const Sphere bounds = layer.source->bounds();
+    const ViewCamera& camera = frame.view.camera;
+    return !camera.perspective || (eye_of(camera) - bounds.centre).norm() > 1.01 * bounds.radius;
+}
+
 int highlighted_label(const SurfaceLayer& layer) {
     if (layer.highlighted) return -2;
     return layer.highlighted_patch ? static_cast<int>(*layer.highlighted_patch) : -1;
@@ -183,7 +191,9 @@ struct Renderer::Impl {
 
     void draw_surface(const Frame& frame, const SurfaceLayer& layer) {
         use_surface(frame, layer);
+        enable(GL_CULL_FACE, hides_inner_side(frame, layer));
         draw_triangles(*layer.source);
+        glDisable(GL_CULL_FACE);
         if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
     }
 
