@@ -44,17 +44,6 @@ bool shows_values(const SurfaceLayer& layer) {
     return layer.colouring == Colouring::Values && layer.source->has_values();
 }
 
-std::string defines_of(const SurfaceLayer& layer) {
-    const bool corners = layer.source->has_corners();
-    std::string text;
-    if (layer.edges != Edges::Off && corners) text += "#define EDGES\n";
-    if (layer.edges == Edges::Only && corners) text += "#define ONLY_EDGES\n";
-    if (layer.flat) text += "#define FLAT\n";
-    if (shows_values(layer)) text += "#define VALUES\n";
-    if (layer.opacity < 1.0 && layer.edges != Edges::Only) text += "#define GLASS\n";
-    return text;
-}
-
 /// Whether inner sides cannot be seen, so that half of the triangles need not be drawn.
 bool hides_inner_side(const Frame& frame, const SurfaceLayer& layer) {
     if (!layer.source->is_solid() || (layer.clipped && frame.view.clip)) return false;
@@ -74,6 +63,39 @@ Colouring colouring_of(const SurfaceLayer& layer) {
     return missing ? Colouring::Base : layer.colouring;
 }
 
+/// As it is written into a picture.
+Eigen::Vector4d edge_colour_of(const SurfaceLayer& layer) {
+    const PixelColour colour = pixel_colour(layer.edge_colour);
+    const double own = layer.edges == Edges::Only ? layer.opacity : 1.0;
+    return {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, layer.edge_opacity * own};
+}
+
+/// Whether triangles are so small on the screen that lighting their vertices is enough. Software
+/// renderers spend most of their time on the pixels of small triangles, of which each is computed
+/// several times.
+bool is_dense(const Frame& frame, const SurfaceLayer& layer) {
+    constexpr double kFewPixels = 12.0;
+    const Sphere bounds = layer.source->bounds();
+    const double pixel = pixel_size(frame.view.camera, frame.view.rectangle.height, bounds.centre);
+    if (!(pixel > 0.0)) return false;
+    const double radius = bounds.radius / pixel;
+    return 3.0 * radius * radius < kFewPixels * static_cast<double>(layer.source->triangle_count());
+}
+
+std::string defines_of(const Frame& frame, const SurfaceLayer& layer) {
+    const bool corners = layer.source->has_corners();
+    std::string text;
+    if (layer.edges != Edges::Off && corners) text += "#define EDGES\n";
+    if (layer.edges == Edges::Only && corners) text += "#define ONLY_EDGES\n";
+    if (layer.flat)
+        text += "#define FLAT\n";
+    else if (is_dense(frame, layer))
+        text += "#define DENSE\n";
+    if (shows_values(layer)) text += "#define VALUES\n";
+    if (layer.opacity < 1.0 && layer.edges != Edges::Only) text += "#define GLASS\n";
+    return text;
+}
+
 void set_surface(const Uniforms& uniforms, const SurfaceLayer& layer) {
     uniforms.set("base_colour", layer.base);
     uniforms.set("colouring", static_cast<int>(colouring_of(layer)));
@@ -82,8 +104,7 @@ void set_surface(const Uniforms& uniforms, const SurfaceLayer& layer) {
     uniforms.set("back_as_front", layer.back_as_front ? 1 : 0);
     uniforms.set("opacity", layer.opacity);
     uniforms.set("edge_width", layer.edge_width);
-    const Eigen::Vector3d edge = layer.edge_colour.cast<double>();
-    uniforms.set("edge_colour", Eigen::Vector4d(edge.x(), edge.y(), edge.z(), layer.edge_opacity));
+    uniforms.set("edge_colour", edge_colour_of(layer));
     uniforms.set("range", Eigen::Vector2d(layer.least, layer.most));
     uniforms.set("no_value", layer.no_value);
 }
@@ -182,7 +203,7 @@ struct Renderer::Impl {
     }
 
     void use_surface(const Frame& frame, const SurfaceLayer& layer) {
-        const Uniforms uniforms = programs.use("surface", "surface", defines_of(layer));
+        const Uniforms uniforms = programs.use("surface", "surface", defines_of(frame, layer));
         set_frame(uniforms, frame, layer.source->bounds().centre, layer.pull);
         set_surface(uniforms, layer);
         bind_colours(layer);
@@ -211,22 +232,33 @@ struct Renderer::Impl {
         glDisable(GL_BLEND);
     }
 
-    /// Back faces, then front faces, none of which hides another.
+    void draw_edges_alone(const Frame& frame, const SurfaceLayer& layer) {
+        if (!layer.source->has_corners()) return draw_edge_lines(frame, layer);
+        use_surface(frame, layer);
+        glEnable(GL_BLEND);
+        draw_triangles(*layer.source);
+    }
+
+    /// Back faces, then front faces.
+    void draw_both_sides(const Frame& frame, const SurfaceLayer& layer) {
+        use_surface(frame, layer);
+        glEnable(GL_BLEND);
+        glEnable(GL_CULL_FACE);
+        for (const unsigned culled : {GL_FRONT, GL_BACK}) {
+            glCullFace(culled);
+            draw_triangles(*layer.source);
+        }
+        glDisable(GL_CULL_FACE);
+        if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
+    }
+
+    /// Blended, so that nothing in it hides anything.
     void draw_transparent(const Frame& frame, const SurfaceLayer& layer) {
         glDepthMask(GL_FALSE);
-        if (layer.edges == Edges::Only && !layer.source->has_corners()) {
-            draw_edge_lines(frame, layer);
-        } else {
-            use_surface(frame, layer);
-            glEnable(GL_BLEND);
-            glEnable(GL_CULL_FACE);
-            for (const unsigned culled : {GL_FRONT, GL_BACK}) {
-                glCullFace(culled);
-                draw_triangles(*layer.source);
-            }
-            glDisable(GL_CULL_FACE);
-            if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
-        }
+        if (layer.edges == Edges::Only)
+            draw_edges_alone(frame, layer);
+        else
+            draw_both_sides(frame, layer);
         glDisable(GL_BLEND);
         glDepthMask(GL_TRUE);
     }
