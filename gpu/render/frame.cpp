@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <epoxy/gl.h>
+
 namespace vesselbench {
 
 namespace {
@@ -45,10 +47,12 @@ Sphere roomy_bounds(const SceneView& view, const Layers& layers) {
     return scene;
 }
 
-Eigen::Vector4d plane_about(const std::optional<ClipPlane>& clip, const Vec3& centre) {
-    if (!clip) return {0.0, 0.0, 0.0, 1.0};
-    const Vec3 normal = clip->normal.normalized();
-    return {-normal.x(), -normal.y(), -normal.z(), normal.dot(clip->point - centre)};
+// What is not clipped has this plane too: llvmpipe was seen to clip by a distance that is disabled.
+const Eigen::Vector4d kKeepsAll(0.0, 0.0, 0.0, 1.0);
+
+Eigen::Vector4d plane_about(const ClipPlane& clip, const Vec3& centre) {
+    const Vec3 normal = clip.normal.normalized();
+    return {-normal.x(), -normal.y(), -normal.z(), normal.dot(clip.point - centre)};
 }
 
 Eigen::Vector4d eye_about(const ViewCamera& camera, const Vec3& centre) {
@@ -71,13 +75,19 @@ Frame make_frame(const SceneView& view, const Layers& layers, const PixelRectang
     return frame;
 }
 
-void set_frame(const Uniforms& uniforms, const Frame& frame, const Vec3& centre, double pull) {
+void set_frame(const Uniforms& uniforms, const Frame& frame, const Placing& placing) {
+    const Vec3& centre = placing.centre;
+    const bool clipped = placing.clipped && frame.view.clip.has_value();
     const ViewCamera& camera = frame.view.camera;
     uniforms.set("to_clip", Eigen::Matrix4d(frame.clip * moved_by(centre)));
     uniforms.set("to_eye", eye_matrix(camera, centre));
     uniforms.set("eye", eye_about(camera, centre));
-    uniforms.set("clip_plane", plane_about(frame.view.clip, centre));
-    uniforms.set("pull", pull);
+    uniforms.set("clip_plane", clipped ? plane_about(*frame.view.clip, centre) : kKeepsAll);
+    uniforms.set("pull", placing.pull);
+    if (clipped)
+        glEnable(GL_CLIP_DISTANCE0);
+    else
+        glDisable(GL_CLIP_DISTANCE0);
     uniforms.set("viewport", Eigen::Vector2d(frame.region.width, frame.region.height));
     uniforms.set("eye_distance", camera.perspective ? eye_distance(camera) : 0.0);
 }

@@ -204,10 +204,9 @@ struct Renderer::Impl {
 
     void use_surface(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = programs.use("surface", "surface", defines_of(frame, layer));
-        set_frame(uniforms, frame, layer.source->bounds().centre, layer.pull);
+        set_frame(uniforms, frame, {layer.source->bounds().centre, layer.pull, layer.clipped});
         set_surface(uniforms, layer);
         bind_colours(layer);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
     }
 
     void draw_surface(const Frame& frame, const SurfaceLayer& layer) {
@@ -223,9 +222,9 @@ struct Renderer::Impl {
         if (layer.source->has_corners()) return;
         const Uniforms uniforms = programs.use("surface", "edges");
         const Sphere bounds = layer.source->bounds();
-        set_frame(uniforms, frame, bounds.centre, layer.pull + kEdgePull * bounds.radius);
+        set_frame(uniforms, frame,
+                  {bounds.centre, layer.pull + kEdgePull * bounds.radius, layer.clipped});
         set_surface(uniforms, layer);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
         glEnable(GL_BLEND);
         const std::size_t count = layer.source->bind_edges();
         glDrawElements(GL_LINES, static_cast<GLsizei>(2 * count), GL_UNSIGNED_INT, nullptr);
@@ -270,11 +269,10 @@ struct Renderer::Impl {
         count_faces(frame, layer);
         const Uniforms uniforms = programs.use("section", "section");
         const Sphere bounds = layer.source->bounds();
-        set_frame(uniforms, frame, bounds.centre, layer.pull);
+        set_frame(uniforms, frame, {bounds.centre, layer.pull});
         uniforms.set("section_colour", *layer.section);
         const auto corners = plane_corners(*frame.view.clip, bounds);
         uniforms.set("corners", std::span(corners));
-        glDisable(GL_CLIP_DISTANCE0);
         glStencilFunc(GL_NOTEQUAL, 0, 0xFF);
         glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
         glBindVertexArray(nothing.id());
@@ -285,8 +283,7 @@ struct Renderer::Impl {
 
     void count_faces(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = programs.use("surface", "stencil");
-        set_frame(uniforms, frame, layer.source->bounds().centre, 0.0);
-        glEnable(GL_CLIP_DISTANCE0);
+        set_frame(uniforms, frame, {.centre = layer.source->bounds().centre, .clipped = true});
         glEnable(GL_STENCIL_TEST);
         glStencilFunc(GL_ALWAYS, 0, 0xFF);
         glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
@@ -304,11 +301,10 @@ struct Renderer::Impl {
 
     void draw_slice(const Frame& frame, const SliceLayer& layer) {
         const Uniforms uniforms = programs.use("slice", "slice");
-        set_frame(uniforms, frame, layer.slice->bounds().centre, 0.0);
+        set_frame(uniforms, frame, {layer.slice->bounds().centre});
         uniforms.set("window_level", Eigen::Vector2d(std::max(layer.window, 1e-12), layer.level));
         uniforms.set("opacity", layer.opacity);
         uniforms.set("scalars", 0);
-        glDisable(GL_CLIP_DISTANCE0);
         enable(GL_BLEND, layer.opacity < 1.0);
         layer.slice->bind(layer.smooth);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -343,10 +339,9 @@ struct Renderer::Impl {
 
     static void set_lines(const Uniforms& uniforms, const Frame& frame, const LinesLayer& layer,
                           double half_width) {
-        set_frame(uniforms, frame, layer.lines->bounds().centre, layer.pull);
+        set_frame(uniforms, frame, {layer.lines->bounds().centre, layer.pull, layer.clipped});
         uniforms.set("half_width", half_width);
         uniforms.set("highlighted", layer.highlighted ? static_cast<int>(*layer.highlighted) : -1);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
         layer.lines->bind();
     }
 
@@ -359,9 +354,8 @@ struct Renderer::Impl {
 
     static void set_points(const Uniforms& uniforms, const Frame& frame, const PointsLayer& layer) {
         const Vec3 centre = layer.points->bounds().centre;
-        set_frame(uniforms, frame, centre, mark_pull(frame.view, centre));
+        set_frame(uniforms, frame, {centre, mark_pull(frame.view, centre)});
         uniforms.set("highlighted", layer.highlighted ? static_cast<int>(*layer.highlighted) : -1);
-        glDisable(GL_CLIP_DISTANCE0);
         layer.points->bind();
     }
 
@@ -392,15 +386,13 @@ struct Renderer::Impl {
 
     void draw_surface_ids(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = use_ids("surface", layer.id, PickKind::Surface);
-        set_frame(uniforms, frame, layer.source->bounds().centre, layer.pull);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
+        set_frame(uniforms, frame, {layer.source->bounds().centre, layer.pull, layer.clipped});
         draw_triangles(*layer.source);
     }
 
     void draw_slice_ids(const Frame& frame, const SliceLayer& layer) {
         const Uniforms uniforms = use_ids("slice", layer.id, PickKind::Slice);
-        set_frame(uniforms, frame, layer.slice->bounds().centre, 0.0);
-        glDisable(GL_CLIP_DISTANCE0);
+        set_frame(uniforms, frame, {layer.slice->bounds().centre});
         layer.slice->bind(layer.smooth);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }

@@ -107,6 +107,13 @@ SCENARIO("A clip plane removes its side, and the section is filled", "[gpu][rend
         const double area = pixels(kPi * (64.0 - 9.0) * scale * scale);
         CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) ==
               Approx(area).epsilon(0.02));
+        THEN("an oblique section covers its projection") {
+            view.camera.perspective = false;
+            const Vec3 normal = Vec3(0.5, -0.8, 0.2).normalized();
+            view.clip = ClipPlane{kCentre, normal};
+            CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) ==
+                  Approx(pixels(kPi * 64.0) * -normal.y()).epsilon(0.02));
+        }
         THEN("a hollow sphere shows a ring") {
             Layers shell{.surfaces = {layer}};
             shell.surfaces.front().source = drawn(
@@ -116,7 +123,9 @@ SCENARIO("A clip plane removes its side, and the section is filled", "[gpu][rend
         }
         THEN("a layer that is not clipped stays whole") {
             layer.clipped = false;
-            CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) == 0.0);
+            const Picture picture = test->picture(view, {.surfaces = {layer}});
+            CHECK(pixels_of(picture, kSection) == 0.0);
+            CHECK(covered_pixels(picture) == whole);
         }
     }
 }
