@@ -37,7 +37,7 @@ enum class ColourMap {
 [[nodiscard]] Colour category_colour(std::size_t number);
 
 /// A vessel's wall.
-inline const Colour kWallColour = {0.62F, 0.36F, 0.28F};
+inline const Colour kWallColour = {0.60F, 0.31F, 0.23F};
 
 /// A colour as stored in pictures (gamma 2.2).
 [[nodiscard]] PixelColour pixel_colour(const Colour& linear);

@@ -29,6 +29,7 @@ struct DrawingLayout {
     /// Drawn vertex v < #V is the surface's vertex v; drawn vertex #V + i is another copy of vertex
     /// extras[i]. Ascending.
     std::vector<VertexId> extras;
+    bool solid = false;  ///< is_solid_surface of the surface it was made for
 
     /// Drawn vertices #V + first ... #V + last - 1 are the further copies of a vertex.
     [[nodiscard]] std::array<std::size_t, 2> extras_of(VertexId v) const;
@@ -63,6 +64,10 @@ std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions
 [[nodiscard]] std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout,
                                                       std::size_t vertex_count,
                                                       std::span<const VertexId> vertices);
+
+/// Whether a surface is closed, its triangles all run the same way round, and every part of it
+/// encloses a positive volume: its inner side is then seen from inside only.
+[[nodiscard]] bool is_solid_surface(const Surface& surface);
 
 /// Every edge once, as drawn vertices, for GL_LINES.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology);

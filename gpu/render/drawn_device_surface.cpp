@@ -26,6 +26,7 @@ Sphere roomy_bounds(const DeviceSurface& surface) {
 
 DrawnDeviceSurface::DrawnDeviceSurface(std::shared_ptr<const DeviceSurface> surface)
     : surface_(std::move(surface)), bounds_(roomy_bounds(*surface_)), layout_(make_vertex_array()) {
+    solid_ = is_solid_surface(surface_->surface());
     static_cast<void>(surface_->triangles());
 }
 

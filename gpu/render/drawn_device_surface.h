@@ -37,6 +37,8 @@ public:
 
     [[nodiscard]] bool has_colours() const override { return false; }
 
+    [[nodiscard]] bool is_solid() const override { return solid_; }
+
     [[nodiscard]] bool has_corners() const override { return false; }
 
     void bind_triangles() const override;
@@ -48,6 +50,7 @@ private:
     std::shared_ptr<const DeviceSurface> surface_;
     DeviceBuffers shown_;
     Sphere bounds_;
+    bool solid_ = false;
     mutable std::optional<Buffer> edges_;
     mutable std::size_t edge_count_ = 0;
     VertexArray layout_;

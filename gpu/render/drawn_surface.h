@@ -54,6 +54,8 @@ public:
 
     [[nodiscard]] bool has_colours() const override { return colours_.has_value(); }
 
+    [[nodiscard]] bool is_solid() const override { return arrays_.layout->solid; }
+
     [[nodiscard]] bool has_corners() const override { return true; }
 
     void bind_triangles() const override;

@@ -1,6 +1,9 @@
 #include "gpu/render/frame.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include <epoxy/gl.h>
 
 namespace vesselbench {
 
@@ -33,10 +36,23 @@ Eigen::Matrix4d eye_matrix(const ViewCamera& camera, const Vec3& centre) {
     return matrix;
 }
 
-Eigen::Vector4d plane_about(const std::optional<ClipPlane>& clip, const Vec3& centre) {
-    if (!clip) return {0.0, 0.0, 0.0, 1.0};
-    const Vec3 normal = clip->normal.normalized();
-    return {-normal.x(), -normal.y(), -normal.z(), normal.dot(clip->point - centre)};
+/// The scene's sphere, larger by what layers are pulled towards the eye.
+Sphere roomy_bounds(const SceneView& view, const Layers& layers) {
+    Sphere scene = bounds_of(layers);
+    double pull = 0.0;
+    for (const SurfaceLayer& layer : layers.surfaces) pull = std::max(pull, layer.pull);
+    for (const LinesLayer& layer : layers.lines) pull = std::max(pull, layer.pull);
+    if (!layers.points.empty()) pull = std::max(pull, mark_pull(view, scene.centre));
+    scene.radius = 1.002 * scene.radius + 1.5 * pull;
+    return scene;
+}
+
+// What is not clipped has this plane too: llvmpipe was seen to clip by a distance that is disabled.
+const Eigen::Vector4d kKeepsAll(0.0, 0.0, 0.0, 1.0);
+
+Eigen::Vector4d plane_about(const ClipPlane& clip, const Vec3& centre) {
+    const Vec3 normal = clip.normal.normalized();
+    return {-normal.x(), -normal.y(), -normal.z(), normal.dot(clip.point - centre)};
 }
 
 Eigen::Vector4d eye_about(const ViewCamera& camera, const Vec3& centre) {
@@ -47,20 +63,31 @@ Eigen::Vector4d eye_about(const ViewCamera& camera, const Vec3& centre) {
 
 }  // namespace
 
+double mark_pull(const SceneView& view, const Vec3& place) {
+    constexpr double kPixels = 6.0;
+    return kPixels * pixel_size(view.camera, view.rectangle.height, place);
+}
+
 Frame make_frame(const SceneView& view, const Layers& layers, const PixelRectangle& region) {
-    Frame frame{view, region, bounds_of(layers)};
+    Frame frame{view, region, roomy_bounds(view, layers)};
     frame.clip = magnified(view.rectangle, region) *
                  to_clip(view.camera, view.rectangle.aspect(), frame.scene);
     return frame;
 }
 
-void set_frame(const Uniforms& uniforms, const Frame& frame, const Vec3& centre, double pull) {
+void set_frame(const Uniforms& uniforms, const Frame& frame, const Placing& placing) {
+    const Vec3& centre = placing.centre;
+    const bool clipped = placing.clipped && frame.view.clip.has_value();
     const ViewCamera& camera = frame.view.camera;
     uniforms.set("to_clip", Eigen::Matrix4d(frame.clip * moved_by(centre)));
     uniforms.set("to_eye", eye_matrix(camera, centre));
     uniforms.set("eye", eye_about(camera, centre));
-    uniforms.set("clip_plane", plane_about(frame.view.clip, centre));
-    uniforms.set("pull", pull);
+    uniforms.set("clip_plane", clipped ? plane_about(*frame.view.clip, centre) : kKeepsAll);
+    uniforms.set("pull", placing.pull);
+    if (clipped)
+        glEnable(GL_CLIP_DISTANCE0);
+    else
+        glDisable(GL_CLIP_DISTANCE0);
     uniforms.set("viewport", Eigen::Vector2d(frame.region.width, frame.region.height));
     uniforms.set("eye_distance", camera.perspective ? eye_distance(camera) : 0.0);
 }

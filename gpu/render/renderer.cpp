@@ -20,7 +20,6 @@ namespace {
 constexpr int kScaleSteps = 256;             // gpu/shaders/surface.frag
 constexpr std::size_t kPatchColours = 1024;  // gpu/shaders/surface.vert
 constexpr double kEdgePull = 8e-4;           // of lines over their own triangles, by the radius [-]
-constexpr double kMarkPull = 6.0;            // [pixels] discs would sink into the surface they mark
 
 void enable(unsigned what, bool on) {
     if (on)
@@ -45,15 +44,12 @@ bool shows_values(const SurfaceLayer& layer) {
     return layer.colouring == Colouring::Values && layer.source->has_values();
 }
 
-std::string defines_of(const SurfaceLayer& layer) {
-    const bool corners = layer.source->has_corners();
-    std::string text;
-    if (layer.edges != Edges::Off && corners) text += "#define EDGES\n";
-    if (layer.edges == Edges::Only && corners) text += "#define ONLY_EDGES\n";
-    if (layer.flat) text += "#define FLAT\n";
-    if (shows_values(layer)) text += "#define VALUES\n";
-    if (layer.opacity < 1.0 && layer.edges != Edges::Only) text += "#define GLASS\n";
-    return text;
+/// Whether inner sides cannot be seen, so that half of the triangles need not be drawn.
+bool hides_inner_side(const Frame& frame, const SurfaceLayer& layer) {
+    if (!layer.source->is_solid() || (layer.clipped && frame.view.clip)) return false;
+    const Sphere bounds = layer.source->bounds();
+    const ViewCamera& camera = frame.view.camera;
+    return !camera.perspective || (eye_of(camera) - bounds.centre).norm() > 1.01 * bounds.radius;
 }
 
 int highlighted_label(const SurfaceLayer& layer) {
@@ -67,6 +63,39 @@ Colouring colouring_of(const SurfaceLayer& layer) {
     return missing ? Colouring::Base : layer.colouring;
 }
 
+/// As it is written into a picture.
+Eigen::Vector4d edge_colour_of(const SurfaceLayer& layer) {
+    const PixelColour colour = pixel_colour(layer.edge_colour);
+    const double own = layer.edges == Edges::Only ? layer.opacity : 1.0;
+    return {colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, layer.edge_opacity * own};
+}
+
+/// Whether triangles are so small on the screen that lighting their vertices is enough. Software
+/// renderers spend most of their time on the pixels of small triangles, of which each is computed
+/// several times.
+bool is_dense(const Frame& frame, const SurfaceLayer& layer) {
+    constexpr double kFewPixels = 12.0;
+    const Sphere bounds = layer.source->bounds();
+    const double pixel = pixel_size(frame.view.camera, frame.view.rectangle.height, bounds.centre);
+    if (!(pixel > 0.0)) return false;
+    const double radius = bounds.radius / pixel;
+    return 3.0 * radius * radius < kFewPixels * static_cast<double>(layer.source->triangle_count());
+}
+
+std::string defines_of(const Frame& frame, const SurfaceLayer& layer) {
+    const bool corners = layer.source->has_corners();
+    std::string text;
+    if (layer.edges != Edges::Off && corners) text += "#define EDGES\n";
+    if (layer.edges == Edges::Only && corners) text += "#define ONLY_EDGES\n";
+    if (layer.flat)
+        text += "#define FLAT\n";
+    else if (is_dense(frame, layer))
+        text += "#define DENSE\n";
+    if (shows_values(layer)) text += "#define VALUES\n";
+    if (layer.opacity < 1.0 && layer.edges != Edges::Only) text += "#define GLASS\n";
+    return text;
+}
+
 void set_surface(const Uniforms& uniforms, const SurfaceLayer& layer) {
     uniforms.set("base_colour", layer.base);
     uniforms.set("colouring", static_cast<int>(colouring_of(layer)));
@@ -75,8 +104,7 @@ void set_surface(const Uniforms& uniforms, const SurfaceLayer& layer) {
     uniforms.set("back_as_front", layer.back_as_front ? 1 : 0);
     uniforms.set("opacity", layer.opacity);
     uniforms.set("edge_width", layer.edge_width);
-    const Eigen::Vector3d edge = layer.edge_colour.cast<double>();
-    uniforms.set("edge_colour", Eigen::Vector4d(edge.x(), edge.y(), edge.z(), layer.edge_opacity));
+    uniforms.set("edge_colour", edge_colour_of(layer));
     uniforms.set("range", Eigen::Vector2d(layer.least, layer.most));
     uniforms.set("no_value", layer.no_value);
 }
@@ -175,16 +203,17 @@ struct Renderer::Impl {
     }
 
     void use_surface(const Frame& frame, const SurfaceLayer& layer) {
-        const Uniforms uniforms = programs.use("surface", "surface", defines_of(layer));
-        set_frame(uniforms, frame, layer.source->bounds().centre, layer.pull);
+        const Uniforms uniforms = programs.use("surface", "surface", defines_of(frame, layer));
+        set_frame(uniforms, frame, {layer.source->bounds().centre, layer.pull, layer.clipped});
         set_surface(uniforms, layer);
         bind_colours(layer);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
     }
 
     void draw_surface(const Frame& frame, const SurfaceLayer& layer) {
         use_surface(frame, layer);
+        enable(GL_CULL_FACE, hides_inner_side(frame, layer));
         draw_triangles(*layer.source);
+        glDisable(GL_CULL_FACE);
         if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
     }
 
@@ -193,31 +222,42 @@ struct Renderer::Impl {
         if (layer.source->has_corners()) return;
         const Uniforms uniforms = programs.use("surface", "edges");
         const Sphere bounds = layer.source->bounds();
-        set_frame(uniforms, frame, bounds.centre, layer.pull + kEdgePull * bounds.radius);
+        set_frame(uniforms, frame,
+                  {bounds.centre, layer.pull + kEdgePull * bounds.radius, layer.clipped});
         set_surface(uniforms, layer);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
         glEnable(GL_BLEND);
         const std::size_t count = layer.source->bind_edges();
         glDrawElements(GL_LINES, static_cast<GLsizei>(2 * count), GL_UNSIGNED_INT, nullptr);
         glDisable(GL_BLEND);
     }
 
-    /// Back faces, then front faces, none of which hides another.
+    void draw_edges_alone(const Frame& frame, const SurfaceLayer& layer) {
+        if (!layer.source->has_corners()) return draw_edge_lines(frame, layer);
+        use_surface(frame, layer);
+        glEnable(GL_BLEND);
+        draw_triangles(*layer.source);
+    }
+
+    /// Back faces, then front faces.
+    void draw_both_sides(const Frame& frame, const SurfaceLayer& layer) {
+        use_surface(frame, layer);
+        glEnable(GL_BLEND);
+        glEnable(GL_CULL_FACE);
+        for (const unsigned culled : {GL_FRONT, GL_BACK}) {
+            glCullFace(culled);
+            draw_triangles(*layer.source);
+        }
+        glDisable(GL_CULL_FACE);
+        if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
+    }
+
+    /// Blended, so that nothing in it hides anything.
     void draw_transparent(const Frame& frame, const SurfaceLayer& layer) {
         glDepthMask(GL_FALSE);
-        if (layer.edges == Edges::Only && !layer.source->has_corners()) {
-            draw_edge_lines(frame, layer);
-        } else {
-            use_surface(frame, layer);
-            glEnable(GL_BLEND);
-            glEnable(GL_CULL_FACE);
-            for (const unsigned culled : {GL_FRONT, GL_BACK}) {
-                glCullFace(culled);
-                draw_triangles(*layer.source);
-            }
-            glDisable(GL_CULL_FACE);
-            if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
-        }
+        if (layer.edges == Edges::Only)
+            draw_edges_alone(frame, layer);
+        else
+            draw_both_sides(frame, layer);
         glDisable(GL_BLEND);
         glDepthMask(GL_TRUE);
     }
@@ -229,11 +269,10 @@ struct Renderer::Impl {
         count_faces(frame, layer);
         const Uniforms uniforms = programs.use("section", "section");
         const Sphere bounds = layer.source->bounds();
-        set_frame(uniforms, frame, bounds.centre, layer.pull);
+        set_frame(uniforms, frame, {bounds.centre, layer.pull});
         uniforms.set("section_colour", *layer.section);
         const auto corners = plane_corners(*frame.view.clip, bounds);
         uniforms.set("corners", std::span(corners));
-        glDisable(GL_CLIP_DISTANCE0);
         glStencilFunc(GL_NOTEQUAL, 0, 0xFF);
         glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
         glBindVertexArray(nothing.id());
@@ -244,8 +283,7 @@ struct Renderer::Impl {
 
     void count_faces(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = programs.use("surface", "stencil");
-        set_frame(uniforms, frame, layer.source->bounds().centre, 0.0);
-        glEnable(GL_CLIP_DISTANCE0);
+        set_frame(uniforms, frame, {.centre = layer.source->bounds().centre, .clipped = true});
         glEnable(GL_STENCIL_TEST);
         glStencilFunc(GL_ALWAYS, 0, 0xFF);
         glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
@@ -253,7 +291,9 @@ struct Renderer::Impl {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         glDepthMask(GL_FALSE);
         glDisable(GL_DEPTH_TEST);
+        glEnable(GL_DEPTH_CLAMP);  // faces before the near plane count
         draw_triangles(*layer.source);
+        glDisable(GL_DEPTH_CLAMP);
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_TRUE);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -261,11 +301,10 @@ struct Renderer::Impl {
 
     void draw_slice(const Frame& frame, const SliceLayer& layer) {
         const Uniforms uniforms = programs.use("slice", "slice");
-        set_frame(uniforms, frame, layer.slice->bounds().centre, 0.0);
+        set_frame(uniforms, frame, {layer.slice->bounds().centre});
         uniforms.set("window_level", Eigen::Vector2d(std::max(layer.window, 1e-12), layer.level));
         uniforms.set("opacity", layer.opacity);
         uniforms.set("scalars", 0);
-        glDisable(GL_CLIP_DISTANCE0);
         enable(GL_BLEND, layer.opacity < 1.0);
         layer.slice->bind(layer.smooth);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -300,10 +339,9 @@ struct Renderer::Impl {
 
     static void set_lines(const Uniforms& uniforms, const Frame& frame, const LinesLayer& layer,
                           double half_width) {
-        set_frame(uniforms, frame, layer.lines->bounds().centre, layer.pull);
+        set_frame(uniforms, frame, {layer.lines->bounds().centre, layer.pull, layer.clipped});
         uniforms.set("half_width", half_width);
         uniforms.set("highlighted", layer.highlighted ? static_cast<int>(*layer.highlighted) : -1);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
         layer.lines->bind();
     }
 
@@ -316,10 +354,8 @@ struct Renderer::Impl {
 
     static void set_points(const Uniforms& uniforms, const Frame& frame, const PointsLayer& layer) {
         const Vec3 centre = layer.points->bounds().centre;
-        const double pixel = pixel_size(frame.view.camera, frame.view.rectangle.height, centre);
-        set_frame(uniforms, frame, centre, kMarkPull * pixel);
+        set_frame(uniforms, frame, {centre, mark_pull(frame.view, centre)});
         uniforms.set("highlighted", layer.highlighted ? static_cast<int>(*layer.highlighted) : -1);
-        glDisable(GL_CLIP_DISTANCE0);
         layer.points->bind();
     }
 
@@ -350,15 +386,13 @@ struct Renderer::Impl {
 
     void draw_surface_ids(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = use_ids("surface", layer.id, PickKind::Surface);
-        set_frame(uniforms, frame, layer.source->bounds().centre, layer.pull);
-        enable(GL_CLIP_DISTANCE0, layer.clipped && frame.view.clip.has_value());
+        set_frame(uniforms, frame, {layer.source->bounds().centre, layer.pull, layer.clipped});
         draw_triangles(*layer.source);
     }
 
     void draw_slice_ids(const Frame& frame, const SliceLayer& layer) {
         const Uniforms uniforms = use_ids("slice", layer.id, PickKind::Slice);
-        set_frame(uniforms, frame, layer.slice->bounds().centre, 0.0);
-        glDisable(GL_CLIP_DISTANCE0);
+        set_frame(uniforms, frame, {layer.slice->bounds().centre});
         layer.slice->bind(layer.smooth);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }

@@ -16,6 +16,9 @@ public:
     [[nodiscard]] virtual bool has_values() const = 0;
     [[nodiscard]] virtual bool has_colours() const = 0;
 
+    /// Whether it is closed and turned outward, so that its inner side is only seen from inside.
+    [[nodiscard]] virtual bool is_solid() const = 0;
+
     /// Whether corners have colours (drawing_arrays.h), so that edges are drawn in the pass that
     /// fills triangles.
     [[nodiscard]] virtual bool has_corners() const = 0;

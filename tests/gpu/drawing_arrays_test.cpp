@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 
@@ -103,6 +106,18 @@ SCENARIO("A surface without shape changes keeps its layout", "[gpu][render][arra
     const DrawingArrays other = prepare_drawing(icosphere(3.0, 2), &first);
     CHECK(other.layout != first.layout);
     CHECK_THROWS_AS(prepare_drawing(Surface{}), InvalidInput);
+}
+
+SCENARIO("A surface is solid if its inner side is seen from inside only", "[gpu][render][arrays]") {
+    CHECK(is_solid_surface(icosphere(3.0, 3, Vec3(9, 8, 7))));
+    CHECK(is_solid_surface(closed_tube(2.0, 20.0, 24, 20)));
+    CHECK_FALSE(is_solid_surface(open_tube(2.0, 20.0, 24, 20)));
+    CHECK_FALSE(is_solid_surface(flipped(icosphere(3.0, 3))));
+    CHECK_FALSE(is_solid_surface(sphere_shell(8.0, 2.0, 3)));
+    const Surface sphere = icosphere(3.0, 3);
+    std::vector<Triangle> triangles(sphere.triangles().begin(), sphere.triangles().end());
+    std::swap(triangles[5][0], triangles[5][1]);
+    CHECK_FALSE(is_solid_surface(make_surface(sphere.points(), triangles)));
 }
 
 SCENARIO("Every edge is listed once", "[gpu][render][arrays]") {

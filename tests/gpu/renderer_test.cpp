@@ -107,15 +107,25 @@ SCENARIO("A clip plane removes its side, and the section is filled", "[gpu][rend
         const double area = pixels(kPi * (64.0 - 9.0) * scale * scale);
         CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) ==
               Approx(area).epsilon(0.02));
+        THEN("an oblique section covers its projection") {
+            view.camera.perspective = false;
+            const Vec3 normal = Vec3(0.5, -0.8, 0.2).normalized();
+            view.clip = ClipPlane{kCentre, normal};
+            CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) ==
+                  Approx(pixels(kPi * 64.0) * -normal.y()).epsilon(0.02));
+        }
         THEN("a hollow sphere shows a ring") {
             Layers shell{.surfaces = {layer}};
-            shell.surfaces.front().source = drawn(sphere_shell(8.0, 2.0, 5));
+            shell.surfaces.front().source = drawn(
+                mapped(sphere_shell(8.0, 2.0, 5), [](const Vec3& p) { return Vec3(p + kCentre); }));
             CHECK(pixels_of(test->picture(view, shell), kSection) ==
                   Approx(area * (64.0 - 36.0) / (64.0 - 9.0)).epsilon(0.03));
         }
         THEN("a layer that is not clipped stays whole") {
             layer.clipped = false;
-            CHECK(pixels_of(test->picture(view, {.surfaces = {layer}}), kSection) == 0.0);
+            const Picture picture = test->picture(view, {.surfaces = {layer}});
+            CHECK(pixels_of(picture, kSection) == 0.0);
+            CHECK(covered_pixels(picture) == whole);
         }
     }
 }
