@@ -56,8 +56,8 @@ const std::map<std::string, Names> kDoors = {
      {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",
       "workbench/export", "workbench/report", "workbench/phantoms"}},
     {"workbench/suggest",
-     {"geometry/kernel", "smoothing/context", "smoothing/quality", "gpu", "workbench/case",
-      "workbench/project", "workbench/worker", "workbench/session", "workbench/operations"}},
+     {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
+      "workbench/worker", "workbench/session", "workbench/operations"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
