@@ -56,12 +56,12 @@ const std::map<std::string, Names> kDoors = {
      {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",
       "workbench/export", "workbench/report", "workbench/phantoms"}},
     {"workbench/suggest",
-     {"geometry/kernel", "smoothing/context", "smoothing/quality", "gpu", "workbench/case",
-      "workbench/project", "workbench/worker", "workbench/session", "workbench/operations"}},
+     {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
+      "workbench/worker", "workbench/session", "workbench/operations"}},
     {"workbench/window",
-     {"geometry", "smoothing", "gpu", "meshing", "workbench/case", "workbench/project",
-      "workbench/worker", "workbench/session", "workbench/operations", "workbench/export",
-      "workbench/phantoms", "workbench/report", "workbench/prepare", "workbench/suggest"}},
+     {"geometry/kernel", "geometry/formats", "gpu", "workbench/case", "workbench/session",
+      "workbench/operations", "workbench/export", "workbench/phantoms", "workbench/report",
+      "workbench/prepare"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};

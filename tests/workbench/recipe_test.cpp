@@ -67,8 +67,8 @@ SCENARIO("Every purpose is a word of recipes", "[workbench][recipe]") {
         CHECK(recipe_from_json(list, {"surface"}).empty());
         CHECK(&find_purpose(purpose.name) == &purpose);
     }
-    CHECK_THROWS_WITH(find_purpose("cdf"),
-                      Contains("--for 'cdf'") && Contains("did you mean 'cfd'"));
+    CHECK_THROWS_WITH(find_purpose("cfx"),
+                      Contains("--for 'cfx'") && Contains("did you mean 'cfd'"));
 }
 
 SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
