@@ -62,8 +62,8 @@ SCENARIO("Help reads well at every level", "[workbench][command-line]") {
 
 SCENARIO("Without a display, the window says that the command line works",
          "[workbench][command-line]") {
-    const ProgramRun result = run_program(
-        "/usr/bin/env", {"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", test::program_path()});
+    const ProgramRun result =
+        run_program("/usr/bin/env", {"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", program_path()});
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, Contains("no display") && Contains("command line works without it"));
 }
