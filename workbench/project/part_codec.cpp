@@ -13,7 +13,9 @@ namespace {
 constexpr std::uint16_t kMagic = 0x4256;  // "VB"
 constexpr std::uint8_t kVersion = 1;
 
-enum Kind : std::uint8_t { kTopology, kPositions, kLabels, kReals, kVoxels, kVolumeMesh };
+// Kinds of parts; their numbers are in the file.
+constexpr std::uint8_t kTopology = 0, kPositions = 1, kLabels = 2, kReals = 3, kVoxels = 4,
+                       kVolumeMesh = 5;
 
 /// Memory layout of a kind's elements.
 struct Layout {

@@ -240,7 +240,7 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
 std::optional<std::string> file_of(const Operation& operation, const Arguments& arguments) {
     for (const Parameter& parameter : operation.parameters)
         if (parameter.type == ParameterType::File && arguments.has(parameter.name)) {
-            const std::string path = arguments.text(parameter.name);
+            const std::string& path = arguments.text(parameter.name);
             return path.substr(path.find_last_of('/', path.size() - 2) + 1);
         }
     return std::nullopt;
