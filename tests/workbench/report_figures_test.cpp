@@ -29,8 +29,8 @@ ProgramRun run(const std::vector<std::string>& arguments) {
     return result;
 }
 
-/// No number of the report is one that the change has already. Of `decimate`, the two-sided distance
-/// equals the change's one-sided one where that is the larger one.
+/// No number of the report is one that the change has already. Of `decimate`, the two-sided
+/// distance equals the change's one-sided one where that is the larger one.
 void check_figures(const Json& edit) {
     const Json change = edit.at("change").flatten(), report = edit.at("report").flatten();
     CHECK(change.size() == 7);

@@ -92,9 +92,8 @@ void CaseStore::renew_past() {
     remember(refs, results);
     auto past = std::make_shared<std::map<EditRef, PastEdit>>();
     for (const EditRef ref : refs)
-        past->emplace(ref, PastEdit{edits_.at(ref), newest.contains(ref)
-                                                        ? records_.at(newest.at(ref))
-                                                        : nullptr});
+        past->emplace(ref, PastEdit{edits_.at(ref),
+                                    newest.contains(ref) ? records_.at(newest.at(ref)) : nullptr});
     past_ = std::move(past);
     past_results_ = history_->results().size();
 }

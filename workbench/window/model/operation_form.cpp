@@ -109,7 +109,8 @@ Arguments OperationForm::arguments() const {
     Arguments arguments;
     for (const FormField& field : fields_)
         if (field.active && !field.text.empty())
-            arguments.set(field.parameter->name, checked_value(*field.parameter, Value(field.text)));
+            arguments.set(field.parameter->name,
+                          checked_value(*field.parameter, Value(field.text)));
     return arguments;
 }
 
