@@ -201,9 +201,9 @@ bool all_parts_outward(const Surface& surface) {
 }  // namespace
 
 std::array<std::size_t, 2> DrawingLayout::extras_of(VertexId v) const {
-    const auto range = std::ranges::equal_range(extras, v);
-    return {static_cast<std::size_t>(range.begin() - extras.begin()),
-            static_cast<std::size_t>(range.end() - extras.begin())};
+    const auto [first, last] = std::equal_range(extras.begin(), extras.end(), v);
+    return {static_cast<std::size_t>(first - extras.begin()),
+            static_cast<std::size_t>(last - extras.begin())};
 }
 
 VertexId original_of(const DrawingArrays& drawing, std::size_t drawn) {

@@ -82,7 +82,7 @@ double content_scale(GLFWwindow* window) {
 /// The backend of ImGui, and our own reactions to the window's events.
 class Events {
 public:
-    Events(GLFWwindow* window, App& app) : window_(window), app_(app) {
+    Events(GLFWwindow* window, App& app) : app_(app) {
         glfwSetWindowUserPointer(window, this);
         glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
             if (count > 0) self(from).app_.open(paths[0]);
@@ -118,7 +118,6 @@ private:
         return *static_cast<Events*>(glfwGetWindowUserPointer(window));
     }
 
-    GLFWwindow* window_;
     App& app_;
     int frames_ = kFramesAfterInput;
 };
