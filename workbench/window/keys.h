@@ -6,6 +6,8 @@ namespace vesselbench::keys {
 inline constexpr int kSpace = 32;
 inline constexpr int k0 = 48;  ///< k0 + 7 is the key 7
 inline constexpr int kA = 65;  ///< kA + 25 is Z
+inline constexpr int kLeftBracket = 91;
+inline constexpr int kRightBracket = 93;
 inline constexpr int kEscape = 256;
 inline constexpr int kEnter = 257;
 inline constexpr int kTab = 258;

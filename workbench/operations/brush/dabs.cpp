@@ -89,6 +89,12 @@ Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance&
 
 }  // namespace
 
+std::vector<double> listed(const Dab& dab) {
+    const auto& [point, normal, local_radius] = dab.anchor;
+    return {point.x(),  point.y(),    point.z(),  normal.x(),   normal.y(),
+            normal.z(), local_radius, dab.radius, dab.strength, dab.falloff};
+}
+
 bool is_dab_argument(const std::string& name) {
     return std::ranges::count(kNames, name) > 0;
 }
@@ -150,10 +156,7 @@ std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
         return dabs;
     }
     const Dab dab = single_dab(use, surface, places, outcome);
-    const auto& [point, normal, local_radius] = dab.anchor;
-    arguments.set("dabs", std::vector<double>{point.x(), point.y(), point.z(), normal.x(),
-                                              normal.y(), normal.z(), local_radius, dab.radius,
-                                              dab.strength, dab.falloff});
+    arguments.set("dabs", listed(dab));
     arguments.set("strength", dab.strength);
     arguments.set("falloff", dab.falloff);
     return {dab};

@@ -29,6 +29,9 @@ struct DabUse {
 [[nodiscard]] std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);
 
+/// A dab as the numbers of `dabs`.
+[[nodiscard]] std::vector<double> listed(const Dab& dab);
+
 /// True for the names of dab_parameters.
 [[nodiscard]] bool is_dab_argument(const std::string& name);
 

@@ -20,6 +20,7 @@ namespace vesselbench {
 namespace {
 
 constexpr std::size_t kMostMessages = 500;
+constexpr const char* kReading = "reading the model";
 
 /// The texts that a recipe tells while it runs, handed from its thread to the frame's.
 class ToldTexts {
@@ -151,12 +152,14 @@ bool Document::poll() {
     for (auto& job : jobs_)
         if (job->ended()) ended.push_back(std::move(job));
     std::erase(jobs_, nullptr);
+    const std::vector<EndedStroke> strokes = strokes_.poll();
     if (runner_->snapshot() != snapshot_) {
         take_snapshot();
         changed = true;
     }
     for (const auto& job : ended) job->finish();
-    return changed || !ended.empty();
+    for (const EndedStroke& stroke : strokes) end(stroke);
+    return changed || !ended.empty() || !strokes.empty() || strokes_.has_moves();
 }
 
 // --- the case
@@ -169,6 +172,7 @@ void Document::open(OpenRequest request) {
 
 void Document::close() {
     jobs_.clear();
+    strokes_.clear();
     preparation_.reset();
     runner_.reset();
     snapshot_.reset();
@@ -220,20 +224,21 @@ void Document::show_variant(const std::string& variant) {
 // --- what is shown
 
 const Scene* Document::shown() const {
-    return preview_ ? &preview_->scene() : current();
+    if (preview_) return &preview_->scene();
+    return strokes_.scene() != nullptr ? strokes_.scene() : current();
 }
 
 void Document::set_scene(std::optional<Scene> scene) {
     scene_ = std::move(scene);
     figures_ = {};
     scene_changed();
-    if (scene_ && scene_->surface) request_figures();
+    if (scene_ && scene_->surface && !is_painting()) request_figures();
 }
 
 void Document::scene_changed() {
     ++scene_changes_;
     deviation_.reset();
-    if (wants_deviation_) request_deviation();
+    if (wants_deviation_ && !is_painting()) request_deviation();
 }
 
 void Document::want_deviation(bool wanted) {
@@ -270,7 +275,7 @@ void Document::request_scene() {
             return session.scene_after(id, progress);
         },
         "scene");
-    watch(job, "reading the model", {}, true, [this](const Scene& scene) { set_scene(scene); });
+    watch(job, kReading, {}, true, [this](const Scene& scene) { set_scene(scene); });
 }
 
 void Document::request_figures() {
@@ -297,7 +302,7 @@ void Document::cancel_background() {
 
 bool Document::begin_request() {
     failure_.reset();
-    if (!runner_) return false;
+    if (!runner_ || is_painting()) return false;
     cancel_background();
     return true;
 }
@@ -305,6 +310,10 @@ bool Document::begin_request() {
 void Document::enter(const LogEntry& entry) {
     ++entered_;
     drop_preview();
+    tell_entered(entry);
+}
+
+void Document::tell_entered(const LogEntry& entry) {
     tell(make_message(MessageKind::Success, entered_text(entry)));
     if (!entry.result) return;
     for (const std::string& warning : entry.result->warnings)
@@ -461,6 +470,51 @@ void Document::save_copy(const std::filesystem::path& project) {
     });
 }
 
+// --- strokes of a brush
+
+bool Document::can_paint() const {
+    const Scene* scene = current();
+    return scene != nullptr && scene->surface && !preview_ && !opening_ &&
+           snapshot_->read_only_reason.empty() && std::ranges::all_of(jobs_, [](const auto& job) {
+               return job->background && job->what != kReading;
+           });
+}
+
+/// The last edit's step: what is painted on is the shown surface, not an earlier one.
+Step Document::stroke_step(const std::string& operation) const {
+    const Operation& brush = find_operation(operation);
+    Step last = brush.usual_step, step = brush.usual_step;
+    for (const HistoryEntry& entry : snapshot_->history->line(variant_))
+        if (entry.status == EditStatus::Done) last = std::max(last, entry.place.step);
+    for (const Step allowed : brush.allowed)
+        if (allowed <= last) step = std::max(step, allowed);
+    return step;
+}
+
+void Document::begin_stroke(StrokeRequest request) {
+    if (!can_paint() || !begin_request()) return;
+    const Step step = stroke_step(request.operation);
+    strokes_.begin(*runner_, std::move(request), {.step = step, .variant = variant_});
+}
+
+void Document::drop_stroke() {
+    if (!is_painting()) return;
+    strokes_.drop();
+    show_without_stroke();
+}
+
+void Document::end(const EndedStroke& stroke) {
+    if (stroke.entry) return tell_entered(*stroke.entry);
+    if (stroke.cancelled) stop_with("cancelled");
+    if (!stroke.error.empty()) fail(stroke.error, stroke.operation);
+    show_without_stroke();
+}
+
+void Document::show_without_stroke() {
+    scene_changed();
+    if (scene_ && scene_->surface && !is_painting()) request_figures();
+}
+
 // --- progress and messages
 
 std::optional<Activity> Document::activity() const {
@@ -479,10 +533,13 @@ std::optional<Activity> Document::activity() const {
         return Activity{"preparing: " + what, (done + progress.fraction) /
                                                   static_cast<double>(preparation_->recipe.size())};
     }
+    if (const LiveStroke* stroke = strokes_.entering())
+        return Activity{stroke->operation(), stroke->progress().fraction};
     return std::nullopt;
 }
 
 void Document::cancel() {
+    strokes_.cancel();
     if (opening_) opening_->cancel();
     for (const auto& job : jobs_)
         if (!job->background) job->cancel();

@@ -12,6 +12,7 @@
 #include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"
+#include "workbench/window/model/stroke_queue.h"
 
 namespace vesselbench {
 
@@ -66,14 +67,18 @@ public:
 
     // --- what is shown
 
-    /// The preview's scene if there is one, else the case's; null while none is known.
+    /// The preview's scene if there is one, else that of a stroke, else the case's; null while none
+    /// is known.
     [[nodiscard]] const Scene* shown() const;
 
     /// The scene that a preview replaces.
     [[nodiscard]] const Scene* current() const { return scene_ ? &*scene_ : nullptr; }
 
-    /// Counts changes of shown().
+    /// Counts changes of shown(), without those by dabs of a stroke.
     [[nodiscard]] int scene_changes() const { return scene_changes_; }
+
+    /// What dabs changed in shown() since the last call.
+    [[nodiscard]] std::vector<SceneMove> take_moves() { return strokes_.take_moves(); }
 
     [[nodiscard]] const std::optional<Preview>& previewed() const { return preview_; }
 
@@ -111,13 +116,33 @@ public:
     void export_to(const std::filesystem::path& file);
     void save_copy(const std::filesystem::path& project);
 
+    // --- strokes of a brush
+
+    /// True if a stroke may begin: of other requests, only strokes are being entered.
+    [[nodiscard]] bool can_paint() const;
+
+    /// Begins a stroke in the step of the last edit, if the brush is allowed there. Other requests
+    /// are ignored until it ends.
+    void begin_stroke(StrokeRequest request);
+
+    void add_dab(const StrokePlace& place) { strokes_.add(place); }
+
+    /// The stroke becomes an edit, or is dropped.
+    void end_stroke() { strokes_.end(); }
+
+    void drop_stroke();
+
+    [[nodiscard]] bool is_painting() const { return strokes_.painting(); }
+
     // --- progress and messages
 
     /// The foreground request that runs or waits; none: idle.
     [[nodiscard]] std::optional<Activity> activity() const;
 
     /// True if anything runs, also in the background.
-    [[nodiscard]] bool busy() const { return opening_ != nullptr || !jobs_.empty(); }
+    [[nodiscard]] bool busy() const {
+        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty();
+    }
 
     void cancel();
 
@@ -130,7 +155,7 @@ public:
 
     void forget_failure() { failure_.reset(); }
 
-    /// Counts edits that were entered by apply, change and commit.
+    /// Counts edits that were entered by apply, change and commit_preview.
     [[nodiscard]] int entered() const { return entered_; }
 
 private:
@@ -147,6 +172,10 @@ private:
                Then then);
     [[nodiscard]] bool begin_request();
     void enter(const LogEntry& entry);
+    void tell_entered(const LogEntry& entry);
+    void end(const EndedStroke& stroke);
+    void show_without_stroke();
+    [[nodiscard]] Step stroke_step(const std::string& operation) const;
     void show_preview(const Preview& preview);
     void take_opened();
     void take_snapshot();
@@ -164,6 +193,7 @@ private:
     std::unique_ptr<Opening> opening_;
     std::unique_ptr<SessionRunner> runner_;
     std::vector<std::unique_ptr<Watched>> jobs_;
+    StrokeQueue strokes_;
     std::filesystem::path project_;
     std::optional<Input> input_;
     std::string variant_ = kDefaultVariant;

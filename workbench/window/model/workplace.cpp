@@ -75,6 +75,7 @@ void Workplace::choose(const std::string& operation) {
     leave_form();
     form_.emplace(find_operation(operation));
     step_ = form_->operation().usual_step;
+    if (is_brush(form_->operation()) && tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
 }
 
 void Workplace::choose_edit(EditId edit) {
@@ -90,6 +91,7 @@ void Workplace::set_field(const std::string& parameter, const std::string& text)
     const int before = form_->changes();
     form_->set(parameter, text);
     if (form_->changes() == before) return;
+    if (is_brush(form_->operation())) tip_ = tip();
     document.forget_failure();
     document.drop_preview();
 }
@@ -136,6 +138,26 @@ void Workplace::apply() {
         document.change(*form_->edit(), form_->arguments());
     else
         document.apply(form_->operation().name, form_->arguments());
+}
+
+// --- the brush
+
+bool Workplace::can_paint() const {
+    return form_ && !form_->edit() && is_brush(form_->operation()) && form_->valid() &&
+           document.can_paint();
+}
+
+BrushTip Workplace::tip() const {
+    return form_ ? tip_of(*form_, tip_) : tip_;
+}
+
+void Workplace::set_tip(const BrushTip& tip) {
+    tip_ = tip;
+    if (form_) vesselbench::set_tip(*form_, tip);
+}
+
+void Workplace::begin_stroke(StrokeKeys keys) {
+    if (can_paint()) document.begin_stroke(stroke_of(*form_, tip(), keys));
 }
 
 std::string Workplace::command() const {

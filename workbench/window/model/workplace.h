@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/operation_form.h"
@@ -71,6 +72,17 @@ public:
     /// Enters the preview if it is of what the form says, else runs the form.
     void apply();
 
+    // --- the brush
+
+    /// True if the form is of a brush that can paint on the shown surface now.
+    [[nodiscard]] bool can_paint() const;
+
+    /// The form's brush, which later forms of brushes take over.
+    [[nodiscard]] BrushTip tip() const;
+    void set_tip(const BrushTip& tip);
+
+    void begin_stroke(StrokeKeys keys);
+
     /// The form's command line.
     [[nodiscard]] std::string command() const;
 
@@ -91,6 +103,7 @@ private:
     std::vector<RailStep> rail_ = empty_rail();
     HistoryTree history_;
     std::optional<OperationForm> form_;
+    BrushTip tip_;  ///< of the last form of a brush
     Step step_ = Step::Source;
     int previewed_changes_ = -1;  ///< the form's, when its preview was asked for
     int seen_snapshots_ = 0, seen_entered_ = 0;

@@ -34,6 +34,12 @@ constexpr std::array<KeyHelp, 8> kViewing = {{{"Left drag", "turn"},
                                               {"Home", "show everything"},
                                               {"5", "perspective or parallel"}}};
 
+constexpr std::array<KeyHelp, 5> kBrushing = {{{"Left drag", "brush on the surface"},
+                                               {"[ and ], or F", "size, by keys or by the mouse"},
+                                               {"With Shift", "the same for the strength"},
+                                               {"Shift+left drag", "smooth, whatever the brush"},
+                                               {"Ctrl+left drag", "the opposite"}}};
+
 template <std::size_t N>
 void draw_keys(const Ui& ui, const std::string& title, const std::array<KeyHelp, N>& keys,
                float keys_width) {
@@ -58,7 +64,7 @@ constexpr const char* kFirstSteps =
 
 void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
-    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 30);
+    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 39);
     heading(ui, "Help");
     ImGui::SameLine(rect.width - ui.grid(2.5F) - ImGui::GetFrameHeight());
     if (icon_button(c.ui, "help.close", icons::kClose, "Close  Esc")) c.shown.help = false;
@@ -73,6 +79,8 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     ImGui::SameLine(0, 0);
     ImGui::BeginChild("viewing");
     draw_keys(ui, "View", kViewing, ui.em * 12);
+    space(ui, 2);
+    draw_keys(ui, "Brushes", kBrushing, ui.em * 12);
     ImGui::EndChild();
     ImGui::EndChild();
     end_frame();

@@ -98,7 +98,11 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (parameter != nullptr) return wrapped(c.ui, help_of(*parameter), c.ui.theme.muted);
     if (failure) return wrapped(c.ui, failure->text, c.ui.theme.danger);
     if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
-    wrapped(c.ui, "Point at a field to read about it. Empty fields take their defaults.",
+    wrapped(c.ui,
+            c.place.can_paint()
+                ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
+                  "with Shift the strength; Shift while dragging smooths, Ctrl does the opposite."
+                : "Point at a field to read about it. Empty fields take their defaults.",
             c.ui.theme.muted);
 }
 

@@ -1,6 +1,8 @@
 #include "workbench/window/view/model_drawing.h"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace vesselbench {
 
@@ -22,14 +24,20 @@ std::vector<Colour> colours_of_patches(const Surface& surface) {
     return colours;
 }
 
+/// The same arrays, so that comparing contents is not needed.
+bool same_shape(const Surface& a, const Surface& b) {
+    return a.topology == b.topology && a.patch_labels == b.patch_labels &&
+           a.positions == b.positions && a.attributes == b.attributes;
+}
+
 }  // namespace
 
 ModelDrawing::ModelDrawing(std::function<void()> wake) : wake_(std::move(wake)) {}
 
 void ModelDrawing::show(const Scene* scene) {
     wanted_.reset();
+    late_.clear();
     deviation_.reset();
-    uploaded_.reset();
     if (scene == nullptr || !scene->surface || scene->surface->empty()) {
         drawn_.reset();
         return;
@@ -51,40 +59,98 @@ void ModelDrawing::begin() {
 
 bool ModelDrawing::update() {
     using namespace std::chrono_literals;
-    bool changed = false;
+    bool changed = std::exchange(moved_, false);
     if (next_.valid() && next_.wait_for(0s) == std::future_status::ready) {
-        DrawingArrays arrays = next_.get();
         if (wanted_) {
+            next_.get();
             begin();
         } else {
-            drawn_ = std::make_shared<DrawnSurface>(std::move(arrays));
+            take_next();
             changed = true;
         }
     }
     return upload_values() || changed;
 }
 
+void ModelDrawing::take_next() {
+    drawn_ = std::make_shared<DrawnSurface>(next_.get());
+    shown_ = drawn_->surface();
+    uploaded_.reset();
+    follow_late();
+}
+
+// --- dabs
+
+void ModelDrawing::move(const SceneMove& move) {
+    if (next_.valid() || wanted_)
+        late_.push_back(move);
+    else if (drawn_ && same_shape(shown_, surface_of(move.before)))
+        follow(move);
+    else {
+        wanted_ = surface_of(move.after);
+        begin();
+    }
+}
+
+/// The moves that came while the surface was laid out: those since it.
+void ModelDrawing::follow_late() {
+    const std::vector<SceneMove> late = std::exchange(late_, {});
+    if (late.empty() || same_shape(shown_, surface_of(late.back().after))) return;
+    auto next = std::ranges::find_if(
+        late, [&](const SceneMove& move) { return same_shape(shown_, surface_of(move.before)); });
+    for (; next != late.end(); ++next) move(*next);
+    if (next_.valid() || same_shape(shown_, surface_of(late.back().after))) return;
+    wanted_ = surface_of(late.back().after);
+    begin();
+}
+
+void ModelDrawing::follow(const SceneMove& move) {
+    const Surface& after = surface_of(move.after);
+    if (shown_.positions != after.positions) drawn_->move(after.points(), move.changed);
+    const bool coloured = uploaded_ && uploaded_ == painted_values();
+    shown_ = after;
+    moved_ = true;
+    if (!coloured) return;
+    uploaded_ = painted_values();
+    drawn_->set_values(*uploaded_, move.changed);
+}
+
+// --- colours
+
 void ModelDrawing::set_deviation(std::shared_ptr<const DeviationMap> deviation) {
     deviation_ = std::move(deviation);
 }
 
+ModelDrawing::Values ModelDrawing::painted_values() const {
+    const auto found = shown_.attributes.find(painted_);
+    return found == shown_.attributes.end() ? nullptr : found->second;
+}
+
+ModelDrawing::Values ModelDrawing::wanted_values() const {
+    if (!painted_.empty()) return painted_values();
+    return deviation_ ? Values(deviation_, &deviation_->values) : nullptr;
+}
+
 bool ModelDrawing::upload_values() {
-    const bool fits =
-        !deviation_ ||
-        (drawn_ && !next_.valid() && deviation_->values.size() == drawn_->surface().vertex_count());
-    if (deviation_ == uploaded_ || !drawn_ || !fits) return false;
-    uploaded_ = deviation_;
-    drawn_->set_values(uploaded_ ? std::span<const double>(uploaded_->values)
-                                 : std::span<const double>());
+    if (!drawn_ || next_.valid()) return false;
+    const Values wanted = wanted_values();
+    if (wanted == uploaded_ || (wanted && wanted->size() != shown_.vertex_count())) return false;
+    uploaded_ = wanted;
+    drawn_->set_values(uploaded_ ? std::span<const double>(*uploaded_) : std::span<const double>());
     return true;
 }
 
 const Surface* ModelDrawing::surface() const {
-    return drawn_ ? &drawn_->surface() : nullptr;
+    return drawn_ ? &shown_ : nullptr;
+}
+
+bool ModelDrawing::shows_weight() const {
+    return drawn_ && drawn_->has_values() && uploaded_ && uploaded_ == painted_values();
 }
 
 bool ModelDrawing::shows_deviation(const ViewLook& look) const {
-    return look.deviation && drawn_ && drawn_->has_values() && uploaded_;
+    return look.deviation && deviation_ && drawn_ && drawn_->has_values() &&
+           uploaded_.get() == &deviation_->values;
 }
 
 Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
@@ -99,9 +165,10 @@ Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     if (shows_deviation(look)) {
         layer.colouring = Colouring::Values;
         layer.map = ColourMap::Diverging;
-        layer.least = -uploaded_->full;
-        layer.most = uploaded_->full;
+        layer.least = -deviation_->full;
+        layer.most = deviation_->full;
     }
+    if (shows_weight()) layer.colouring = Colouring::Values;
     layers.surfaces.push_back(std::move(layer));
     return layers;
 }

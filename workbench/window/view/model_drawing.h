@@ -4,11 +4,14 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
 #include "workbench/window/model/deviation_map.h"
+#include "workbench/window/model/live_stroke.h"
 
 namespace vesselbench {
 
@@ -32,6 +35,13 @@ public:
     /// Begins to show a scene's surface, or nothing.
     void show(const Scene* scene);
 
+    /// Follows a dab: what it changed is uploaded at once if the drawing shows the surface before
+    /// it, else all is laid out again.
+    void move(const SceneMove& move);
+
+    /// Colours show a vertex attribute from 0 to 1, absent ones as 0; empty: they do not.
+    void set_painted(const std::string& attribute) { painted_ = attribute; }
+
     /// Values for colours; null: none.
     void set_deviation(std::shared_ptr<const DeviationMap> deviation);
 
@@ -40,10 +50,13 @@ public:
 
     [[nodiscard]] bool pending() const { return next_.valid(); }
 
-    /// The surface that is drawn; null: none.
+    /// The surface that is drawn, with the dabs so far; null: none.
     [[nodiscard]] const Surface* surface() const;
 
     [[nodiscard]] Layers layers(const ViewLook& look, double edge_width) const;
+
+    /// True if the colours show a painted attribute.
+    [[nodiscard]] bool shows_weight() const;
 
     /// True if the colours show the deviation.
     [[nodiscard]] bool shows_deviation(const ViewLook& look) const;
@@ -51,14 +64,26 @@ public:
     [[nodiscard]] const DeviationMap* deviation() const { return deviation_.get(); }
 
 private:
+    using Values = std::shared_ptr<const std::vector<double>>;
+
     void begin();
+    void take_next();
+    void follow(const SceneMove& move);
+    void follow_late();
+    [[nodiscard]] Values painted_values() const;
+    [[nodiscard]] Values wanted_values() const;
     [[nodiscard]] bool upload_values();
 
     std::function<void()> wake_;
     std::shared_ptr<DrawnSurface> drawn_;
+    Surface shown_;  ///< as drawn, with all moves
     std::future<DrawingArrays> next_;
     std::optional<Surface> wanted_;  ///< to be laid out after `next_`
-    std::shared_ptr<const DeviationMap> deviation_, uploaded_;
+    std::vector<SceneMove> late_;    ///< moves since `next_` or `wanted_` was asked for
+    bool moved_ = false;             ///< since the last update
+    std::string painted_;
+    std::shared_ptr<const DeviationMap> deviation_;
+    Values uploaded_;
 };
 
 }  // namespace vesselbench

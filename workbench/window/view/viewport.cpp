@@ -12,6 +12,7 @@
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/widgets/controls.h"
@@ -45,13 +46,15 @@ struct DrawnAs {
 }  // namespace
 
 struct Viewport::Impl {
-    explicit Impl(std::function<void()> wake) : model(std::move(wake)), picker(renderer) {}
+    explicit Impl(std::function<void()> wake)
+        : model(std::move(wake)), picker(renderer), brush(renderer) {}
 
     void take_scene(PanelContext& c);
     void frame_model();
     void follow_model();
     void draw_model(const Ui& ui);
-    void handle_mouse();
+    void handle_brush(PanelContext& c);
+    void handle_mouse(bool sets_centre);
     void handle_keys(bool over_view);
     void set_centre();
     void draw_toolbar(PanelContext& c);
@@ -68,6 +71,7 @@ struct Viewport::Impl {
     ModelDrawing model;
     Renderer renderer;
     Picker picker;
+    BrushPointer brush;
     std::optional<RenderTarget> target;
     unsigned texture = 0;
     ViewCamera camera;
@@ -86,7 +90,7 @@ Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(st
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending();
+    return impl_->model.pending() || impl_->brush.pending();
 }
 
 int Viewport::drawings() const {
@@ -97,9 +101,13 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     Document& document = c.place.document;
     if (seen_scenes != document.scene_changes()) {
         seen_scenes = document.scene_changes();
+        static_cast<void>(document.take_moves());
         model.show(document.shown());
         drawn.reset();
     }
+    for (const SceneMove& move : document.take_moves()) model.move(move);
+    const auto& form = c.place.form();
+    model.set_painted(form ? painted_attribute(*form) : "");
     document.want_deviation(look.deviation);
     model.set_deviation(document.deviation());
     if (!model.update()) return;
@@ -158,13 +166,21 @@ Eigen::Vector2d Viewport::Impl::mouse_ndc() const {
             1.0 - 2.0 * (mouse.y - rect.y) / rect.height};
 }
 
-void Viewport::Impl::handle_mouse() {
+void Viewport::Impl::handle_brush(PanelContext& c) {
+    if (!target) return;
+    const SceneView view = scene_view(c.ui);
+    const Layers shown = layers(c.ui);
+    brush.update(c, {view, shown, *model.surface(), rect});
+}
+
+void Viewport::Impl::handle_mouse(bool sets_centre) {
     const ImGuiIO& io = ImGui::GetIO();
     const Eigen::Vector2d now = mouse_ndc();
     const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
                                 -2.0 * io.MouseDelta.y / rect.height);
-    if (ImGui::IsItemActive() && moved.norm() > 0) {
-        const bool pans = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift;
+    const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !brush.holds_left())) {
+        const bool pans = middle || io.KeyShift;
         const double turn = kTurnPerHeight / rect.height;
         if (pans)
             camera = panned(camera, aspect(), now - moved, now);
@@ -174,7 +190,7 @@ void Viewport::Impl::handle_mouse() {
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0)
         camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
+    if (sets_centre && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
 }
 
 void Viewport::Impl::set_centre() {
@@ -230,6 +246,7 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
 void Viewport::Impl::draw_overlays(PanelContext& c) {
     draw_toolbar(c);
     if (model.surface() == nullptr) return draw_empty(c);
+    brush.draw(c, camera, rect);
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     if (model.shows_deviation(look))
@@ -267,7 +284,10 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
     ImGui::SetItemAllowOverlap();
     c.ui.item("view.area");
     const bool over = ImGui::IsItemHovered();
-    if (view.model.surface() != nullptr) view.handle_mouse();
+    if (view.model.surface() != nullptr) {
+        view.handle_brush(c);
+        view.handle_mouse(!c.place.can_paint());
+    }
     view.handle_keys(over);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};

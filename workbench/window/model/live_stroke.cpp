@@ -1,0 +1,131 @@
+#include "workbench/window/model/live_stroke.h"
+
+#include <utility>
+
+#include "workbench/operations/brush/dabs.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// By the local radius of the vessel: places between two others that are farther from the surface
+/// are not on the way along it.
+constexpr double kBeside = 0.5;
+
+template <class Values>
+void add_differences(const Values& before, const Values& after, std::vector<VertexId>& changed) {
+    for (std::size_t v = 0; v < after.size(); ++v)
+        if (before[v] != after[v]) changed.push_back(static_cast<VertexId>(v));
+}
+
+using Values = std::shared_ptr<const std::vector<double>>;
+
+Values attribute(const Surface& surface, const std::string& name) {
+    const auto found = surface.attributes.find(name);
+    return found == surface.attributes.end()
+               ? std::make_shared<const std::vector<double>>(surface.vertex_count(), 0.0)
+               : found->second;
+}
+
+}  // namespace
+
+std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after) {
+    std::vector<VertexId> changed;
+    if (before.positions != after.positions)
+        add_differences(before.points(), after.points(), changed);
+    for (const auto& [name, values] : after.attributes) {
+        const Values old = attribute(before, name);
+        if (old != values) add_differences(*old, *values, changed);
+    }
+    return changed;
+}
+
+LiveStroke::LiveStroke(SessionRunner& runner, StrokeRequest request, const EditOptions& options)
+    : runner_(runner), request_(std::move(request)) {
+    starting_ = runner_.submit([name = request_.operation, given = request_.given, options](
+                                   Session& session, const Progress& progress) {
+        auto live = std::make_shared<LiveEdit>(session.start_live(name, given, options, progress));
+        const Scene before = live->scene();
+        return Started{std::move(live), before, distance_to(surface_of(before))};
+    });
+}
+
+void LiveStroke::cancel() {
+    starting_.cancel();
+    for (const auto& dab : dabs_) dab.cancel();
+    if (committing_) committing_->cancel();
+}
+
+void LiveStroke::add(const StrokePlace& place) {
+    waiting_.push_back(place);
+    send();
+}
+
+void LiveStroke::end() {
+    ending_ = true;
+    send();
+}
+
+void LiveStroke::send() {
+    if (!started_) return;
+    for (const StrokePlace& place : std::exchange(waiting_, {})) send(place);
+    if (ending_ && sent_ && !committing_) committing_ = runner_.commit(started_->live);
+}
+
+void LiveStroke::send(const StrokePlace& place) {
+    const std::optional<Dab> dab = dab_at(place);
+    if (!dab) return;
+    sent_ = true;
+    dabs_.push_back(runner_.submit(
+        [live = started_->live, numbers = listed(*dab)](Session&, const Progress& progress) {
+            SceneMove move{.before = live->scene()};
+            live->add({{"dabs", numbers}}, progress);
+            move.after = live->scene();
+            move.changed = changed_vertices(surface_of(move.before), surface_of(move.after));
+            return move;
+        }));
+}
+
+std::optional<Dab> LiveStroke::dab_at(const StrokePlace& place) const {
+    const Surface& surface = surface_of(started_->before);
+    Dab dab{.anchor = nearest_anchor(surface, *started_->places, place.point, request_.radius),
+            .radius = request_.radius,
+            .strength = request_.strength,
+            .falloff = request_.falloff};
+    const double beside = (dab.anchor.point - place.point).norm();
+    if (place.between && beside > kBeside * dab.anchor.radius) return std::nullopt;
+    dab.anchor.point = place.point;
+    dab.anchor.normal = place.normal;
+    return dab;
+}
+
+std::vector<SceneMove> LiveStroke::poll() {
+    if (!started_ && starting_.ended()) {
+        started_ = starting_.result();
+        send();
+    }
+    std::vector<SceneMove> moves;
+    while (!dabs_.empty() && dabs_.front().ended()) {
+        moves.push_back(dabs_.front().result());
+        dabs_.pop_front();
+        scene_ = moves.back().after;
+    }
+    if (committing_ && committing_->ended()) static_cast<void>(committing_->result());
+    return moves;
+}
+
+bool LiveStroke::ended() const {
+    if (!ending_ || !started_) return false;
+    return committing_ ? committing_->ended() && dabs_.empty() : !sent_;
+}
+
+std::optional<LogEntry> LiveStroke::entry() const {
+    if (!committing_) return std::nullopt;
+    return committing_->result();
+}
+
+JobProgress LiveStroke::progress() const {
+    return committing_ ? committing_->progress() : JobProgress{};
+}
+
+}  // namespace vesselbench

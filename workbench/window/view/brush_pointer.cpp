@@ -1,0 +1,204 @@
+#include "workbench/window/view/brush_pointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/model/readable.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kFirstRadius = 0.1;      ///< by half the view's height
+constexpr float kSizingReach = 150.0F;    ///< a drag by this changes the radius by e [pixels]
+constexpr double kStrengthReach = 400.0;  ///< or the strength by 1 [pixels]
+constexpr std::size_t kCircle = 72;       ///< segments
+
+Eigen::Vector2f mouse_pixel() {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return {mouse.x, mouse.y};
+}
+
+/// The picked place with the normal of its triangle; none: the background, or it has no normal.
+std::optional<StrokePlace> place_of(const Picked& picked, const Surface& surface) {
+    if (picked.layer == 0 || picked.element >= surface.triangle_count()) return std::nullopt;
+    const Vec3 normal = area_normal(surface.points(), surface.triangles()[picked.element]);
+    if (!(normal.norm() > 0.0)) return std::nullopt;
+    return StrokePlace{.point = picked.point, .normal = normal.normalized()};
+}
+
+/// Points of a circle in the tangent plane as the view shows them; empty if one is behind the eye.
+std::vector<ImVec2> circle_on_screen(const StrokePlace& place, double radius,
+                                     const ViewCamera& camera, const ScreenRect& rect) {
+    const Vec3 across = place.normal.unitOrthogonal(), up = place.normal.cross(across);
+    std::vector<ImVec2> points;
+    for (std::size_t i = 0; i < kCircle; ++i) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kCircle;
+        const Vec3 point = place.point + radius * (std::cos(angle) * across + std::sin(angle) * up);
+        const auto seen = project(camera, rect.width / rect.height, point);
+        if (!seen) return {};
+        points.push_back({rect.x + static_cast<float>(seen->x() + 1.0) / 2 * rect.width,
+                          rect.y + static_cast<float>(1.0 - seen->y()) / 2 * rect.height});
+    }
+    return points;
+}
+
+}  // namespace
+
+bool BrushPointer::holds_left() const {
+    using enum Stroke::State;
+    return stroke_.state() != Idle && stroke_.state() != Turning;
+}
+
+void BrushPointer::update(PanelContext& c, const Seen& seen) {
+    if (!c.place.can_paint()) return leave(c);
+    const bool over = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    shown_ = over || stroke_.state() == Stroke::State::Painting;
+    if (!(c.place.tip().radius > 0.0))
+        c.place.set_tip(
+            scaled({seen.view.camera.half_height, c.place.tip().strength}, kFirstRadius));
+    take_answer(c, seen.surface);
+    if (stroke_.state() == Stroke::State::Painting && !c.place.document.is_painting())
+        stroke_.cancel();
+    handle_keys(c, over);
+    handle_press(c);
+    handle_release(c);
+    ask(c, seen, over);
+}
+
+/// Another operation, or none: what was painted counts.
+void BrushPointer::leave(PanelContext& c) {
+    if (stroke_.state() == Stroke::State::Painting) c.place.document.end_stroke();
+    stroke_.end();
+    released_ = shown_ = false;
+    place_.reset();
+    asked_.reset();
+    static_cast<void>(picker_.result());
+}
+
+// --- the place under the cursor
+
+/// While a stroke begins or ends, where the button was pressed or released.
+BrushPointer::Pixel BrushPointer::wanted_pixel() const {
+    if (stroke_.state() == Stroke::State::Deciding) return pressed_at_;
+    return released_ ? released_at_ : mouse_pixel();
+}
+
+void BrushPointer::ask(PanelContext& c, const Seen& seen, bool over) {
+    if (picker_.pending() || sized_) return;
+    if (!over && !holds_left()) {
+        place_.reset();
+        asked_.reset();
+        return;
+    }
+    const Question question{wanted_pixel(), seen.view.camera, seen.surface.positions};
+    if (asked_ == question) return extend(c);
+    asked_ = question;
+    picker_.request(seen.view, seen.layers, static_cast<int>(question.pixel.x() - seen.rect.x),
+                    static_cast<int>(seen.rect.height - 1 - (question.pixel.y() - seen.rect.y)));
+}
+
+void BrushPointer::take_answer(PanelContext& c, const Surface& surface) {
+    const auto picked = picker_.result();
+    if (!picked) return;
+    place_ = place_of(*picked, surface);
+    if (asked_ && asked_->pixel == wanted_pixel()) extend(c);
+}
+
+// --- the stroke
+
+void BrushPointer::handle_press(PanelContext& c) {
+    if (!ImGui::IsItemActive() || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
+    if (released_) finish(c);
+    const ImGuiIO& io = ImGui::GetIO();
+    keys_ = {.smooth = io.KeyShift, .invert = io.KeyCtrl};
+    stroke_.begin(c.place.tip().radius);
+    pressed_at_ = mouse_pixel();
+    extended_.reset();
+}
+
+void BrushPointer::extend(PanelContext& c) {
+    const Pixel to = wanted_pixel();
+    if (!holds_left() || extended_ == to) return;
+    const bool begins = stroke_.state() == Stroke::State::Deciding;
+    const auto dabs = stroke_.extend(place_);
+    extended_ = to;
+    if (begins && stroke_.state() == Stroke::State::Painting) c.place.begin_stroke(keys_);
+    for (const StrokePlace& dab : dabs) c.place.document.add_dab(dab);
+}
+
+void BrushPointer::handle_release(PanelContext& c) {
+    using enum Stroke::State;
+    const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (stroke_.state() == Idle || (down && !released_)) return;
+    if (!released_) released_at_ = mouse_pixel();
+    released_ = holds_left() && stroke_.state() != Dropped;
+    if (!released_) return stroke_.end();
+    if (stroke_.state() == Painting && extended_ == released_at_) finish(c);
+}
+
+void BrushPointer::finish(PanelContext& c) {
+    released_ = false;
+    stroke_.end();
+    c.place.document.end_stroke();
+}
+
+// --- radius and strength
+
+void BrushPointer::handle_keys(PanelContext& c, bool over) {
+    if (ImGui::GetIO().WantTextInput) return;
+    if (over || sized_) handle_sizing(c);
+    if (!over) return;
+    const bool shift = ImGui::GetIO().KeyShift;
+    using enum BrushKey;
+    if (ImGui::IsKeyPressed(keys::kLeftBracket))
+        c.place.set_tip(after_key(c.place.tip(), shift ? Weaker : Smaller));
+    if (ImGui::IsKeyPressed(keys::kRightBracket))
+        c.place.set_tip(after_key(c.place.tip(), shift ? Stronger : Larger));
+}
+
+/// While F is held, the mouse changes the radius, with Shift the strength.
+void BrushPointer::handle_sizing(PanelContext& c) {
+    if (!ImGui::IsKeyDown(keys::letter('F')) || holds_left()) return sized_.reset();
+    if (!sized_) {
+        sized_ = c.place.tip();
+        sized_from_ = mouse_pixel().x();
+    }
+    const float moved = mouse_pixel().x() - sized_from_;
+    if (moved == 0) return;
+    BrushTip tip = *sized_;
+    if (ImGui::GetIO().KeyShift)
+        tip = with_strength(tip, std::abs(tip.strength) + moved / kStrengthReach);
+    else
+        tip = scaled(tip, std::exp(moved / kSizingReach));
+    c.place.set_tip(tip);
+}
+
+// --- drawing
+
+void BrushPointer::draw(const PanelContext& c, const ViewCamera& camera,
+                        const ScreenRect& rect) const {
+    if (!c.place.can_paint()) return;
+    const BrushTip tip = c.place.tip();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const std::string words = readable(c.place.form()->operation().name) +
+                              formatted(tip.radius, ": radius %g mm") +
+                              formatted(tip.strength, ", strength %g");
+    const float wide = ImGui::CalcTextSize(words.c_str()).x;
+    draw.AddText({rect.x + (rect.width - wide) / 2, rect.y + c.ui.grid(2)}, c.ui.theme.text,
+                 words.c_str());
+    if (!shown_ || !place_) return;
+    const auto circle = circle_on_screen(*place_, tip.radius, camera, rect);
+    const auto count = static_cast<int>(circle.size());
+    const float thick = std::max(1.5F, c.ui.em / 9);
+    draw.AddPolyline(circle.data(), count, faded(paint(0x000000), 0.5), ImDrawFlags_Closed,
+                     2 * thick);
+    draw.AddPolyline(circle.data(), count, paint(0xFFFFFF), ImDrawFlags_Closed, thick);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "gpu/render/pick.h"
+#include "workbench/window/model/brush_form.h"
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// The mouse as a brush in the 3D view: finds the place under the cursor, which arrives a frame or
+/// two later, makes strokes of drags, and shows the brush as a circle on the surface.
+class BrushPointer {
+public:
+    /// What the view shows in a frame.
+    struct Seen {
+        const SceneView& view;
+        const Layers& layers;
+        const Surface& surface;  ///< the layers' one
+        ScreenRect rect;
+    };
+
+    /// The renderer must outlive it.
+    explicit BrushPointer(Renderer& renderer) : picker_(renderer) {}
+
+    /// Once a frame, while the view's area is ImGui's last item.
+    void update(PanelContext& c, const Seen& seen);
+
+    /// True if drags with the left button do not belong to the camera.
+    [[nodiscard]] bool holds_left() const;
+
+    /// True while the place under the cursor is searched.
+    [[nodiscard]] bool pending() const { return picker_.pending() || released_; }
+
+    /// The circle, and what the brush does.
+    void draw(const PanelContext& c, const ViewCamera& camera, const ScreenRect& rect) const;
+
+private:
+    using Pixel = Eigen::Vector2f;
+
+    /// What the place under the cursor depends on.
+    struct Question {
+        Pixel pixel;
+        ViewCamera camera;
+        std::shared_ptr<const Positions> positions;
+
+        bool operator==(const Question&) const = default;
+    };
+
+    void leave(PanelContext& c);
+    void take_answer(PanelContext& c, const Surface& surface);
+    void ask(PanelContext& c, const Seen& seen, bool over);
+    void handle_keys(PanelContext& c, bool over);
+    void handle_sizing(PanelContext& c);
+    void handle_press(PanelContext& c);
+    void handle_release(PanelContext& c);
+    void extend(PanelContext& c);
+    void finish(PanelContext& c);
+    [[nodiscard]] Pixel wanted_pixel() const;
+
+    Picker picker_;
+    Stroke stroke_;
+    StrokeKeys keys_;
+    std::optional<Question> asked_;
+    std::optional<StrokePlace> place_;  ///< the last answer
+    std::optional<Pixel> extended_;     ///< to where the stroke goes
+    Pixel pressed_at_ = Pixel::Zero(), released_at_ = Pixel::Zero();
+    bool released_ = false;          ///< the stroke ends at released_at_
+    std::optional<BrushTip> sized_;  ///< the tip when sizing began
+    float sized_from_ = 0;           ///< [pixels]
+    bool shown_ = false;
+};
+
+}  // namespace vesselbench
