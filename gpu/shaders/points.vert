@@ -9,7 +9,7 @@ uniform int highlighted;  // -1: none
 out vec3 colour;
 flat out uint element;
 flat out float radius;
-noperspective out vec2 way;  // from the middle [pixels]
+sample noperspective out vec2 way;  // from the middle [pixels]
 
 void main() {
     bool lit_up = gl_InstanceID == highlighted;

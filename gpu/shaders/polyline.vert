@@ -10,7 +10,7 @@ uniform int highlighted;  // -1: none
 out vec3 colour;
 flat out uint element;
 flat out float length_px;
-noperspective out vec2 way;  // along and across the segment from its start [pixels]
+sample noperspective out vec2 way;  // along and across the segment from its start [pixels]
 
 void main() {
     vec4 a = clip_of(from), b = clip_of(to);
