@@ -17,6 +17,8 @@ void handle_escape(PanelContext& c) {
         c.shown.help = c.shown.prepare = false;
     } else if (c.place.question() != FileQuestion::None) {
         c.place.ask(FileQuestion::None);
+    } else if (!c.place.armed().empty()) {
+        c.place.disarm();
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
     } else if (!ImGui::GetIO().WantTextInput) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
@@ -11,6 +12,9 @@
 #include "workbench/window/model/deviation_map.h"
 
 namespace vesselbench {
+
+/// The model's layer, for picking.
+inline constexpr std::uint32_t kModelLayer = 1;
 
 /// How the model is shown.
 struct ViewLook {
