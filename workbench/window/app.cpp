@@ -118,7 +118,8 @@ void App::draw() {
 }
 
 bool App::is_moving() const {
-    return impl_->moved || impl_->place.document.busy() || impl_->viewport.pending();
+    return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
+           impl_->viewport.pending();
 }
 
 bool App::is_settled() const {
@@ -131,6 +132,10 @@ void App::open(const std::filesystem::path& path) {
 
 int App::drawings() const {
     return impl_->viewport.drawings();
+}
+
+const ViewCamera& App::camera() const {
+    return impl_->viewport.camera();
 }
 
 Workplace& App::place() {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "gpu/render/view_camera.h"
 #include "workbench/window/model/workplace.h"
 #include "workbench/window/widgets/ui.h"
 
@@ -50,6 +51,9 @@ public:
 
     /// Number of times that the model was drawn.
     [[nodiscard]] int drawings() const;
+
+    /// Of the view, which is the item "view.area".
+    [[nodiscard]] const ViewCamera& camera() const;
 
     [[nodiscard]] Workplace& place();
     [[nodiscard]] const Ui& ui() const;

@@ -8,7 +8,7 @@
 namespace vesselbench {
 
 Workplace::Workplace(DocumentOptions options, Settings remembered)
-    : document(std::move(options)), settings(std::move(remembered)) {}
+    : document(options), settings(std::move(remembered)), search_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -22,8 +22,21 @@ bool Workplace::update() {
     if (seen_entered_ != document.entered()) {
         seen_entered_ = document.entered();
         form_.reset();
+        disarm();
     }
-    return changed;
+    return update_places() || changed;
+}
+
+bool Workplace::update_places() {
+    const bool tips = form_ && wants_tips(*form_) && !document.previewed();
+    const bool same_scene = searched_scenes_ == document.scene_changes();
+    if (!same_scene || (tips && !searched_tips_)) {
+        searched_scenes_ = document.scene_changes();
+        searched_tips_ = tips;
+        const Scene* scene = document.shown();
+        search_.begin(scene != nullptr && scene->surface ? &*scene->surface : nullptr, tips);
+    }
+    return search_.update();
 }
 
 void Workplace::renew_lists() {
@@ -97,6 +110,7 @@ void Workplace::set_field(const std::string& parameter, const std::string& text)
 }
 
 void Workplace::reset_form() {
+    disarm();
     form_->reset();
     document.forget_failure();
     document.drop_preview();
@@ -106,6 +120,7 @@ void Workplace::leave_form() {
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();
+    disarm();
     previewed_changes_ = -1;
 }
 
@@ -163,6 +178,27 @@ void Workplace::begin_stroke(StrokeKeys keys) {
 std::string Workplace::command() const {
     const std::filesystem::path& project = document.project();
     return form_ ? form_->as_command(project.string(), document.variant()) : "";
+}
+
+// --- picking in the view
+
+void Workplace::arm(const std::string& parameter) {
+    if (armed_ == parameter) return disarm();
+    armed_ = parameter;
+    document.drop_preview();
+}
+
+std::optional<PickTarget> Workplace::armed_target() const {
+    if (!form_ || armed_.empty()) return std::nullopt;
+    const FormField& field = form_->field(armed_);
+    return field.active ? pick_target(form_->operation(), *field.parameter) : std::nullopt;
+}
+
+void Workplace::pick(const Vec3& point) {
+    const std::optional<PickTarget> target = armed_target();
+    if (!target) return;
+    set_field(armed_, picked_text(*target, form_->field(armed_).text, point));
+    if (is_complete(*target, form_->field(armed_).text)) disarm();
 }
 
 // --- questions for a file

@@ -9,6 +9,8 @@
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/operation_form.h"
+#include "workbench/window/model/pick_target.h"
+#include "workbench/window/model/place_search.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
 
@@ -86,6 +88,28 @@ public:
     /// The form's command line.
     [[nodiscard]] std::string command() const;
 
+    // --- picking in the view
+
+    /// Lets clicks in the view give a value to a parameter of the form; an armed one is disarmed.
+    /// Drops a preview, whose surface is not what the operation will run on.
+    void arm(const std::string& parameter);
+
+    void disarm() { armed_.clear(); }
+
+    /// The parameter that clicks are for; empty: none.
+    [[nodiscard]] const std::string& armed() const { return armed_; }
+
+    /// What a click means now; none unless a parameter is armed.
+    [[nodiscard]] std::optional<PickTarget> armed_target() const;
+
+    /// Fills in the armed parameter, and disarms it when its value is complete.
+    void pick(const Vec3& point);
+
+    /// The places of the shown surface; vessel ends only if the form wants them.
+    [[nodiscard]] const SurfacePlaces& surface_places() const { return search_.places(); }
+
+    [[nodiscard]] bool searches_places() const { return search_.pending(); }
+
     // --- questions for a file
 
     [[nodiscard]] FileQuestion question() const { return question_; }
@@ -97,6 +121,7 @@ public:
 
 private:
     void renew_lists();
+    [[nodiscard]] bool update_places();
     [[nodiscard]] bool preview_is_current() const;
     [[nodiscard]] bool can_change() const;
 
@@ -110,6 +135,10 @@ private:
     bool was_opening_ = false;
     FileQuestion question_ = FileQuestion::None;
     std::string asked_parameter_;
+    std::string armed_;
+    PlaceSearch search_;
+    int searched_scenes_ = -1;  ///< the document's scene changes at the last search
+    bool searched_tips_ = false;
 };
 
 }  // namespace vesselbench

@@ -35,6 +35,17 @@ void edit_file(PanelContext& c, const FormField& field) {
         c.place.ask(FileQuestion::Parameter, name);
 }
 
+/// A place, with a button that lets it be picked in the view.
+void edit_place(PanelContext& c, const FormField& field) {
+    const float side = ImGui::GetFrameHeight(), gap = c.ui.grid(0.5F);
+    const std::string name = field.parameter->name;
+    edit_text(c, field, ImGui::GetContentRegionAvail().x - side - gap);
+    ImGui::SameLine(0, gap);
+    if (icon_button(c.ui, item_name(*field.parameter) + ".pick", icons::kTarget, "Pick in the view",
+                    true, c.place.armed() == name))
+        c.place.arm(name);
+}
+
 /// What a choice shows while nothing is given.
 std::string unset_text(const Parameter& parameter) {
     return parameter.default_value ? to_text(*parameter.default_value) : default_text(parameter);
@@ -68,6 +79,7 @@ void edit_number(PanelContext& c, const FormField& field) {
 }
 
 void edit(PanelContext& c, const FormField& field) {
+    if (pick_target(c.place.form()->operation(), *field.parameter)) return edit_place(c, field);
     switch (field.parameter->type) {
         case ParameterType::Flag:
             return edit_flag(c, field);

@@ -23,7 +23,7 @@ constexpr std::array<KeyHelp, 8> kEditing = {{{"Ctrl+Z", "undo"},
                                               {"Ctrl+E", "export the model"},
                                               {"Ctrl+Enter", "apply the operation"},
                                               {"Ctrl+P", "preview the operation"},
-                                              {"Esc", "cancel what runs, or close"},
+                                              {"Esc", "stop picking, cancel, or close"},
                                               {"F1", "this help"}}};
 constexpr std::array<KeyHelp, 8> kViewing = {{{"Left drag", "turn"},
                                               {"Middle or Shift+left drag", "move"},

@@ -19,6 +19,8 @@ void handle_escape(PanelContext& c) {
         c.place.ask(FileQuestion::None);
     } else if (c.place.document.is_painting()) {
         c.place.document.drop_stroke();
+    } else if (!c.place.armed().empty()) {
+        c.place.disarm();
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
     } else if (!ImGui::GetIO().WantTextInput) {

@@ -156,7 +156,7 @@ bool ModelDrawing::shows_deviation(const ViewLook& look) const {
 Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     Layers layers;
     if (!drawn_) return layers;
-    SurfaceLayer layer{.source = drawn_, .id = 1, .colouring = Colouring::Patches};
+    SurfaceLayer layer{.source = drawn_, .id = kModelLayer, .colouring = Colouring::Patches};
     layer.patch_colours = colours_of_patches(drawn_->surface());
     layer.flat = look.flat;
     layer.opacity = look.transparent ? kTransparent : 1.0;

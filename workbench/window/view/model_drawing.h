@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
@@ -14,6 +15,9 @@
 #include "workbench/window/model/live_stroke.h"
 
 namespace vesselbench {
+
+/// The model's layer, for picking.
+inline constexpr std::uint32_t kModelLayer = 1;
 
 /// How the model is shown.
 struct ViewLook {

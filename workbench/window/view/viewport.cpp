@@ -14,7 +14,9 @@
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/model_drawing.h"
+#include "workbench/window/view/region_drawing.h"
 #include "workbench/window/view/view_overlays.h"
+#include "workbench/window/view/view_places.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
@@ -25,6 +27,7 @@ constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns
 constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
 constexpr double kMargin = 0.12;        ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
+constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
 Colour linear(Paint colour) {
     const auto part = [&](int shift) {
@@ -39,6 +42,8 @@ struct DrawnAs {
     ViewLook look;
     int width = 0, height = 0;
     bool dark = false;
+    std::optional<std::uint32_t> lit_patch;
+    int region = 0;  ///< version of the typed region's lines
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -46,10 +51,12 @@ struct DrawnAs {
 }  // namespace
 
 struct Viewport::Impl {
-    explicit Impl(std::function<void()> wake)
-        : model(std::move(wake)), picker(renderer), brush(renderer) {}
+    explicit Impl(const std::function<void()>& wake)
+        : model(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
 
     void take_scene(PanelContext& c);
+    void take_form(PanelContext& c);
+    void pick_places(PanelContext& c, bool over, bool released);
     void frame_model();
     void follow_model();
     void draw_model(const Ui& ui);
@@ -72,6 +79,8 @@ struct Viewport::Impl {
     Renderer renderer;
     Picker picker;
     BrushPointer brush;
+    ViewPlaces places;
+    RegionDrawing region;
     std::optional<RenderTarget> target;
     unsigned texture = 0;
     ViewCamera camera;
@@ -81,16 +90,21 @@ struct Viewport::Impl {
     std::filesystem::path framed_project;     ///< whose model the camera was set for
     std::optional<ViewCamera> framed_camera;  ///< as it was set; another one is the user's
     int seen_scenes = -1;
+    int models = 0;  ///< counts changes of the drawn model
     int drawings = 0;
     bool dark = true;
 };
 
-Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(std::move(wake))) {}
+Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wake)) {}
 
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending() || impl_->brush.pending();
+    return impl_->model.pending() || impl_->brush.pending() || impl_->places.pending();
+}
+
+const ViewCamera& Viewport::camera() const {
+    return impl_->camera;
 }
 
 int Viewport::drawings() const {
@@ -112,6 +126,7 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     model.set_deviation(document.deviation());
     if (!model.update()) return;
     drawn.reset();
+    ++models;
     if (framed_project != document.project() && model.surface() != nullptr) {
         framed_project = document.project();
         camera = facing(camera, StandardView::Anterior);
@@ -119,6 +134,28 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     } else {
         follow_model();
     }
+}
+
+/// The region that the form describes.
+void Viewport::Impl::take_form(PanelContext& c) {
+    const bool shows = c.place.form() && model.surface() != nullptr;
+    region.show(shows ? region_lines(*c.place.form()) : std::vector<RegionLine>());
+}
+
+/// \param over the cursor is over the view \param released the left button was, after a press in
+/// the view
+void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
+    if (!target) return;
+    const ImGuiIO& io = ImGui::GetIO();
+    const float reach = kClickReach * c.ui.em;
+    const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
+    places.update(c, {.view = scene_view(c.ui),
+                      .layers = layers(c.ui),
+                      .rect = rect,
+                      .surface = model.surface(),
+                      .version = models,
+                      .over = over && !ImGui::IsAnyMouseDown(),
+                      .clicked = over && released && still && !io.KeyShift});
 }
 
 void Viewport::Impl::frame_model() {
@@ -137,7 +174,11 @@ void Viewport::Impl::follow_model() {
 }
 
 Layers Viewport::Impl::layers(const Ui& ui) const {
-    return model.layers(look, std::max(1.0, ui.em / 15.0));
+    const double line = std::max(1.0, ui.em / 15.0);
+    Layers layers = model.layers(look, line);
+    for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
+    region.add_to(layers, 2 * line);
+    return layers;
 }
 
 SceneView Viewport::Impl::scene_view(const Ui& ui) const {
@@ -149,7 +190,8 @@ SceneView Viewport::Impl::scene_view(const Ui& ui) const {
 void Viewport::Impl::draw_model(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(rect.width));
     const int height = std::max(1, static_cast<int>(rect.height));
-    const DrawnAs now{camera, look, width, height, ui.theme.dark};
+    const DrawnAs now{camera,          look, width, height, ui.theme.dark, places.lit_patch(),
+                      region.version()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
@@ -190,7 +232,8 @@ void Viewport::Impl::handle_mouse(bool sets_centre) {
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0)
         camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (sets_centre && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
+    if (sets_centre && !places.took_click() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+        set_centre();
 }
 
 void Viewport::Impl::set_centre() {
@@ -244,6 +287,7 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c) {
+    if (model.surface() != nullptr) places.draw(c, {camera, rect});
     draw_toolbar(c);
     if (model.surface() == nullptr) return draw_empty(c);
     brush.draw(c, camera, rect);
@@ -284,11 +328,15 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
     ImGui::SetItemAllowOverlap();
     c.ui.item("view.area");
     const bool over = ImGui::IsItemHovered();
+    const bool released =
+        ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
     if (view.model.surface() != nullptr) {
         view.handle_brush(c);
         view.handle_mouse(!c.place.can_paint());
     }
     view.handle_keys(over);
+    view.take_form(c);
+    view.pick_places(c, over, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
     ImGui::GetWindowDrawList()->AddImage(

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "gpu/render/view_camera.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
@@ -20,8 +21,10 @@ public:
 
     void draw(PanelContext& context, const ScreenRect& rect);
 
-    /// True while the shown scene is not drawn yet.
+    /// True while the shown scene is not drawn yet, or a search under the cursor runs.
     [[nodiscard]] bool pending() const;
+
+    [[nodiscard]] const ViewCamera& camera() const;
 
     /// Number of times that the scene was drawn, for tests of idle windows.
     [[nodiscard]] int drawings() const;

@@ -169,7 +169,10 @@ void clipped_text(const Ui& ui, const std::string& words, Paint colour, float wi
 }
 
 void help_on_hover(const Ui& ui, const std::string& words) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) tooltip(ui, words);
+}
+
+void tooltip(const Ui& ui, const std::string& words) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.grid(1.25F), ui.grid(1)});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ui.em * 24);

@@ -56,6 +56,9 @@ void clipped_text(const Ui& ui, const std::string& words, Paint colour, float wi
 /// A help text for ImGui's last item, shown while the mouse is over it.
 void help_on_hover(const Ui& ui, const std::string& words);
 
+/// A help text beside the mouse.
+void tooltip(const Ui& ui, const std::string& words);
+
 /// Vertical space of so many times 8 pixels.
 void space(const Ui& ui, float count);
 

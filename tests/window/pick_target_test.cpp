@@ -1,0 +1,93 @@
+#include "workbench/window/model/pick_target.h"
+
+#include <catch2/catch.hpp>
+
+#include "workbench/operations/table.h"
+#include "workbench/window/model/typed_region.h"
+
+using namespace vesselbench;
+
+namespace {
+
+std::optional<PickTarget> target_of(const std::string& operation, const std::string& parameter) {
+    const Operation& row = find_operation(operation);
+    return pick_target(row, find_parameter(row, parameter));
+}
+
+}  // namespace
+
+SCENARIO("Parameters that are places can be picked", "[window][picking]") {
+    CHECK(target_of("remove-branch", "tip") == PickTarget::Tip);
+    CHECK(target_of("clip-opening", "tip") == PickTarget::Tip);
+    CHECK(target_of("clip-opening", "inlet") == PickTarget::Opening);
+    CHECK(target_of("fill-hole", "near") == PickTarget::Surface);
+    CHECK(target_of("brush-smooth", "at") == PickTarget::Surface);
+    CHECK(target_of("crop", "centre") == PickTarget::Surface);
+    CHECK(target_of("crop", "box") == PickTarget::Corners);
+}
+
+SCENARIO("Other parameters cannot be picked", "[window][picking]") {
+    CHECK_FALSE(target_of("smooth", "cell"));
+    CHECK_FALSE(target_of("smooth", "stack_axis"));
+    CHECK_FALSE(target_of("smooth", "iterations"));
+    CHECK_FALSE(target_of("clip-opening", "planes"));
+    CHECK_FALSE(target_of("crop", "radius"));
+    // There is no surface yet, or another one.
+    CHECK_FALSE(target_of("extract-surface", "seed"));
+}
+
+SCENARIO("A picked place is a short text of the command line", "[window][picking]") {
+    const std::string text = picked_text(PickTarget::Tip, "", Vec3(1.23456789, -0.00001, 40));
+    CHECK(text == "1.2346,0,40");
+    OperationForm form(find_operation("remove-branch"));
+    CHECK_FALSE(form.valid());
+    form.set("tip", text);
+    CHECK(form.valid());
+    CHECK(form.arguments().point("tip") == Vec3(1.2346, 0, 40));
+    REQUIRE(places_in(form).size() == 1);
+    CHECK(places_in(form)[0].name == "Tip");
+    CHECK(places_in(form)[0].point == Vec3(1.2346, 0, 40));
+    CHECK(wants_tips(form));
+}
+
+SCENARIO("Two corners make a box", "[window][picking]") {
+    const std::string first = picked_text(PickTarget::Corners, "", Vec3(5, 0, 1));
+    CHECK(first == "5,0,1");
+    CHECK_FALSE(is_complete(PickTarget::Corners, first));
+    const std::string box = picked_text(PickTarget::Corners, first, Vec3(1, 2, 9));
+    CHECK(box == "1,0,1,5,2,9");
+    CHECK(is_complete(PickTarget::Corners, box));
+    WHEN("it is picked again") {
+        CHECK(picked_text(PickTarget::Corners, box, Vec3(0, 0, 0)) == "0,0,0");
+    }
+}
+
+SCENARIO("A typed region is shown as lines", "[window][picking]") {
+    OperationForm form(find_operation("crop"));
+    CHECK(region_lines(form).empty());
+    WHEN("a box is typed") {
+        form.set("box", "0,0,0,1,2");
+        CHECK(region_lines(form).empty());
+        form.set("box", "0,0,0,1,2,3");
+        std::size_t edges = 0;
+        for (const RegionLine& line : region_lines(form))
+            edges += line.closed ? line.points.size() : line.points.size() - 1;
+        CHECK(edges == 12);
+    }
+    WHEN("a ball is typed") {
+        form.set("centre", "1,2,3");
+        CHECK(region_lines(form).empty());
+        form.set("radius", "5");
+        const auto lines = region_lines(form);
+        CHECK(lines.size() == 3);
+        for (const RegionLine& line : lines)
+            for (const Vec3& point : line.points)
+                CHECK((point - Vec3(1, 2, 3)).norm() == Approx(5));
+        form.set("radius", "-5");
+        CHECK(region_lines(form).empty());
+    }
+    WHEN("the operation has no region") {
+        OperationForm other(find_operation("smooth"));
+        CHECK(region_lines(other).empty());
+    }
+}

@@ -1,0 +1,97 @@
+#include "workbench/window/model/pick_target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/window/model/readable.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Far below what a click can tell apart, and short enough to be read.
+constexpr double kStepsPerMm = 1e4;
+
+Vec3 rounded(const Vec3& point) {
+    const Vec3 steps = (point * kStepsPerMm).array().round();
+    return steps.array() / kStepsPerMm + 0.0;  // 0 instead of -0
+}
+
+/// The numbers of a text of the command line; empty if it is none.
+std::vector<double> numbers_of(const std::string& text) {
+    static const Parameter list{.name = "numbers", .type = ParameterType::List, .help = {}};
+    try {
+        return std::get<std::vector<double>>(checked_value(list, Value(text)));
+    } catch (const UsageError&) {
+        return {};
+    }
+}
+
+std::optional<Vec3> point_of(const std::string& text) {
+    const std::vector<double> numbers = numbers_of(text);
+    if (numbers.size() != 3) return std::nullopt;
+    return Vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+std::string box_text(const Vec3& a, const Vec3& b) {
+    const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
+    return to_text(Value(low)) + "," + to_text(Value(high));
+}
+
+}  // namespace
+
+std::optional<PickTarget> pick_target(const Operation& operation, const Parameter& parameter) {
+    if (operation.recipe.makes_source || parameter.unit != "mm") return std::nullopt;
+    if (parameter.type == ParameterType::List)
+        return parameter.name == "box" ? std::optional(PickTarget::Corners) : std::nullopt;
+    // A bounded vector, such as the size of a voxel, is no place.
+    if (parameter.type != ParameterType::Point || std::isfinite(parameter.minimum))
+        return std::nullopt;
+    if (parameter.name == "tip") return PickTarget::Tip;
+    return parameter.name == "inlet" ? PickTarget::Opening : PickTarget::Surface;
+}
+
+std::string pick_instruction(PickTarget target) {
+    switch (target) {
+        case PickTarget::Surface:
+            return "Click a place on the surface";
+        case PickTarget::Tip:
+            return "Click a vessel's end or a dome";
+        case PickTarget::Opening:
+            return "Click an opening";
+        case PickTarget::Corners:
+            return "Click two opposite corners";
+    }
+    return "";
+}
+
+std::string picked_text(PickTarget target, const std::string& text, const Vec3& point) {
+    const Vec3 now = rounded(point);
+    const std::optional<Vec3> before =
+        target == PickTarget::Corners ? point_of(text) : std::nullopt;
+    return before ? box_text(*before, now) : to_text(Value(now));
+}
+
+bool is_complete(PickTarget target, const std::string& text) {
+    return target != PickTarget::Corners || !point_of(text);
+}
+
+std::vector<NamedPlace> places_in(const OperationForm& form) {
+    std::vector<NamedPlace> places;
+    for (const FormField& field : form.fields()) {
+        if (!field.active || !pick_target(form.operation(), *field.parameter)) continue;
+        if (const auto point = point_of(field.text))
+            places.push_back({.point = *point, .name = readable(field.parameter->name)});
+    }
+    return places;
+}
+
+bool wants_tips(const OperationForm& form) {
+    return std::ranges::any_of(form.fields(), [&](const FormField& field) {
+        const auto target = pick_target(form.operation(), *field.parameter);
+        return target == PickTarget::Tip || target == PickTarget::Opening;
+    });
+}
+
+}  // namespace vesselbench

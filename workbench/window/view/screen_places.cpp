@@ -1,0 +1,79 @@
+#include "workbench/window/view/screen_places.h"
+
+#include <imgui.h>
+
+#include "workbench/case/measure_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// An opening that is not round reaches farther than the circle of its area.
+constexpr double kLongOpening = 1.6;
+
+/// Text on a plate, from its left middle.
+void draw_plate(const Ui& ui, ImVec2 at, const std::string& words) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont* font = ui.fonts.small;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    const float pad = ui.grid(0.75F), top = at.y - size.y / 2;
+    draw.AddRectFilled({at.x, top - pad / 2}, {at.x + size.x + 2 * pad, top + size.y + pad / 2},
+                       faded(ui.theme.panel, 0.88), ImGui::GetStyle().FrameRounding);
+    draw.AddText(font, font->FontSize, {at.x + pad, top}, ui.theme.text, words.c_str());
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2f> OnScreen::place(const Vec3& point) const {
+    const auto seen = project(camera, aspect(), point);
+    if (!seen) return std::nullopt;
+    return Eigen::Vector2f(rect.x + rect.width * static_cast<float>(0.5 + 0.5 * seen->x()),
+                           rect.y + rect.height * static_cast<float>(0.5 - 0.5 * seen->y()));
+}
+
+double OnScreen::length(const Vec3& point, double millimetres) const {
+    return millimetres / pixel_size(camera, static_cast<int>(rect.height), point);
+}
+
+std::optional<std::size_t> nearest_mark(const OnScreen& screen,
+                                        const std::vector<NamedPlace>& places,
+                                        const Eigen::Vector2f& cursor, float reach) {
+    std::optional<std::size_t> nearest;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto at = screen.place(places[i].point);
+        if (!at || (*at - cursor).norm() > reach) continue;
+        reach = (*at - cursor).norm();
+        nearest = i;
+    }
+    return nearest;
+}
+
+bool may_be_over(const OnScreen& screen, const std::vector<PatchMeasures>& openings,
+                 const Eigen::Vector2f& cursor) {
+    for (const PatchMeasures& opening : openings) {
+        const auto at = screen.place(opening.centroid);
+        const double radius = kLongOpening * diameter_of_area(opening.area) / 2;
+        if (at && (*at - cursor).norm() <= screen.length(opening.centroid, radius)) return true;
+    }
+    return false;
+}
+
+void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std::string& label) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 middle{at.x(), at.y()};
+    const float radius = ui.em * (look == MarkLook::Lit ? 0.5F : 0.36F);
+    const Paint fill = look == MarkLook::Offered ? paint(0xFFFFFF) : ui.theme.accent;
+    draw.AddCircleFilled(middle, radius + ui.em * 0.12F, paint(0x101418, 200));
+    draw.AddCircleFilled(middle, radius, paint(0xFFFFFF));
+    draw.AddCircleFilled(middle, radius - ui.em * 0.1F, fill);
+    if (look == MarkLook::Offered) draw.AddCircleFilled(middle, radius * 0.45F, ui.theme.accent);
+    if (!label.empty()) draw_plate(ui, {middle.x + radius + ui.em * 0.4F, middle.y}, label);
+}
+
+void draw_hint(const Ui& ui, const ScreenRect& view, const std::string& words) {
+    const ImFont* font = ui.fonts.small;
+    const float wide = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str()).x;
+    draw_plate(ui, {view.middle_x() - wide / 2, view.y + view.height - ui.em * 2}, words);
+}
+
+}  // namespace vesselbench

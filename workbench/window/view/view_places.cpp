@@ -1,0 +1,163 @@
+#include "workbench/window/view/view_places.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/view/model_drawing.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr float kMarkReach = 1.2F;  ///< a cursor so near to a mark means its place [em]
+
+std::vector<NamedPlace> offered_for(PickTarget target, const SurfacePlaces& places) {
+    switch (target) {
+        case PickTarget::Tip:
+            return places.tips;
+        case PickTarget::Opening:
+            return openings_and_tips(places);
+        default:
+            return {};
+    }
+}
+
+/// The places of all parameters of a form.
+std::vector<NamedPlace> offered_in(const OperationForm& form, const SurfacePlaces& places) {
+    std::vector<NamedPlace> offered;
+    for (const FormField& field : form.fields()) {
+        const auto target = pick_target(form.operation(), *field.parameter);
+        if (!target || !field.active) continue;
+        for (NamedPlace& place : offered_for(*target, places))
+            if (std::ranges::count(offered, place) == 0) offered.push_back(std::move(place));
+    }
+    return offered;
+}
+
+std::string coordinates(const Vec3& point) {
+    return formatted(point.x(), "%.1f") + ", " + formatted(point.y(), "%.1f") + ", " +
+           formatted(point.z(), "%.1f");
+}
+
+Eigen::Vector2f mouse() {
+    const ImVec2 place = ImGui::GetIO().MousePos;
+    return {place.x, place.y};
+}
+
+}  // namespace
+
+ViewPlaces::ViewPlaces(Renderer& renderer, std::function<void()> wake)
+    : picker_(renderer), wake_(std::move(wake)) {}
+
+bool ViewPlaces::took_click() const {
+    return ImGui::GetTime() - click_time_ < 2.0 * ImGui::GetIO().MouseDoubleClickTime;
+}
+
+std::optional<Vec3> ViewPlaces::hit() const {
+    if (!answer_ || answer_->picked.layer != kModelLayer) return std::nullopt;
+    return answer_->picked.point;
+}
+
+void ViewPlaces::forget() {
+    answer_.reset();
+    spot_.reset();
+    lit_patch_.reset();
+}
+
+void ViewPlaces::search(const SeenModel& seen, const Question& now) {
+    // An answer to another view or model is of no use; one to a place nearby is, until the next.
+    if (answer_ &&
+        (answer_->question.camera != now.camera || answer_->question.version != now.version))
+        answer_.reset();
+    const bool known = answer_ && answer_->question == now;
+    if (!known && !picker_.pending()) {
+        asked_ = now;
+        picker_.request(seen.view, seen.layers, static_cast<int>(now.cursor.x() - seen.rect.x),
+                        static_cast<int>(seen.rect.height - 1 - (now.cursor.y() - seen.rect.y)));
+    }
+    if (picker_.pending() && wake_) wake_();
+}
+
+void ViewPlaces::find_spot(const SeenModel& seen, const Eigen::Vector2f& cursor, float reach) {
+    const OnScreen screen{seen.view.camera, seen.rect};
+    spot_ = pick_spot(offered_, hit(), nearest_mark(screen, offered_, cursor, reach));
+}
+
+void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
+    lit_patch_.reset();
+    if (!hit() || answer_->picked.element >= seen.surface->triangle_count()) return;
+    const std::uint32_t label = (*seen.surface->patch_labels)[answer_->picked.element];
+    if (opening_of(c.place.surface_places(), label) != nullptr) lit_patch_ = label;
+}
+
+void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
+    if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
+    const SurfacePlaces& places = c.place.surface_places();
+    const std::optional<PickTarget> target = c.place.armed_target();
+    if (!target) clicked_.reset();
+    if (target && seen.clicked) {
+        clicked_ = mouse();
+        click_time_ = ImGui::GetTime();
+    }
+    const Eigen::Vector2f cursor = clicked_.value_or(mouse());
+    const OnScreen screen{seen.view.camera, seen.rect};
+    const bool wanted = target || may_be_over(screen, places.openings, cursor);
+    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
+    const Question now{cursor, seen.view.camera, seen.version};
+    search(seen, now);
+    light_opening(c, seen);
+    if (!target) return spot_.reset();
+    offered_ = offered_for(*target, places);
+    find_spot(seen, cursor, kMarkReach * c.ui.em);
+    if (!clicked_ || !answer_ || answer_->question != now) return;
+    clicked_.reset();
+    if (spot_) c.place.pick(spot_->point);
+}
+
+void ViewPlaces::draw_offered(const PanelContext& c, const OnScreen& screen) const {
+    for (const NamedPlace& place : offered_in(*c.place.form(), c.place.surface_places()))
+        if (const auto at = screen.place(place.point)) draw_mark(c.ui, *at, MarkLook::Offered, "");
+    for (const NamedPlace& place : places_in(*c.place.form()))
+        if (const auto at = screen.place(place.point))
+            draw_mark(c.ui, *at, MarkLook::Picked, place.name);
+}
+
+void ViewPlaces::draw_spot(const PanelContext& c, const OnScreen& screen) const {
+    if (!spot_ || !c.place.armed_target()) return;
+    const auto at = screen.place(spot_->point);
+    if (!at) return;
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    const bool named = spot_->place && *spot_->place < offered_.size();
+    draw_mark(c.ui, *at, MarkLook::Lit,
+              named ? offered_[*spot_->place].name : coordinates(spot_->point));
+}
+
+void ViewPlaces::draw_opening(PanelContext& c) const {
+    if (!lit_patch_ || c.place.armed_target()) return;
+    const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_);
+    if (opening == nullptr) return;
+    const Eigen::Vector2f at = mouse();
+    c.ui.item("view.opening." + opening->name, ScreenRect{at.x(), at.y(), 1, 1});
+    tooltip(c.ui, opening_text(*opening));
+}
+
+void ViewPlaces::draw(PanelContext& c, const OnScreen& screen) const {
+    draw_opening(c);
+    if (!c.place.form()) return;
+    draw_offered(c, screen);
+    draw_spot(c, screen);
+    const SurfacePlaces& places = c.place.surface_places();
+    const auto target = c.place.armed_target();
+    if (c.place.searches_places() && wants_tips(*c.place.form()))
+        draw_hint(c.ui, screen.rect, "Finding the vessels' ends");
+    else if (target)
+        draw_hint(c.ui, screen.rect,
+                  pick_instruction(*target) + "    Esc: stop picking" +
+                      (places.problem.empty() ? "" : "    (" + places.problem + ")"));
+}
+
+}  // namespace vesselbench
