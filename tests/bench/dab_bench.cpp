@@ -17,7 +17,6 @@
 #include "geometry/kernel/measure.h"
 #include "gpu/context.h"
 #include "gpu/render/drawn_surface.h"
-#include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/live_stroke.h"
 
@@ -53,11 +52,25 @@ struct Part {
     }
 };
 
-/// A tube of 4 mm radius with so many triangles, about as long as wide.
+/// An open tube of 4 mm radius and 30 mm length with about so many triangles of equal sides.
 Surface tube(double triangles) {
-    const double around = std::sqrt(triangles / 2 * 2 * std::numbers::pi * 4.0 / 30.0);
-    return test::closed_tube(4.0, 30.0, static_cast<int>(around),
-                             static_cast<int>(triangles / 2 / around));
+    constexpr double kRadius = 4.0, kLength = 30.0;
+    const double round = 2.0 * std::numbers::pi * kRadius;
+    const auto around = static_cast<VertexId>(std::sqrt(triangles / 2.0 * round / kLength));
+    const auto along = static_cast<VertexId>(triangles / 2.0 / around);
+    Positions points;
+    std::vector<Triangle> list;
+    for (VertexId j = 0; j <= along; ++j)
+        for (VertexId i = 0; i < around; ++i) {
+            const double angle = 2.0 * std::numbers::pi * i / around;
+            points.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle),
+                                kLength * j / along);
+            if (j == along) continue;
+            const VertexId a = j * around + i, b = j * around + (i + 1) % around;
+            list.push_back({a, b, b + around});
+            list.push_back({a, b + around, a + around});
+        }
+    return make_surface(std::move(points), std::move(list));
 }
 
 std::vector<double> dab_at(double z, double radius) {

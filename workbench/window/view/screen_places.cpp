@@ -73,7 +73,7 @@ void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std
 void draw_hint(const Ui& ui, const ScreenRect& view, const std::string& words) {
     const ImFont* font = ui.fonts.small;
     const float wide = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str()).x;
-    draw_plate(ui, {view.middle_x() - wide / 2, view.y + view.height - ui.em * 2}, words);
+    draw_plate(ui, {view.middle_x() - wide / 2, view.y + view.height - ui.em}, words);
 }
 
 }  // namespace vesselbench
