@@ -180,7 +180,7 @@ Field masked_field(ImageSource& source, const ExtractionParameters& parameters, 
     const Image inside = mask_of_labels(*source.mask, parameters.labels);
     progress.check_cancelled();
     if (!parameters.threshold) {
-        result.threshold = masked_threshold(source.image, inside);
+        result.threshold = masked_threshold(source.image, inside, progress);
         result.reasons.push_back("threshold " + text_of(result.threshold) +
                                  ": midway between the medians inside the mask and around it");
     }
@@ -244,7 +244,7 @@ Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extr
 
 void choose_body(const Field& field, const ExtractionParameters& parameters, Extraction& result,
                  const Progress& progress) {
-    const Surface all = iso_surface(field.image, field.iso);
+    const Surface all = iso_surface(field.image, field.iso, false, progress.silent());
     progress.report(0.8, "choosing the body");
     constexpr double kSeedTolerance = 2.0;  // voxels
     ShellChoice choice =

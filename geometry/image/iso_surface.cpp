@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -69,9 +70,12 @@ std::vector<float> padded(const Image& image, double iso, bool inside_below) {
 
 /// The iso-surface in index coordinates of the image; the padding layer's vertices are beyond its
 /// border.
-GridSurface index_mesh(const Image& image, double iso, bool inside_below) {
+GridSurface index_mesh(const Image& image, double iso, bool inside_below,
+                       const Progress& progress) {
     const auto [ni, nj, nk] = image.size;
-    return flying_edges(padded(image, iso, inside_below),
+    const std::vector<float> values = padded(image, iso, inside_below);
+    progress.check_cancelled();
+    return flying_edges(std::span<const float>(values),
                         {.size = {ni + 2, nj + 2, nk + 2}, .origin = Vec3(-1.0, -1.0, -1.0)});
 }
 
@@ -121,14 +125,16 @@ PatchLabels border_labels(const GridSurface& mesh, const std::array<int, 3>& siz
 
 }  // namespace
 
-Surface iso_surface(const Image& image, double iso, bool inside_below) {
+Surface iso_surface(const Image& image, double iso, bool inside_below, const Progress& progress) {
     for (const int n : image.size)
         if (n < 2)
             throw InvalidInput(
                 "the image has fewer than two voxels along an axis: a surface needs "
                 "a volume");
-    GridSurface mesh = index_mesh(image, iso, inside_below);
+    GridSurface mesh = index_mesh(image, iso, inside_below, progress);
+    progress.check_cancelled();
     press_to_border(mesh, image.size);
+    progress.check_cancelled();
     PatchLabels labels = border_labels(mesh, image.size);
     std::vector<Patch> patches = {{"wall", PatchKind::Wall}};
     for (int p = 1; p <= 6; ++p) patches.push_back({"border_" + std::to_string(p), PatchKind::Cut});
@@ -138,6 +144,7 @@ Surface iso_surface(const Image& image, double iso, bool inside_below) {
         positions.push_back(image.to_patient(Vec3(p[0], p[1], p[2])));
     if (image.index_to_patient.topLeftCorner<3, 3>().determinant() < 0.0)
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    progress.check_cancelled();
     return make_surface(std::move(positions), std::move(mesh.triangles), std::move(labels),
                         std::move(patches));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -12,7 +13,8 @@ namespace vesselbench {
 /// away from it, so that no triangle degenerates. Source: flying_edges.h.
 /// \param inside_below the inside has the values below iso, not above
 /// \return an empty surface if no voxel is inside, or all of them are
-/// \throw InvalidInput if an axis has fewer than two voxels
-[[nodiscard]] Surface iso_surface(const Image& image, double iso, bool inside_below = false);
+/// \throw InvalidInput if an axis has fewer than two voxels; Cancelled if the user cancels
+[[nodiscard]] Surface iso_surface(const Image& image, double iso, bool inside_below = false,
+                                  const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -169,13 +169,15 @@ double bright_threshold(const Image& image) {
     }
 }
 
-double masked_threshold(const Image& image, const Image& mask) {
+double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
     constexpr int kRing = 2;  // voxels
     const auto inside = values_between(image, mask, nullptr);
+    progress.check_cancelled();
     const auto ring = values_between(image, dilated(mask, kRing), &mask);
     if (inside.empty() || ring.empty())
         throw InvalidInput(
             "the mask contains no voxel, or all of them: check it, or give threshold=");
+    progress.check_cancelled();
     const double bright = median(inside), dark = median(ring);
     if (!(bright > dark))
         throw InvalidInput(

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -45,8 +46,10 @@ struct ImageJudgement {
 
 /// Threshold inside a mask: midway between the median of the mask's voxels and the median of the
 /// two-voxel ring around it; by the partial volume effect, that is the wall.
-/// \throw InvalidInput if the mask is empty, or not brighter inside than around
-[[nodiscard]] double masked_threshold(const Image& image, const Image& mask);
+/// \throw InvalidInput if the mask is empty, or not brighter inside than around;
+/// Cancelled if the user cancels
+[[nodiscard]] double masked_threshold(const Image& image, const Image& mask,
+                                      const Progress& progress = {});
 
 /// Intensities for the extraction inside a dilated mask (thesis 3.2.2, Fig. 3.7): outside the
 /// dilated mask, a voxel on the inner side of the threshold takes the background value (the median

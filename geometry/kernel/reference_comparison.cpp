@@ -30,12 +30,13 @@ bool same_triangles(const Surface& a, const Surface& b) {
 
 }  // namespace
 
-ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference) {
+ReferenceComparison compare_with_reference(const Surface& surface, const Surface& reference,
+                                           const Progress& progress) {
     const double spacing = sample_spacing(surface, reference);
     const SampledDistance there =
-        sampled_distance(surface_samples(surface, spacing), distance_to(reference));
+        sampled_distance(surface_samples(surface, spacing), distance_to(reference), progress);
     const SampledDistance back =
-        sampled_distance(surface_samples(reference, spacing), distance_to(surface));
+        sampled_distance(surface_samples(reference, spacing), distance_to(surface), progress);
     ReferenceComparison result;
     result.hausdorff = std::max(there.largest, back.largest);
     result.hausdorff_to_reference = there.largest;
@@ -53,7 +54,7 @@ ReferenceComparison compare_with_reference(const Surface& surface, const Surface
 }
 
 WeighedComparison compare_by_weight(const Surface& surface, const Surface& reference,
-                                    std::span<const double> weights) {
+                                    std::span<const double> weights, const Progress& progress) {
     const double spacing = sample_spacing(surface, reference);
     if (weights.size() != reference.vertex_count())
         throw InvalidInput("there are " + std::to_string(weights.size()) + " weights for " +
@@ -65,14 +66,16 @@ WeighedComparison compare_by_weight(const Surface& surface, const Surface& refer
     };
     SampledDistance inside, outside;
     const SurfaceSamples here = surface_samples(surface, spacing);
-    const auto there = distance_to(reference).closest_points(here.points);
-    for (std::size_t i = 0; i < there.size(); ++i)
-        (weighs_much(there[i].triangle) ? inside : outside).add(there[i].distance, here.areas[i]);
+    const auto add_here = [&](std::size_t i, const SurfacePoint& there) {
+        (weighs_much(there.triangle) ? inside : outside).add(there.distance, here.areas[i]);
+    };
+    for_each_closest(here, distance_to(reference), add_here, progress);
     const SurfaceSamples references = surface_samples(reference, spacing);
-    const auto back = distance_to(surface).closest_points(references.points);
-    for (std::size_t i = 0; i < back.size(); ++i)
+    const auto add_back = [&](std::size_t i, const SurfacePoint& back) {
         (weighs_much(references.triangles[i]) ? inside : outside)
-            .add(back[i].distance, references.areas[i]);
+            .add(back.distance, references.areas[i]);
+    };
+    for_each_closest(references, distance_to(surface), add_back, progress);
     return {{inside.mean(), inside.largest}, {outside.mean(), outside.largest}};
 }
 

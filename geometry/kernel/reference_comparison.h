@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -26,9 +27,11 @@ struct ReferenceComparison {
 
 /// Point-to-surface distances from all vertices and from regular samples inside the triangles, at
 /// most half the mean edge of the finer surface apart.
-/// \throw InvalidInput if one of them has no triangle, or none with an area
+/// \throw InvalidInput if one of them has no triangle, or none with an area; Cancelled if the user
+/// cancels
 [[nodiscard]] ReferenceComparison compare_with_reference(const Surface& surface,
-                                                         const Surface& reference);
+                                                         const Surface& reference,
+                                                         const Progress& progress = {});
 
 /// Distance of two surfaces in a part of them.
 struct PartDistance {
@@ -46,6 +49,7 @@ struct WeighedComparison {
 /// \param weights #V of the reference
 /// \throw InvalidInput as compare_with_reference, or unless weights is #V long
 [[nodiscard]] WeighedComparison compare_by_weight(const Surface& surface, const Surface& reference,
-                                                  std::span<const double> weights);
+                                                  std::span<const double> weights,
+                                                  const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "geometry/kernel/measure.h"
 
@@ -9,7 +10,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kMostSamples = 24;  // per edge of a triangle
+constexpr int kMostSamples = 24;         // per edge of a triangle
+constexpr std::size_t kBlock = 1 << 14;  // searches between two looks for a cancel
 
 }  // namespace
 
@@ -45,10 +47,25 @@ void SampledDistance::add(double distance, double sample_area) {
     area += sample_area;
 }
 
-SampledDistance sampled_distance(const SurfaceSamples& samples, const SurfaceDistance& to) {
-    const auto found = to.closest_points(samples.points);
+void for_each_closest(const SurfaceSamples& samples, const SurfaceDistance& to,
+                      const std::function<void(std::size_t, const SurfacePoint&)>& visit,
+                      const Progress& progress) {
+    const std::span<const Vec3> points = samples.points;
+    for (std::size_t first = 0; first < points.size(); first += kBlock) {
+        progress.check_cancelled();
+        const auto found =
+            to.closest_points(points.subspan(first, std::min(kBlock, points.size() - first)));
+        for (std::size_t i = 0; i < found.size(); ++i) visit(first + i, found[i]);
+    }
+}
+
+SampledDistance sampled_distance(const SurfaceSamples& samples, const SurfaceDistance& to,
+                                 const Progress& progress) {
     SampledDistance result;
-    for (std::size_t i = 0; i < found.size(); ++i) result.add(found[i].distance, samples.areas[i]);
+    const auto add = [&](std::size_t i, const SurfacePoint& closest) {
+        result.add(closest.distance, samples.areas[i]);
+    };
+    for_each_closest(samples, to, add, progress);
     return result;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/surface_distance.h"
 
@@ -46,7 +48,16 @@ struct SampledDistance {
     [[nodiscard]] double mean() const { return area > 0.0 ? sum / area : 0.0; }
 };
 
+/// Calls visit(i, closest point of sample i) in order. The searches run in parallel, in blocks that
+/// a cancel waits for.
+/// \throw Cancelled if the user cancels
+void for_each_closest(const SurfaceSamples& samples, const SurfaceDistance& to,
+                      const std::function<void(std::size_t, const SurfacePoint&)>& visit,
+                      const Progress& progress);
+
+/// \throw Cancelled if the user cancels
 [[nodiscard]] SampledDistance sampled_distance(const SurfaceSamples& samples,
-                                               const SurfaceDistance& to);
+                                               const SurfaceDistance& to,
+                                               const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -93,6 +93,7 @@ Surface decimated_once(const Surface& source, const DecimateParameters& paramete
                        DecimateReport& report, const Progress& progress) {
     std::optional<ErrorBound> bound;
     if (parameters.max_error) bound.emplace(source, weights, *parameters.max_error);
+    progress.check_cancelled();
     Decimater decimater(source, weights, locked, bound ? &*bound : nullptr);
     const std::size_t target = parameters.triangles.value_or(1);
     decimater.run(target, progress);
@@ -138,7 +139,8 @@ Decimated decimate(const Surface& surface, const DecimateParameters& parameters,
         // the end.
         progress.report(1.0 - std::exp2(-attempt - 1), "measuring the error");
         if (!(area(surface) > 0.0 && area(decimated.surface) > 0.0)) break;
-        const double largest = compare_with_reference(decimated.surface, surface).hausdorff;
+        const double largest =
+            compare_with_reference(decimated.surface, surface, progress.silent()).hausdorff;
         if (largest <= *parameters.max_error) break;
         *used.max_error *= kBelow * *parameters.max_error / largest;
         decimated = decimated_apart(surface, used, weights, progress.silent());

@@ -238,10 +238,12 @@ void Decimater::push(HalfEdge h) {
     queue_.push({cost, h, stamps_[a], stamps_[b]});
 }
 
-void Decimater::push_all() {
+void Decimater::push_all(const Progress& progress) {
     queue_ = {};
-    for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h)
+    for (HalfEdge h = 0; h < mesh_.half_edge_count(); ++h) {
+        if (h % kReportEvery == 0) progress.check_cancelled();
         if (mesh_.origin(h) != EditMesh::kNone && h < mesh_.twin(h)) push(h);
+    }
 }
 
 void Decimater::push_around(VertexId v) {
@@ -321,7 +323,7 @@ bool Decimater::work_off_queue(std::size_t triangles, const Progress& progress) 
 
 void Decimater::run(std::size_t triangles, const Progress& progress) {
     // A collapse rejected in one round may be permitted once its neighbours have changed.
-    do push_all();
+    do push_all(progress);
     while (work_off_queue(triangles, progress) && triangles_ > triangles);
 }
 

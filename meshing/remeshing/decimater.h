@@ -56,7 +56,7 @@ private:
     void add_quadrics(const Surface& source, std::span<const double> weights);
     void add_border(HalfEdge h, double importance);
     void find_borders();
-    void push_all();
+    void push_all(const Progress& progress);
     void push(HalfEdge h);
     void push_around(VertexId v);
     [[nodiscard]] bool is_current(const Entry& entry) const;

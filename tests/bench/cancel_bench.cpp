@@ -317,6 +317,7 @@ void print_load(const char* when) {
 
 void run_all(Bench& bench, const Text& folder) {
     print_load("before");
+    std::filesystem::create_directories(folder);
     const Files files = write_files(folder);
     std::printf("%-42s %9s  %s  %s\n", "", "whole", "median",
                 "worst, from cancel to end; processor");

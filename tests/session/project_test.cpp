@@ -163,6 +163,19 @@ SCENARIO("A project survives SIGKILL at any moment", "[session][project]") {
     for (const auto& entry : session.replay()) REQUIRE(entry.differences.empty());
 }
 
+SCENARIO("A new project ignores the log of a deleted one", "[session][project]") {
+    const std::string file = test::temporary_folder() + "/case.vbench";
+    (void)Session::create(file, options());
+    Helper helper("edit", file);
+    while (!helper.line().empty() && std::filesystem::file_size(file + "-wal") == 0) {
+    }
+    helper.kill_now();
+    REQUIRE(std::filesystem::file_size(file + "-wal") > 0);
+    std::filesystem::remove(file);
+    Session session = Session::create(file, options());
+    CHECK(session.log().empty());
+}
+
 SCENARIO("Two processes on one project: the second is read-only", "[session][project]") {
     const std::string file = new_project();
     {

@@ -51,8 +51,9 @@ ContextWeights weights_from(const Scene& scene, Arguments& arguments) {
     return context_weights(scene, settings, *finder, arguments);
 }
 
-void add_changes(Json& report, const Surface& before, const Surface& after) {
-    const ReferenceComparison found = compare_with_reference(after, before);
+void add_changes(Json& report, const Surface& before, const Surface& after,
+                 const Progress& progress) {
+    const ReferenceComparison found = compare_with_reference(after, before, progress);
     report["distance"] = distance_json(found.mean_distance, found.hausdorff);
     report["shape_before"] = triangle_shape_json(triangle_shape(before));
     report["shape_after"] = triangle_shape_json(triangle_shape(after));
@@ -78,8 +79,9 @@ Gain gain_of(const Surface& before, const Surface& after, const std::vector<doub
     const std::vector<double> parts = stretched(weights);
     progress.report(0.0, "decimating without weights, for comparison");
     const Decimated plain = decimate(before, {.triangles = after.triangle_count()}, {}, progress);
-    return {compare_by_weight(after, before, parts),
-            compare_by_weight(plain.surface, before, parts), plain.surface.triangle_count()};
+    return {compare_by_weight(after, before, parts, progress),
+            compare_by_weight(plain.surface, before, parts, progress),
+            plain.surface.triangle_count()};
 }
 
 /// Distances where the stretched weight is above one half (inside) and elsewhere.
@@ -184,7 +186,7 @@ public:
         const ContextWeights& context = run_.context;
         Json report = context_json(context.figures);
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
-        add_changes(report, before, after);
+        add_changes(report, before, after, progress);
         warn(run_.decimated, run_.target, context.figures, outcome);
         if (!context.weights.empty()) {
             const Gain gain = gain_of(before, after, context.weights, progress.part(0.2, 0.8));

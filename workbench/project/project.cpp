@@ -31,6 +31,16 @@ bool missing(const std::filesystem::path& path) {
     return !there;
 }
 
+/// A project that was deleted after a crash leaves its log behind, which SQLite would replay into a
+/// new project of the same name.
+void remove_leftovers(const std::filesystem::path& project) {
+    for (const char* suffix : {"-wal", "-shm"}) {
+        std::filesystem::path leftover = project;
+        std::error_code error;  // where nothing can be removed, nothing can be written either
+        std::filesystem::remove(leftover += suffix, error);
+    }
+}
+
 /// Writes a file under another name, then renames it: nobody sees a partial file, and an existing
 /// file is kept.
 void write_whole(const std::filesystem::path& path,
@@ -38,6 +48,7 @@ void write_whole(const std::filesystem::path& path,
     const std::string name = path.filename().string();
     if (!missing(path))
         throw IoError(name + " already exists; choose another name or remove it first");
+    remove_leftovers(path);
     PendingFiles files;
     write(files.add(path));
     files.commit(Existing::Keep);
