@@ -102,7 +102,8 @@ struct EditableSurface::Mesh {
         return places;
     }
 
-    VertexId add_vertex(const OpenMesh::Vec3d& point) {
+    /// Takes the point by value: it may be one of the mesh's own, which move as their array grows.
+    VertexId add_vertex(OpenMesh::Vec3d point) {
         const VertexHandle v = half_edges.add_vertex(point);
         half_edges.property(mark, v) = 0;
         for (const auto& [name, values] : attributes) half_edges.property(values, v) = 0.0;
