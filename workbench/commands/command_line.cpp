@@ -13,6 +13,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
+#include "workbench/commands/console.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
@@ -117,19 +118,21 @@ constexpr const char* kFooter =
 
 /// The parser, and the command it found.
 struct CommandLine {
-    explicit CommandLine(Progress p) : progress(std::move(p)) {}
+    explicit CommandLine(std::stop_token on)
+        : stop(std::move(on)), progress(console_progress(stop)) {}
 
     CLI::App app{kDescription, "vesselbench"};
+    std::stop_token stop;
     Progress progress;
     std::function<int()> command;
     WindowOptions window;
 };
 
-void show_window(const WindowOptions& options) {
-    if (options.screenshot.empty())
-        open_window(options);
+void show_window(const CommandLine& line) {
+    if (line.window.screenshot.empty())
+        open_window(line.window, line.stop);
     else
-        draw_screenshot(options);
+        draw_screenshot(line.window);
 }
 
 CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
@@ -492,7 +495,7 @@ void add_phantom(CommandLine& line) {
 void add_window(CommandLine& line) {
     CLI::App& command =
         add_command(line, "open", "Open a project, a surface, an image or a case in the window",
-                    [&line] { return show_window(line.window), 0; });
+                    [&line] { return show_window(line), 0; });
     command.add_option("FILE", line.window.file, "What to open")->required()->type_name("");
     line.app
         .add_option("--screenshot", line.window.screenshot,
@@ -557,8 +560,8 @@ std::string help_hint(const CLI::App& app) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv, const Progress& progress) {
-    CommandLine line(progress);
+int run_command_line(int argc, char** argv, const std::stop_token& stop) {
+    CommandLine line(stop);
     set_up(line);
     refuse_unknown_command(line.app, argc, argv);
     try {
@@ -569,7 +572,7 @@ int run_command_line(int argc, char** argv, const Progress& progress) {
         throw UsageError(error.what() + help_hint(line.app));
     }
     if (!line.command) {
-        show_window(line.window);
+        show_window(line);
         return 0;
     }
     return line.command();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -192,8 +193,8 @@ struct WindowOptions {
     std::string theme = "dark";
 };
 
-/// Opens the window, and returns when it is closed.
-void open_window(const WindowOptions& options);
+/// Opens the window, and returns when it is closed or a stop is requested.
+void open_window(const WindowOptions& options, const std::stop_token& stop);
 
 /// Draws the window once, without a display, when the file is open.
 void draw_screenshot(const WindowOptions& options);

@@ -25,8 +25,7 @@ int tell(const char* text, int code) {
 int run(int argc, char** argv) {
     try {
         const vesselbench::SignalStop signals;
-        return vesselbench::run_command_line(argc, argv,
-                                             vesselbench::console_progress(signals.token()));
+        return vesselbench::run_command_line(argc, argv, signals.token());
     } catch (const vesselbench::UsageError& error) {
         return tell(error.what(), kWrongUsage);
     } catch (const vesselbench::InvalidInput& error) {

@@ -45,8 +45,8 @@ double scale_for(int height) {
 
 }  // namespace
 
-void open_window(const WindowOptions& options) {
-    run_window(app_options(), options.file);
+void open_window(const WindowOptions& options, const std::stop_token& stop) {
+    run_window(app_options(), options.file, stop);
 }
 
 void draw_screenshot(const WindowOptions& options) {

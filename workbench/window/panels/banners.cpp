@@ -86,6 +86,16 @@ void draw_pending(PanelContext& c, ScreenRect& place, int count) {
     if (draw_banner(c, "pending", banner, place) == Answer::Action) c.place.document.run_pending();
 }
 
+void draw_read_only(PanelContext& c, ScreenRect& place) {
+    const Banner banner{icons::kWarning, c.ui.theme.warning,
+                        c.place.document.snapshot()->read_only_reason,
+                        c.place.document.activity() ? "" : "Save a copy"};
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner.read_only", place);
+    if (draw_banner(c, "read_only", banner, place) == Answer::Action)
+        c.place.ask(FileQuestion::SaveCopy);
+}
+
 void draw_preview(PanelContext& c, ScreenRect& place) {
     const Banner banner{icons::kPreview, c.ui.theme.accent,
                         "Preview of " + readable(c.place.document.previewed()->edit().operation) +
@@ -104,6 +114,10 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
     ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
     if (document.failure() && !is_about_form(c)) {
         draw_failure(c, place);
+        place.y += place.height + gap;
+    }
+    if (!document.snapshot()->read_only_reason.empty()) {
+        draw_read_only(c, place);
         place.y += place.height + gap;
     }
     const int pending = pending_count(*document.snapshot(), document.variant());

@@ -1,7 +1,7 @@
 #include "workbench/window/shell/glfw_shell.h"
 
-#include <cstdlib>
-#include <memory>
+#include <string>
+#include <utility>
 
 // GLFW must not include OpenGL's headers itself.
 #define GLFW_INCLUDE_NONE
@@ -104,7 +104,7 @@ public:
     void wait() {
         if (frames_ > 0) {
             --frames_;
-            return glfwPollEvents();
+            return;
         }
         if (app_.is_moving())
             glfwWaitEventsTimeout(kProgressInterval);
@@ -122,40 +122,76 @@ private:
     int frames_ = kFramesAfterInput;
 };
 
-void draw_frame(GLFWwindow* window, DrawingSession& drawing, App& app) {
-    app.set_display_scale(content_scale(window));
-    ImGui_ImplGlfw_NewFrame();
-    drawing.draw(app);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    drawing.render();
-    glfwSwapBuffers(window);
-}
-
-void run(GLFWwindow* window, DrawingSession& drawing, App& app) {
-    Events events(window, app);
-    std::string title;
-    while (!glfwWindowShouldClose(window)) {
-        draw_frame(window, drawing, app);
-        if (app.title() != title) {
-            title = app.title();
-            glfwSetWindowTitle(window, title.c_str());
-        }
-        events.wait();
-    }
+AppOptions completed(AppOptions options, GLFWwindow* window) {
+    options.device = checked_device();
+    options.display_scale = content_scale(window);
+    options.wake = [] { glfwPostEmptyEvent(); };
+    return options;
 }
 
 }  // namespace
 
-void run_window(AppOptions options, const std::filesystem::path& file) {
-    const Glfw glfw;
-    const Window window = make_window();
-    options.device = checked_device();
-    options.display_scale = content_scale(window.get());
-    options.wake = [] { glfwPostEmptyEvent(); };
+struct GlfwShell::Impl {
+    explicit Impl(AppOptions options)
+        : window(make_window()),
+          app(completed(std::move(options), window.get())),
+          events(window.get(), app) {}
+
+    void draw() {
+        app.set_display_scale(content_scale(window.get()));
+        ImGui_ImplGlfw_NewFrame();
+        drawing.draw(app);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        drawing.render();
+        glfwSwapBuffers(window.get());
+    }
+
+    void show_title() {
+        if (std::string now = app.title(); now != title) {
+            title = std::move(now);
+            glfwSetWindowTitle(window.get(), title.c_str());
+        }
+    }
+
+    Glfw glfw;
+    Window window;
     DrawingSession drawing;
-    App app(std::move(options));
-    if (!file.empty()) app.open(file);
-    run(window.get(), drawing, app);
+    App app;
+    Events events;
+    std::string title;
+};
+
+GlfwShell::GlfwShell(AppOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+GlfwShell::~GlfwShell() = default;
+
+App& GlfwShell::app() {
+    return impl_->app;
+}
+
+bool GlfwShell::is_open() const {
+    return glfwWindowShouldClose(impl_->window.get()) == GLFW_FALSE;
+}
+
+void GlfwShell::frame() {
+    glfwPollEvents();
+    impl_->draw();
+    impl_->show_title();
+}
+
+void GlfwShell::wait() {
+    impl_->events.wait();
+}
+
+void run_window(AppOptions options, const std::filesystem::path& file,
+                const std::stop_token& stop) {
+    GlfwShell shell(std::move(options));
+    const std::stop_callback on_stop(stop, [] { glfwPostEmptyEvent(); });
+    if (!file.empty()) shell.app().open(file);
+    while (shell.is_open() && !stop.stop_requested()) {
+        shell.frame();
+        shell.wait();
+    }
 }
 
 }  // namespace vesselbench
