@@ -71,13 +71,14 @@ struct PointsLayer {
     std::optional<std::uint32_t> highlighted;  ///< a mark to be lit up
 };
 
-/// A slice of an image.
+/// A slice of an image. It has holes where its scalars are not numbers.
 struct SliceLayer {
     std::shared_ptr<const DrawnSlice> slice;
     std::uint32_t id = 0;
     double window = 1.0, level = 0.5;  ///< black to white, and the middle of it [scalar's unit]
     double opacity = 1.0;              ///< [-]
     bool smooth = true;                ///< interpolates between pixels
+    bool labels = false;  ///< whole numbers as category_colour of them; holes where they are 0
 };
 
 /// All that a view shows. Slices and opaque surfaces, then transparent surfaces, lines and points.

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kScaleSteps = 256;             // gpu/shaders/surface.frag
 constexpr std::size_t kPatchColours = 1024;  // gpu/shaders/surface.vert
+constexpr std::size_t kLabelColours = 12;    // gpu/shaders/slice.frag
 constexpr double kEdgePull = 8e-4;           // of lines over their own triangles, by the radius [-]
 
 void enable(unsigned what, bool on) {
@@ -107,6 +108,19 @@ void set_surface(const Uniforms& uniforms, const SurfaceLayer& layer) {
     uniforms.set("edge_colour", edge_colour_of(layer));
     uniforms.set("range", Eigen::Vector2d(layer.least, layer.most));
     uniforms.set("no_value", layer.no_value);
+}
+
+/// As they are written into a picture.
+const std::array<Colour, kLabelColours>& label_colours() {
+    static const auto colours = [] {
+        std::array<Colour, kLabelColours> all;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const PixelColour colour = pixel_colour(category_colour(i));
+            all[i] = Colour(colour[0], colour[1], colour[2]) / 255.0F;
+        }
+        return all;
+    }();
+    return colours;
 }
 
 std::vector<Eigen::Vector4f> padded(const std::vector<Colour>& colours, std::size_t count,
@@ -305,8 +319,10 @@ struct Renderer::Impl {
         uniforms.set("window_level", Eigen::Vector2d(std::max(layer.window, 1e-12), layer.level));
         uniforms.set("opacity", layer.opacity);
         uniforms.set("scalars", 0);
+        uniforms.set("labels", layer.labels ? 1 : 0);
+        if (layer.labels) uniforms.set("label_colours", std::span(label_colours()));
         enable(GL_BLEND, layer.opacity < 1.0);
-        layer.slice->bind(layer.smooth);
+        layer.slice->bind(layer.smooth && !layer.labels);
         glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
         glBindTexture(GL_TEXTURE_2D, 0);
         glDisable(GL_BLEND);

@@ -32,8 +32,19 @@ SCENARIO("Other parameters cannot be picked", "[window][picking]") {
     CHECK_FALSE(target_of("smooth", "iterations"));
     CHECK_FALSE(target_of("clip-opening", "planes"));
     CHECK_FALSE(target_of("crop", "radius"));
-    // There is no surface yet, or another one.
-    CHECK_FALSE(target_of("extract-surface", "seed"));
+    CHECK_FALSE(target_of("extract-surface", "threshold"));
+}
+
+SCENARIO("Seeds and labels are picked in slices", "[window][picking]") {
+    CHECK(target_of("extract-surface", "seed") == PickTarget::Voxel);
+    CHECK(target_of("extract-surface", "labels") == PickTarget::Labels);
+    CHECK(is_in_slices(PickTarget::Voxel));
+    CHECK_FALSE(is_in_slices(PickTarget::Corners));
+    CHECK(picked_labels("", 3) == "3");
+    CHECK(picked_labels("3,7", 5) == "3,5,7");
+    CHECK(picked_labels("3,5,7", 5) == "3,7");
+    CHECK(picked_labels("3", 3).empty());
+    CHECK_FALSE(is_complete(PickTarget::Labels, "3,7"));
 }
 
 SCENARIO("A picked place is a short text of the command line", "[window][picking]") {

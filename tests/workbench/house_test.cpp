@@ -59,8 +59,8 @@ const std::map<std::string, Names> kDoors = {
      {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
       "workbench/worker", "workbench/session", "workbench/operations"}},
     {"workbench/window",
-     {"geometry/kernel", "geometry/formats", "geometry/vessel", "smoothing/brush", "gpu",
-      "workbench/case", "workbench/session", "workbench/operations", "workbench/export",
+     {"geometry/kernel", "geometry/image", "geometry/formats", "geometry/vessel", "smoothing/brush",
+      "gpu", "workbench/case", "workbench/session", "workbench/operations", "workbench/export",
       "workbench/phantoms", "workbench/report", "workbench/prepare"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 

@@ -119,7 +119,7 @@ void App::draw() {
 
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->viewport.pending();
+           impl_->place.slices().pending() || impl_->viewport.pending();
 }
 
 bool App::is_settled() const {

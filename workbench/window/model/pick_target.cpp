@@ -34,6 +34,12 @@ std::optional<Vec3> point_of(const std::string& text) {
     return Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
+std::optional<PickTarget> target_in_image(const Parameter& parameter) {
+    if (parameter.type == ParameterType::Point && parameter.unit == "mm") return PickTarget::Voxel;
+    const bool labels = parameter.type == ParameterType::List && parameter.name == "labels";
+    return labels ? std::optional(PickTarget::Labels) : std::nullopt;
+}
+
 std::string box_text(const Vec3& a, const Vec3& b) {
     const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
     return to_text(Value(low)) + "," + to_text(Value(high));
@@ -41,8 +47,14 @@ std::string box_text(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+bool is_in_slices(PickTarget target) {
+    return target == PickTarget::Voxel || target == PickTarget::Labels;
+}
+
 std::optional<PickTarget> pick_target(const Operation& operation, const Parameter& parameter) {
-    if (operation.recipe.makes_source || parameter.unit != "mm") return std::nullopt;
+    // The surface to pick on is there later, or is another one.
+    if (operation.recipe.makes_source) return target_in_image(parameter);
+    if (parameter.unit != "mm") return std::nullopt;
     if (parameter.type == ParameterType::List)
         return parameter.name == "box" ? std::optional(PickTarget::Corners) : std::nullopt;
     // A bounded vector, such as the size of a voxel, is no place.
@@ -62,6 +74,10 @@ std::string pick_instruction(PickTarget target) {
             return "Click an opening";
         case PickTarget::Corners:
             return "Click two opposite corners";
+        case PickTarget::Voxel:
+            return "Click a place in a slice";
+        case PickTarget::Labels:
+            return "Click labels in a slice, again to remove them";
     }
     return "";
 }
@@ -73,14 +89,22 @@ std::string picked_text(PickTarget target, const std::string& text, const Vec3& 
     return before ? box_text(*before, now) : to_text(Value(now));
 }
 
+std::string picked_labels(const std::string& text, int label) {
+    std::vector<double> labels = numbers_of(text);
+    if (std::erase(labels, label) == 0) labels.push_back(label);
+    std::ranges::sort(labels);
+    return labels.empty() ? "" : to_text(Value(labels));
+}
+
 bool is_complete(PickTarget target, const std::string& text) {
-    return target != PickTarget::Corners || !point_of(text);
+    return target != PickTarget::Labels && (target != PickTarget::Corners || !point_of(text));
 }
 
 std::vector<NamedPlace> places_in(const OperationForm& form) {
     std::vector<NamedPlace> places;
     for (const FormField& field : form.fields()) {
-        if (!field.active || !pick_target(form.operation(), *field.parameter)) continue;
+        const auto target = pick_target(form.operation(), *field.parameter);
+        if (!field.active || !target || target == PickTarget::Labels) continue;
         if (const auto point = point_of(field.text))
             places.push_back({.point = *point, .name = readable(field.parameter->name)});
     }

@@ -9,16 +9,22 @@
 
 namespace vesselbench {
 
-/// What a click in the view means for a parameter.
+/// What a click in the view means for a parameter. Where there is an image, places can be clicked
+/// in its slices, too.
 enum class PickTarget {
     Surface,  ///< a point on the surface
     Tip,      ///< a vessel's end; elsewhere on the surface, such as on a dome, the point itself
     Opening,  ///< an opening
-    Corners   ///< two opposite corners of a box, one after the other
+    Corners,  ///< two opposite corners of a box, one after the other
+    Voxel,    ///< a point in a slice of the image
+    Labels    ///< labels in slices; another click on one removes it
 };
 
-/// None: its value is no place, or there is no surface to pick it on. By the parameter's type and
-/// name, which mean the same in the whole table.
+/// True for what only slices offer.
+[[nodiscard]] bool is_in_slices(PickTarget target);
+
+/// None: its value is no place, or nothing shows it. By the parameter's type and name, which mean
+/// the same in the whole table.
 [[nodiscard]] std::optional<PickTarget> pick_target(const Operation& operation,
                                                     const Parameter& parameter);
 
@@ -31,7 +37,10 @@ enum class PickTarget {
 [[nodiscard]] std::string picked_text(PickTarget target, const std::string& text,
                                       const Vec3& point);
 
-/// False for a box of which only one corner is known.
+/// A list of labels, ascending, with one more, or without it if it is there.
+[[nodiscard]] std::string picked_labels(const std::string& text, int label);
+
+/// False for a box of which only one corner is known, and for labels, of which there may be more.
 [[nodiscard]] bool is_complete(PickTarget target, const std::string& text);
 
 /// The form's places that a click can name, with the names of their parameters; typed ones, too.

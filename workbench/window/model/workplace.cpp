@@ -8,13 +8,17 @@
 namespace vesselbench {
 
 Workplace::Workplace(DocumentOptions options, Settings remembered)
-    : document(options), settings(std::move(remembered)), search_(std::move(options.wake)) {}
+    : document(options),
+      settings(std::move(remembered)),
+      search_(options.wake),
+      slices_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
     if (was_opening_ && !document.is_opening() && document.is_open() && !document.failure()) {
         settings.remember(document.project());
         settings.save();
+        slices_.clear();
         choose_step(Step::Source);
     }
     was_opening_ = document.is_opening();
@@ -24,7 +28,8 @@ bool Workplace::update() {
         form_.reset();
         disarm();
     }
-    return update_places() || changed;
+    const bool new_slices = slices_.update(document.shown());
+    return update_places() || new_slices || changed;
 }
 
 bool Workplace::update_places() {
@@ -73,6 +78,7 @@ void Workplace::open_phantom(const std::string& name) {
 void Workplace::close() {
     leave_form();
     document.close();
+    slices_.clear();
     settings.refresh();
     renew_lists();
 }
@@ -185,6 +191,8 @@ std::string Workplace::command() const {
 void Workplace::arm(const std::string& parameter) {
     if (armed_ == parameter) return disarm();
     armed_ = parameter;
+    const std::optional<PickTarget> target = armed_target();
+    if (target && is_in_slices(*target)) slices_.show_row(true);
     document.drop_preview();
 }
 
@@ -196,9 +204,14 @@ std::optional<PickTarget> Workplace::armed_target() const {
 
 void Workplace::pick(const Vec3& point) {
     const std::optional<PickTarget> target = armed_target();
-    if (!target) return;
+    if (!target || target == PickTarget::Labels) return;
     set_field(armed_, picked_text(*target, form_->field(armed_).text, point));
     if (is_complete(*target, form_->field(armed_).text)) disarm();
+}
+
+void Workplace::pick_label(int label) {
+    if (armed_target() == PickTarget::Labels)
+        set_field(armed_, picked_labels(form_->field(armed_).text, label));
 }
 
 // --- questions for a file

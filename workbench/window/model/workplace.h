@@ -8,6 +8,7 @@
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/history_tree.h"
+#include "workbench/window/model/image_slices.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
 #include "workbench/window/model/place_search.h"
@@ -105,10 +106,20 @@ public:
     /// Fills in the armed parameter, and disarms it when its value is complete.
     void pick(const Vec3& point);
 
+    /// Adds a label to the armed parameter, or removes it.
+    void pick_label(int label);
+
     /// The places of the shown surface; vessel ends only if the form wants them.
     [[nodiscard]] const SurfacePlaces& surface_places() const { return search_.places(); }
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
+
+    // --- the image
+
+    /// Slices of the shown scene's image.
+    [[nodiscard]] ImageSlices& slices() { return slices_; }
+
+    [[nodiscard]] const ImageSlices& slices() const { return slices_; }
 
     // --- questions for a file
 
@@ -139,6 +150,7 @@ private:
     PlaceSearch search_;
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
+    ImageSlices slices_;
 };
 
 }  // namespace vesselbench

@@ -40,6 +40,14 @@ constexpr std::array<KeyHelp, 5> kBrushing = {{{"Left drag", "brush on the surfa
                                                {"Shift+left drag", "smooth, whatever the brush"},
                                                {"Ctrl+left drag", "the opposite"}}};
 
+constexpr std::array<KeyHelp, 7> kSlices = {{{"I", "slices of the image"},
+                                             {"Shift+I", "its planes in the 3D view"},
+                                             {"Left drag", "move the cross"},
+                                             {"Right drag", "window and level"},
+                                             {"Wheel", "next slice; with Ctrl, zoom"},
+                                             {"Middle or Shift+left drag", "move"},
+                                             {"Home", "show all of a slice"}}};
+
 template <std::size_t N>
 void draw_keys(const Ui& ui, const std::string& title, const std::array<KeyHelp, N>& keys,
                float keys_width) {
@@ -74,7 +82,9 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     space(ui, 3);
     const float half = ImGui::GetContentRegionAvail().x / 2;
     ImGui::BeginChild("editing", {half, 0});
-    draw_keys(ui, "Editing", kEditing, ui.em * 8);
+    draw_keys(ui, "Editing", kEditing, ui.em * 12);
+    space(ui, 2);
+    draw_keys(ui, "Slices", kSlices, ui.em * 12);
     ImGui::EndChild();
     ImGui::SameLine(0, 0);
     ImGui::BeginChild("viewing");

@@ -46,13 +46,25 @@ void handle_control(PanelContext& c) {
     if (pressed(keys::kEnter)) c.place.apply();
 }
 
+/// The image: its slices, or its planes in the 3D view.
+void handle_image(PanelContext& c) {
+    ImageSlices& slices = c.place.slices();
+    if (!slices.has_image() || !pressed(keys::letter('I'))) return;
+    if (ImGui::GetIO().KeyShift)
+        slices.show_in_space(!slices.any_in_space());
+    else
+        slices.show_row(!slices.in_row());
+}
+
 }  // namespace
 
 void handle_shortcuts(PanelContext& c) {
     if (pressed(keys::kF1)) c.shown.help = !c.shown.help;
     if (pressed(keys::kEscape)) handle_escape(c);
     const bool dialog = c.shown.help || c.shown.prepare || c.place.question() != FileQuestion::None;
-    if (ImGui::GetIO().KeyCtrl && !dialog) handle_control(c);
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl && !dialog) handle_control(c);
+    if (!io.KeyCtrl && !dialog && !io.WantTextInput) handle_image(c);
 }
 
 }  // namespace vesselbench

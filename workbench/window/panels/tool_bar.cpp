@@ -65,6 +65,16 @@ void draw_products(PanelContext& c) {
         c.place.ask(FileQuestion::Export);
 }
 
+void draw_slices_toggle(PanelContext& c) {
+    ImageSlices& slices = c.place.slices();
+    const bool shown = slices.in_row();
+    ImGui::SameLine();
+    if (icon_button(c.ui, "tool.slices", icons::kColumns,
+                    slices.has_image() ? "Slices of the image  I" : "Slices: there is no image",
+                    slices.has_image(), shown))
+        slices.show_row(!shown);
+}
+
 std::vector<std::string> variants_of(const Document& document) {
     std::vector<std::string> variants = {"cfd", "rp"};
     if (!document.is_open()) return variants;
@@ -132,6 +142,7 @@ void draw_tool_bar(PanelContext& c, const ScreenRect& rect) {
     draw_undo(c);
     gap(c.ui);
     draw_products(c);
+    draw_slices_toggle(c);
     draw_right_end(c, rect);
     end_frame();
 }

@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/view/model_drawing.h"
 
 namespace vesselbench {
 
@@ -26,7 +27,8 @@ Eigen::Vector2f mouse_pixel() {
 
 /// The picked place with the normal of its triangle; none: the background, or it has no normal.
 std::optional<StrokePlace> place_of(const Picked& picked, const Surface& surface) {
-    if (picked.layer == 0 || picked.element >= surface.triangle_count()) return std::nullopt;
+    if (picked.layer != kModelLayer || picked.element >= surface.triangle_count())
+        return std::nullopt;
     const Vec3 normal = area_normal(surface.points(), surface.triangles()[picked.element]);
     if (!(normal.norm() > 0.0)) return std::nullopt;
     return StrokePlace{.point = picked.point, .normal = normal.normalized()};

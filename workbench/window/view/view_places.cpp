@@ -97,7 +97,8 @@ void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
 void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
     const SurfacePlaces& places = c.place.surface_places();
-    const std::optional<PickTarget> target = c.place.armed_target();
+    std::optional<PickTarget> target = c.place.armed_target();
+    if (target && is_in_slices(*target)) target.reset();
     if (!target) clicked_.reset();
     if (target && seen.clicked) {
         clicked_ = mouse();

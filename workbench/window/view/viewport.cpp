@@ -15,6 +15,8 @@
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/region_drawing.h"
+#include "workbench/window/view/slice_planes.h"
+#include "workbench/window/view/slice_row.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/widgets/controls.h"
@@ -29,12 +31,8 @@ constexpr double kMargin = 0.12;        ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
-Colour linear(Paint colour) {
-    const auto part = [&](int shift) {
-        return std::pow(static_cast<float>((colour >> shift) & 0xFF) / 255.0F, 2.2F);
-    };
-    return {part(0), part(8), part(16)};
-}
+/// From the front, somewhat from the left and above: all three planes of an image are seen.
+const ViewCamera kObliqueView = {.view = {-0.45, 0.75, -0.4}, .up = {0, 0, 1}};
 
 /// All that the picture depends on besides the model.
 struct DrawnAs {
@@ -44,6 +42,7 @@ struct DrawnAs {
     bool dark = false;
     std::optional<std::uint32_t> lit_patch;
     int region = 0;  ///< version of the typed region's lines
+    int slices = 0;  ///< version of the image's planes
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -56,6 +55,7 @@ struct Viewport::Impl {
 
     void take_scene(PanelContext& c);
     void take_form(PanelContext& c);
+    void take_slices(PanelContext& c);
     void pick_places(PanelContext& c, bool over, bool released);
     void frame_model();
     void follow_model();
@@ -75,12 +75,20 @@ struct Viewport::Impl {
 
     [[nodiscard]] double aspect() const { return rect.height > 0 ? rect.width / rect.height : 1; }
 
+    /// Whether there is anything to look at.
+    [[nodiscard]] bool has_content() const {
+        return model.surface() != nullptr || planes.any_in_space();
+    }
+
     ModelDrawing model;
     Renderer renderer;
     Picker picker;
     BrushPointer brush;
     ViewPlaces places;
     RegionDrawing region;
+    SlicePlanes planes;
+    SliceRow slice_row;
+    std::optional<Bounds> image_box;  ///< of the slices that are shown
     std::optional<RenderTarget> target;
     unsigned texture = 0;
     ViewCamera camera;
@@ -138,8 +146,22 @@ void Viewport::Impl::take_scene(PanelContext& c) {
 
 /// The region that the form describes.
 void Viewport::Impl::take_form(PanelContext& c) {
-    const bool shows = c.place.form() && model.surface() != nullptr;
-    region.show(shows ? region_lines(*c.place.form()) : std::vector<RegionLine>());
+    const bool shown = c.place.form() && has_content();
+    region.show(shown ? region_lines(*c.place.form()) : std::vector<RegionLine>());
+}
+
+/// An image without a surface is looked at as a whole.
+void Viewport::Impl::take_slices(PanelContext& c) {
+    planes.update(c.place.slices());
+    const SliceGrid& grid = c.place.slices().grid();
+    image_box.reset();
+    if (planes.any_in_space()) image_box = Bounds{grid.low, grid.high()};
+    if (model.surface() != nullptr || model.pending() || !planes.any_in_space() ||
+        framed_project == c.place.document.project())
+        return;
+    framed_project = c.place.document.project();
+    camera = kObliqueView;
+    frame_model();
 }
 
 /// \param over the cursor is over the view \param released the left button was, after a press in
@@ -159,8 +181,10 @@ void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
 }
 
 void Viewport::Impl::frame_model() {
-    if (model.surface() == nullptr) return;
-    camera = framed(camera, model.surface()->points(), aspect(), kMargin);
+    if (model.surface() != nullptr)
+        camera = framed(camera, model.surface()->points(), aspect(), kMargin);
+    else if (image_box)
+        camera = framed(camera, *image_box, aspect(), kMargin);
     framed_camera = camera;
 }
 
@@ -178,6 +202,7 @@ Layers Viewport::Impl::layers(const Ui& ui) const {
     Layers layers = model.layers(look, line);
     for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
     region.add_to(layers, 2 * line);
+    planes.add_to(layers, line);
     return layers;
 }
 
@@ -190,8 +215,14 @@ SceneView Viewport::Impl::scene_view(const Ui& ui) const {
 void Viewport::Impl::draw_model(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(rect.width));
     const int height = std::max(1, static_cast<int>(rect.height));
-    const DrawnAs now{camera,          look, width, height, ui.theme.dark, places.lit_patch(),
-                      region.version()};
+    const DrawnAs now{camera,
+                      look,
+                      width,
+                      height,
+                      ui.theme.dark,
+                      places.lit_patch(),
+                      region.version(),
+                      planes.space_version()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
@@ -271,7 +302,9 @@ void Viewport::Impl::draw_toggle(PanelContext& c, const std::string& name, const
 void Viewport::Impl::draw_toolbar(PanelContext& c) {
     const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
     const ImVec2 at{rect.x + c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)};
-    const float width = 6 * side + 5 * c.ui.grid(0.25F) + 2 * pad;
+    const bool has_image = c.place.slices().has_image();
+    const auto count = has_image ? 7.0F : 6.0F;
+    const float width = count * side + (count - 1) * c.ui.grid(0.25F) + 2 * pad;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 to{at.x + width, at.y + side + 2 * pad};
     draw.AddRectFilled(at, to, faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
@@ -284,13 +317,19 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
                 "Colours show the distance from the source, or of a preview from before it",
                 look.deviation);
     draw_toggle(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective);
+    if (!has_image) return;
+    bool planes_shown = c.place.slices().any_in_space();
+    draw_toggle(c, "view.slices", icons::kImage, "Planes of the image  Shift+I", planes_shown);
+    if (planes_shown != c.place.slices().any_in_space())
+        c.place.slices().show_in_space(planes_shown);
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c) {
-    if (model.surface() != nullptr) places.draw(c, {camera, rect});
+    if (has_content()) places.draw(c, {camera, rect});
     draw_toolbar(c);
-    if (model.surface() == nullptr) return draw_empty(c);
-    brush.draw(c, camera, rect);
+    if (model.surface() == nullptr) draw_empty(c);
+    if (!has_content()) return;
+    if (model.surface() != nullptr) brush.draw(c, camera, rect);
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     if (model.shows_deviation(look))
@@ -307,7 +346,8 @@ void Viewport::Impl::draw_empty(PanelContext& c) const {
                               : image                             ? "The image has no surface yet"
                                                                   : "The case is empty";
     const float width = ImGui::CalcTextSize(words.c_str()).x;
-    const float x = rect.x + rect.width / 2, y = rect.y + rect.height / 2;
+    const float x = rect.x + rect.width / 2;
+    const float y = has_content() ? rect.y + rect.height - c.ui.em * 2 : rect.y + rect.height / 2;
     ImGui::SetCursorScreenPos({x - width / 2, y - c.ui.em * 2});
     text(c.ui, words, c.ui.theme.text);
     if (!image) return;
@@ -317,12 +357,17 @@ void Viewport::Impl::draw_empty(PanelContext& c) const {
         c.place.choose("extract-surface");
 }
 
-void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
+void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     Impl& view = *impl_;
+    const bool sliced = c.place.slices().in_row();
+    const ScreenRect row = slice_row_rect(whole);
+    const ScreenRect rect{whole.x, whole.y, whole.width,
+                          sliced ? row.y - 1 - whole.y : whole.height};
     view.rect = rect;
     begin_frame(c.ui, "view", rect,
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
     view.take_scene(c);
+    view.take_slices(c);
     ImGui::InvisibleButton("view.area", {rect.width, rect.height},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
@@ -330,10 +375,8 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
     const bool over = ImGui::IsItemHovered();
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (view.model.surface() != nullptr) {
-        view.handle_brush(c);
-        view.handle_mouse(!c.place.can_paint());
-    }
+    if (view.model.surface() != nullptr) view.handle_brush(c);
+    if (view.has_content()) view.handle_mouse(!c.place.can_paint());
     view.handle_keys(over);
     view.take_form(c);
     view.pick_places(c, over, released);
@@ -344,6 +387,7 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
         {1, 0});
     view.draw_overlays(c);
     end_frame();
+    if (sliced) view.slice_row.draw(c, {view.renderer, view.planes}, row);
 }
 
 }  // namespace vesselbench

@@ -7,8 +7,9 @@
 
 namespace vesselbench {
 
-/// The 3D view in the window's centre: draws the shown scene when something has changed, else the
-/// picture of the last time; turns, moves and zooms by mouse and keys.
+/// The 3D view in the window's centre, above the row of slices if that is shown: draws the shown
+/// scene when something has changed, else the picture of the last time; turns, moves and zooms by
+/// mouse and keys.
 class Viewport {
 public:
     /// Needs the window's OpenGL context, as draw() and the destructor do.
@@ -19,7 +20,7 @@ public:
     Viewport(const Viewport&) = delete;
     Viewport& operator=(const Viewport&) = delete;
 
-    void draw(PanelContext& context, const ScreenRect& rect);
+    void draw(PanelContext& context, const ScreenRect& whole);
 
     /// True while the shown scene is not drawn yet, or a search under the cursor runs.
     [[nodiscard]] bool pending() const;

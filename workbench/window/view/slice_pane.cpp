@@ -1,0 +1,274 @@
+#include "workbench/window/view/slice_pane.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "workbench/window/keys.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/view/screen_places.h"
+#include "workbench/window/view/view_overlays.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr Paint kBack = paint(0x0B0D10);  ///< behind slices, in both themes
+constexpr double kMargin = 0.03;          ///< around a whole slice [-]
+constexpr double kZoomPerNotch = 1.15;    ///< of the wheel
+constexpr float kClickReach = 0.3F;       ///< the mouse may move so far in a click [em]
+constexpr double kWindowDrag = 10.0;      ///< a drag by this changes the window by e [em]
+constexpr double kNearSlice = 0.75;       ///< marks so near are shown [slices]
+constexpr float kCrossGap = 0.7F;         ///< around the cross, so that what is there is seen [em]
+
+ImVec2 point(const Eigen::Vector2f& place) {
+    return {place.x(), place.y()};
+}
+
+/// Fonts and sizes of the window with texts for a dark ground.
+Ui overlay_of(const Ui& ui) {
+    Ui overlay;
+    overlay.theme = dark_theme();
+    overlay.fonts = ui.fonts;
+    overlay.em = ui.em;
+    return overlay;
+}
+
+/// Text with a shadow, centred between `at` (0) and its end (1) in both directions.
+void shadowed(const Ui& ui, ImVec2 at, ImVec2 anchor, Paint colour, const std::string& words) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont* font = ui.fonts.small;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    const ImVec2 from{std::round(at.x - anchor.x * size.x), std::round(at.y - anchor.y * size.y)};
+    draw.AddText(font, font->FontSize, {from.x + 1, from.y + 1}, paint(0x000000, 190),
+                 words.c_str());
+    draw.AddText(font, font->FontSize, from, colour, words.c_str());
+}
+
+/// The plane whose slices have their position on an axis.
+SlicePlane plane_across(int axis) {
+    return *std::ranges::find_if(
+        kSlicePlanes, [axis](SlicePlane plane) { return axes_of(plane).normal == axis; });
+}
+
+/// A line with a gap in its middle.
+void split_line(ImVec2 from, ImVec2 to, ImVec2 middle, float gap, Paint colour, float width) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const bool upright = from.x == to.x;
+    const ImVec2 reach{upright ? 0 : gap, upright ? gap : 0};
+    draw.AddLine(from, {middle.x - reach.x, middle.y - reach.y}, colour, width);
+    draw.AddLine({middle.x + reach.x, middle.y + reach.y}, to, colour, width);
+}
+
+}  // namespace
+
+ViewCamera slice_camera(const SliceGrid& grid, SlicePlane plane, double position, double aspect) {
+    ViewCamera camera{.view = up_of(plane).cross(right_of(plane)), .up = up_of(plane)};
+    camera = framed(camera, Bounds{grid.low, grid.high()}, aspect, kMargin);
+    camera.centre[axes_of(plane).normal] = position;
+    return camera;
+}
+
+Vec3 SlicePane::place_of(const Eigen::Vector2d& ndc) const {
+    const double aspect = rect_.width / rect_.height;
+    return unproject(camera_, aspect, {ndc.x(), ndc.y(), 0.0});
+}
+
+/// Follows the slice's position, and the image's size unless the user has moved the view.
+void SlicePane::place_camera(const ImageSlices& slices) {
+    if (grid_ != slices.grid()) fits_ = true;
+    grid_ = slices.grid();
+    const double aspect = rect_.width / rect_.height;
+    if (fits_) camera_ = slice_camera(grid_, plane_, slices.position(plane_), aspect);
+    camera_.centre[axes_of(plane_).normal] = slices.position(plane_);
+}
+
+// --- input
+
+void SlicePane::handle_wheel(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.MouseWheel == 0) return;
+    if (io.KeyCtrl) {
+        const ImVec2 mouse = io.MousePos;
+        const Eigen::Vector2d at(2.0 * (mouse.x - rect_.x) / rect_.width - 1.0,
+                                 1.0 - 2.0 * (mouse.y - rect_.y) / rect_.height);
+        camera_ =
+            zoomed(camera_, rect_.width / rect_.height, std::pow(kZoomPerNotch, io.MouseWheel), at);
+        fits_ = false;
+        return;
+    }
+    turned_ += io.MouseWheel;
+    const float slices = std::trunc(turned_);
+    turned_ -= slices;
+    c.place.slices().step(plane_, static_cast<int>(slices));
+}
+
+void SlicePane::handle_drag(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
+    ImageSlices& slices = c.place.slices();
+    const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+        if (!moved || slices.shows_labels()) return;
+        const double unit = kWindowDrag * c.ui.em;
+        const GreyWindow grey = slices.grey();
+        slices.set_grey({.window = grey.window * std::exp(io.MouseDelta.x / unit),
+                         .level = grey.level + grey.window * io.MouseDelta.y / unit});
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift) {
+        if (!moved) return;
+        const Eigen::Vector2d by(2.0 * io.MouseDelta.x / rect_.width,
+                                 -2.0 * io.MouseDelta.y / rect_.height);
+        camera_ = panned(camera_, rect_.width / rect_.height, Eigen::Vector2d::Zero(), by);
+        fits_ = false;
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !c.place.armed_target() && pointed_) {
+        slices.set_cross(*pointed_);
+    }
+}
+
+/// A click gives its place to the armed parameter; a drag does not.
+void SlicePane::handle_click(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float reach = kClickReach * c.ui.em;
+    const auto target = c.place.armed_target();
+    const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
+    if (!target || !pointed_ || !still || io.KeyShift || !c.place.slices().value_at(*pointed_))
+        return;
+    c.place.slices().set_cross(*pointed_);
+    if (target != PickTarget::Labels) return c.place.pick(*pointed_);
+    if (const auto label = c.place.slices().label_at(*pointed_)) c.place.pick_label(*label);
+}
+
+void SlicePane::handle_mouse(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool over = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    pointed_.reset();
+    const bool released =
+        ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+    if (over || active || released)
+        pointed_ = place_of({2.0 * (io.MousePos.x - rect_.x) / rect_.width - 1.0,
+                             1.0 - 2.0 * (io.MousePos.y - rect_.y) / rect_.height});
+    if (active) handle_drag(c);
+    if (over && released) handle_click(c);
+    if (!over) return;
+    handle_wheel(c);
+    if (!io.WantTextInput && ImGui::IsKeyPressed(keys::kHome, false)) fits_ = true;
+    if (c.place.armed_target()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+}
+
+// --- drawing
+
+void SlicePane::draw_picture(const Ui& ui, const PaneSource& source) {
+    const int width = std::max(1, static_cast<int>(rect_.width));
+    const int height = std::max(1, static_cast<int>(rect_.height));
+    const Drawn now{camera_, source.planes.version(), width, height};
+    if (drawn_ == now) return;
+    if (!target_) target_.emplace(width, height);
+    target_->resize(width, height);
+    target_->bind();
+    const SceneView view{.camera = camera_,
+                         .rectangle = target_->rectangle(),
+                         .background = Background{linear(kBack), linear(kBack)}};
+    source.renderer.draw(view, source.planes.alone(plane_, std::max(1.0, ui.em / 15.0)));
+    texture_ = target_->resolve();
+    drawn_ = now;
+}
+
+void SlicePane::draw_cross(const Ui& ui, const ImageSlices& slices) const {
+    const auto at = OnScreen{camera_, rect_}.place(slices.cross());
+    if (!at) return;
+    const ImVec2 middle = point(*at);
+    const SliceAxes& axes = axes_of(plane_);
+    const float width = std::max(1.0F, ui.em / 15), gap = ui.em * kCrossGap;
+    split_line({middle.x, rect_.y}, {middle.x, rect_.y + rect_.height}, middle, gap,
+               faded(paint_of(plane_across(axes.across)), 0.75), width);
+    split_line({rect_.x, middle.y}, {rect_.x + rect_.width, middle.y}, middle, gap,
+               faded(paint_of(plane_across(axes.along)), 0.75), width);
+}
+
+void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
+    const float pad = ui.grid(1), right = rect_.x + rect_.width, low = rect_.y + rect_.height;
+    const auto letter = [](const Vec3& side) { return std::string(1, patient_letter(side)); };
+    const Vec3 across = right_of(plane_), up = up_of(plane_);
+    const Paint colour = ui.theme.text;
+    shadowed(ui, {rect_.x + pad, rect_.middle_y()}, {0, 0.5F}, colour, letter(-across));
+    shadowed(ui, {right - pad, rect_.middle_y()}, {1, 0.5F}, colour, letter(across));
+    shadowed(ui, {rect_.middle_x(), rect_.y + pad / 2}, {0.5F, 0}, colour, letter(up));
+    shadowed(ui, {rect_.middle_x(), low - pad / 2}, {0.5F, 1}, colour, letter(-up));
+    shadowed(ui, {rect_.x + pad, rect_.y + pad}, {0, 0}, paint_of(plane_), axes_of(plane_).name);
+    shadowed(ui, {rect_.x + pad, low - pad}, {0, 1}, colour,
+             position_text(axes_of(plane_).normal, c.place.slices().position(plane_)));
+    draw_scale_bar(ui, rect_, camera_);
+}
+
+/// Places of the form that lie in this slice.
+void SlicePane::draw_marks(const PanelContext& c, const Ui& ui) const {
+    if (!c.place.form()) return;
+    const int normal = axes_of(plane_).normal;
+    const double position = c.place.slices().position(plane_);
+    for (const NamedPlace& place : places_in(*c.place.form())) {
+        const double away = std::abs(place.point[normal] - position);
+        const auto at = OnScreen{camera_, rect_}.place(place.point);
+        if (at && away <= kNearSlice * grid_.step[normal])
+            draw_mark(ui, *at, MarkLook::Picked, place.name);
+    }
+}
+
+/// \param rect below the picture
+void SlicePane::draw_slider(PanelContext& c, const ScreenRect& rect) const {
+    const std::string name = std::string("slice.") + axes_of(plane_).key + ".slider";
+    ImageSlices& slices = c.place.slices();
+    const int normal = axes_of(plane_).normal;
+    const double low = grid_.low[normal], extent = grid_.high()[normal] - low;
+    const float radius = c.ui.em * 0.36F, left = rect.x + c.ui.grid(1) + radius;
+    const float wide = rect.width - 2 * (c.ui.grid(1) + radius), y = rect.middle_y();
+    ImGui::SetCursorScreenPos({rect.x, rect.y});
+    ImGui::InvisibleButton(name.c_str(), {rect.width, rect.height});
+    c.ui.item(name);
+    const bool active = ImGui::IsItemActive();
+    if (active && wide > 0)
+        slices.move(plane_, low + extent * (ImGui::GetIO().MousePos.x - left) / wide);
+    const bool lit = active || ImGui::IsItemHovered();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const auto x = left + wide * static_cast<float>((slices.position(plane_) - low) / extent);
+    draw.AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
+                       c.ui.theme.panel);
+    draw.AddLine({left, y}, {left + wide, y}, c.ui.theme.border, std::max(2.0F, c.ui.em / 6));
+    draw.AddCircleFilled({x, y}, radius, lit ? c.ui.theme.accent_hover : c.ui.theme.accent);
+}
+
+void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect& rect) {
+    const std::string key = std::string("slice.") + axes_of(plane_).key;
+    const float slider = c.ui.em * 1.2F, side = ImGui::GetFrameHeight();
+    rect_ = {rect.x, rect.y, std::max(1.0F, rect.width), std::max(1.0F, rect.height - slider)};
+    begin_frame(c.ui, key, rect, {.back = kBack, .padding = 0, .scrolls = false});
+    place_camera(c.place.slices());
+    ImGui::InvisibleButton((key + ".area").c_str(), {rect_.width, rect_.height},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
+                               ImGuiButtonFlags_MouseButtonRight);
+    ImGui::SetItemAllowOverlap();
+    c.ui.item(key + ".area");
+    handle_mouse(c);
+    place_camera(c.place.slices());
+    draw_picture(c.ui, source);
+    ImGui::GetWindowDrawList()->AddImage(
+        reinterpret_cast<ImTextureID>(std::uintptr_t{texture_}), {rect_.x, rect_.y},
+        {rect_.x + rect_.width, rect_.y + rect_.height}, {0, 1}, {1, 0});
+    const Ui overlay = overlay_of(c.ui);
+    draw_cross(overlay, c.place.slices());
+    draw_texts(c, overlay);
+    draw_marks(c, overlay);
+    ImGui::SetCursorScreenPos(
+        {rect.x + rect.width - side - c.ui.grid(0.5F), rect.y + c.ui.grid(0.5F)});
+    ImGui::PushStyleColor(ImGuiCol_Text, overlay.theme.text);
+    const bool shown = c.place.slices().in_space(plane_);
+    if (icon_button(c.ui, key + ".space", icons::kPreview, "Shown in the 3D view", true, shown))
+        c.place.slices().show_in_space(plane_, !shown);
+    ImGui::PopStyleColor();
+    draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
+    end_frame();
+}
+
+}  // namespace vesselbench
