@@ -59,9 +59,10 @@ const std::map<std::string, Names> kDoors = {
      {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
       "workbench/worker", "workbench/session", "workbench/operations"}},
     {"workbench/window",
-     {"geometry/kernel", "geometry/formats", "geometry/vessel", "smoothing/brush", "gpu",
-      "workbench/case", "workbench/session", "workbench/operations", "workbench/export",
-      "workbench/phantoms", "workbench/report", "workbench/prepare"}},
+     {"geometry/kernel", "geometry/formats", "geometry/vessel", "smoothing/brush",
+      "smoothing/context", "gpu", "meshing/tetrahedra", "workbench/case", "workbench/session",
+      "workbench/operations", "workbench/export", "workbench/phantoms", "workbench/report",
+      "workbench/prepare"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
