@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/measure.h"
+#include "workbench/window/model/colourings.h"
+
+namespace vesselbench {
+
+/// What the view shows besides the surface; remembered from one start to the next.
+struct ShownLayers {
+    bool edges = false;        ///< of the triangles
+    bool flat = false;         ///< shading
+    bool source = false;       ///< the source's surface as a wireframe
+    bool centerlines = false;  ///< with circles of the local radius
+    bool names = false;        ///< of the patches, at their openings
+    bool anchors = false;      ///< the places of edits
+
+    bool operator==(const ShownLayers&) const = default;
+};
+
+/// The direction across the clip plane.
+enum class ClipAxis { Sagittal, Coronal, Axial, Camera };
+
+struct ClipChoice {
+    bool on = false;
+    ClipAxis axis = ClipAxis::Axial;
+    double place = 0.5;  ///< of the way through the model, in [0, 1] [-]
+    bool flipped = false;
+
+    bool operator==(const ClipChoice&) const = default;
+};
+
+/// The plane of a clipped model; its normal points to the half that is removed.
+/// \param view direction from the eye, for planes that face the camera
+[[nodiscard]] std::optional<Plane> clip_plane(const ClipChoice& choice, const Bounds& box,
+                                              const Vec3& view);
+
+/// What clicks in the view measure.
+enum class MeasureTool { None, Distance, Diameter };
+
+/// How the user looks at the case; forgotten when the window closes.
+struct ViewChoice {
+    ColouringKind colouring = ColouringKind::Patches;
+    ColouringKind last_colouring = ColouringKind::Deviation;  ///< other than patches
+    std::optional<ValueRange> range;                          ///< typed; none: automatic
+    bool transparent = false;
+    ClipChoice clip;
+    bool flies = false;  ///< through the lumen
+    MeasureTool tool = MeasureTool::None;
+
+    /// With the automatic range.
+    void choose(ColouringKind kind);
+};
+
+}  // namespace vesselbench

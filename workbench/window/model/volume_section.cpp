@@ -1,0 +1,90 @@
+#include "workbench/window/model/volume_section.h"
+
+#include <algorithm>
+#include <array>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Corners of a tetrahedron on either side of a plane.
+struct Sides {
+    std::array<VertexId, 4> above{}, below{};
+    std::size_t above_count = 0, below_count = 0;
+};
+
+Sides sides_of(const Tetrahedron& cell, const std::vector<double>& distances) {
+    Sides sides;
+    for (const VertexId v : cell)
+        if (distances[v] >= 0.0)
+            sides.above[sides.above_count++] = v;
+        else
+            sides.below[sides.below_count++] = v;
+    return sides;
+}
+
+/// The polygon in which the plane meets a tetrahedron; empty if it does not.
+Positions polygon_of(const Sides& sides, const Positions& points,
+                     const std::vector<double>& distances) {
+    Positions polygon;
+    const auto cross = [&](VertexId above, VertexId below) {
+        const double share = distances[above] / (distances[above] - distances[below]);
+        polygon.emplace_back(points[above] + share * (points[below] - points[above]));
+    };
+    if (sides.above_count == 2) {  // around the quadrangle, one corner changes at a time
+        cross(sides.above[0], sides.below[0]);
+        cross(sides.above[0], sides.below[1]);
+        cross(sides.above[1], sides.below[1]);
+        cross(sides.above[1], sides.below[0]);
+        return polygon;
+    }
+    for (std::size_t i = 0; i < sides.above_count; ++i)
+        for (std::size_t j = 0; j < sides.below_count; ++j) cross(sides.above[i], sides.below[j]);
+    return polygon;
+}
+
+}  // namespace
+
+Surface VolumeSection::surface() const {
+    Positions positions;
+    std::vector<Triangle> triangles;
+    for (const Positions& cell : cells) {
+        const auto first = static_cast<VertexId>(positions.size());
+        const auto count = static_cast<VertexId>(cell.size());
+        positions.insert(positions.end(), cell.begin(), cell.end());
+        for (VertexId i = 1; i + 1 < count; ++i)
+            triangles.push_back({first, first + i, first + i + 1});
+    }
+    return make_surface(std::move(positions), std::move(triangles));
+}
+
+std::vector<double> VolumeSection::vertex_values() const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        all.insert(all.end(), cells[i].size(), values[i]);
+    return all;
+}
+
+VolumeSection section_of(const VolumeMesh& mesh, std::span<const double> values, const Plane& plane,
+                         const Progress& progress) {
+    if (values.size() != mesh.tetrahedra.size())
+        throw InvalidInput("a section needs a value for each of the " +
+                           std::to_string(mesh.tetrahedra.size()) + " tetrahedra, not " +
+                           std::to_string(values.size()));
+    std::vector<double> distances(mesh.points.size());
+    std::ranges::transform(mesh.points, distances.begin(),
+                           [&](const Vec3& point) { return plane.distance(point); });
+    progress.check_cancelled();
+    VolumeSection section;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Sides sides = sides_of(mesh.tetrahedra[i], distances);
+        if (sides.above_count == 0 || sides.below_count == 0) continue;
+        section.cells.push_back(polygon_of(sides, mesh.points, distances));
+        section.values.push_back(values[i]);
+    }
+    return section;
+}
+
+}  // namespace vesselbench
