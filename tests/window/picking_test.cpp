@@ -158,7 +158,23 @@ SCENARIO("A place on the surface is picked, not beside it", "[window][picking]")
         CHECK(at.y() < 0);
         CHECK(at.x() == Approx(1).margin(0.2));
         CHECK(shell->app().camera() == before);
+        CHECK(shell->app().place().document.snapshot()->log.size() == 1);  // not painted, too
     }
+}
+
+SCENARIO("A brush does not light up openings", "[window][picking]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, capped_tube_file());
+    shell->press_key(keys::k0 + 7);
+    const Eigen::Vector2f cap = seen_at(*shell, {0, 0, 30});
+    shell->move_mouse(cap.x(), cap.y());
+    REQUIRE(shell->settle(10s));
+    REQUIRE(shell->has("view.opening.outlet_1"));
+    choose(*shell, "local-repair", "brush-smooth");
+    shell->move_mouse(cap.x(), cap.y());
+    REQUIRE(shell->settle(10s));
+    CHECK_FALSE(shell->has("view.opening.outlet_1"));
 }
 
 SCENARIO("Two clicks make a box, which is drawn", "[window][picking]") {

@@ -164,8 +164,8 @@ void Workplace::apply() {
 // --- the brush
 
 bool Workplace::can_paint() const {
-    return form_ && !form_->edit() && is_brush(form_->operation()) && form_->valid() &&
-           document.can_paint();
+    return form_ && armed_.empty() && !form_->edit() && is_brush(form_->operation()) &&
+           form_->valid() && document.can_paint();
 }
 
 BrushTip Workplace::tip() const {

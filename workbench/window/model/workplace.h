@@ -77,7 +77,8 @@ public:
 
     // --- the brush
 
-    /// True if the form is of a brush that can paint on the shown surface now.
+    /// True if the form is of a brush that can paint on the shown surface now; not while clicks
+    /// are for a parameter.
     [[nodiscard]] bool can_paint() const;
 
     /// The form's brush, which later forms of brushes take over.

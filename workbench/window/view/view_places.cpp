@@ -106,7 +106,8 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     }
     const Eigen::Vector2f cursor = clicked_.value_or(mouse());
     const OnScreen screen{seen.view.camera, seen.rect};
-    const bool wanted = target || may_be_over(screen, places.openings, cursor);
+    const bool wanted =
+        !c.place.can_paint() && (target || may_be_over(screen, places.openings, cursor));
     if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
