@@ -61,7 +61,41 @@ struct Current {
     EGLDisplay display = eglGetCurrentDisplay();
     EGLContext context = eglGetCurrentContext();
     EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
+
+    /// \param other the display of the context that is current now
+    void restore(EGLDisplay other) const {
+        if (context != EGL_NO_CONTEXT)
+            eglMakeCurrent(display, draw, read, context);
+        else
+            eglMakeCurrent(other, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
 };
+
+/// What a display offers at best: "OpenGL 3.3 (Core Profile) Mesa 22.3.6 on llvmpipe".
+std::string best_version(EGLDisplay display) {
+    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return "";
+    eglBindAPI(EGL_OPENGL_API);
+    const EGLContext context =
+        eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+    if (context == EGL_NO_CONTEXT) return "";
+    std::string text;
+    const Current before;
+    if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        text = "OpenGL " + std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))) +
+               " on " + reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+        before.restore(display);
+    }
+    eglDestroyContext(display, context);
+    return text;
+}
+
+/// What there is instead of OpenGL 4.3, for the error's text.
+std::string found_instead(const std::vector<EGLDisplay>& candidates) {
+    for (EGLDisplay candidate : candidates)
+        if (const std::string found = best_version(candidate); !found.empty())
+            return ", only " + found;
+    return "";
+}
 
 }  // namespace
 
@@ -82,10 +116,7 @@ struct OffscreenContext::Impl {
 
     void release() const {
         if (eglGetCurrentContext() != context) return;
-        if (before.context != EGL_NO_CONTEXT)
-            eglMakeCurrent(before.display, before.draw, before.read, before.context);
-        else
-            eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        before.restore(display);
     }
 
     bool make_current() {
@@ -113,9 +144,8 @@ struct OffscreenContext::Impl {
                 "libgl1-mesa-dri)");
         for (EGLDisplay candidate : candidates)
             if (use(candidate, EGL_NO_CONTEXT)) return;
-        throw GpuUnavailable(
-            "no driver offers an OpenGL 4.3 core context without a display (Debian: "
-            "libgl1-mesa-dri)");
+        throw GpuUnavailable("no driver offers an OpenGL 4.3 core context without a display" +
+                             found_instead(candidates) + " (Debian: libgl1-mesa-dri)");
     }
 
     void share_with_current() {

@@ -19,12 +19,13 @@ constexpr int kBlock = 8;
 
 /// The field at the points of a grid over the box, the first axis fastest.
 std::vector<double> sampled(const PhantomField& field, const Vec3& origin,
-                            const Eigen::Array3i& points, double edge) {
+                            const Eigen::Array3i& points, double edge, const Progress& progress) {
     std::vector<double> values(static_cast<std::size_t>(points[0]) *
                                static_cast<std::size_t>(points[1]) *
                                static_cast<std::size_t>(points[2]));
     const Eigen::Array3i blocks = (points + kBlock - 1) / kBlock;
     tbb::parallel_for(0, blocks.prod(), [&](int block) {
+        progress.check_cancelled();
         const Eigen::Array3i at(block % blocks[0], block / blocks[0] % blocks[1],
                                 block / (blocks[0] * blocks[1]));
         const Eigen::Array3i from = at * kBlock, to = (from + kBlock).min(points);
@@ -57,13 +58,15 @@ Vec3 on_surface(const PhantomField& field, Vec3 p) {
 
 }  // namespace
 
-Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box, double edge) {
+Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box, double edge,
+                      const Progress& progress) {
     const Eigen::Array3i size = (box.sizes() / edge).array().ceil().cast<int>() + 1;
     const GridSurface found =
-        flying_edges(sampled(field, box.min(), size, edge),
+        flying_edges(sampled(field, box.min(), size, edge, progress),
                      {.size = {size[0], size[1], size[2]}, .origin = box.min(), .spacing = edge});
     Positions points(found.points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t v) {
+        progress.check_cancelled();
         const auto& [x, y, z] = found.points[v];
         points[v] = on_surface(field, Vec3(x, y, z));
     });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/phantoms/field.h"
 
@@ -9,6 +10,6 @@ namespace vesselbench {
 /// it by Newton steps along the gradient; outward. Open where the field leaves the box.
 /// \param edge side of the sampling cells [mm]
 [[nodiscard]] Surface exact_surface(const PhantomField& field, const Eigen::AlignedBox3d& box,
-                                    double edge);
+                                    double edge, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -46,9 +46,11 @@ Image empty_grid(const PhantomDescription& description, const PhantomField& fiel
 }
 
 template <class Function>
-std::shared_ptr<const std::vector<float>> filled(const Image& grid, const Function& value) {
+std::shared_ptr<const std::vector<float>> filled(const Image& grid, const Progress& progress,
+                                                 const Function& value) {
     auto voxels = std::make_shared<std::vector<float>>(grid.voxel_count());
     tbb::parallel_for(0, grid.size[2], [&](int k) {
+        progress.check_cancelled();
         for (int j = 0; j < grid.size[1]; ++j)
             for (int i = 0; i < grid.size[0]; ++i) (*voxels)[grid.offset(i, j, k)] = value(i, j, k);
     });
@@ -138,16 +140,17 @@ double contrast_loss(const Image& grid, int i, int j, int k, double phase) {
 
 }  // namespace
 
-Image phantom_image(const PhantomDescription& description, const PhantomField& field) {
+Image phantom_image(const PhantomDescription& description, const PhantomField& field,
+                    const Progress& progress) {
     const PhantomImaging& imaging = description.imaging;
     Image image = empty_grid(description, field);
-    std::vector<float> share = *filled(image, [&](int i, int j, int k) {
+    std::vector<float> share = *filled(image, progress, [&](int i, int j, int k) {
         return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
     });
     for (int axis = 0; axis < 3; ++axis)
         if (imaging.blur[axis] > 0.0) share = blurred_along(image, share, axis, imaging.blur[axis]);
     const double phase = 6.283 * uniform_noise(description.seed, 0);
-    image.voxels = filled(image, [&](int i, int j, int k) {
+    image.voxels = filled(image, progress, [&](int i, int j, int k) {
         const std::size_t at = image.offset(i, j, k);
         const double contrast =
             (imaging.inside - imaging.outside) *
@@ -159,11 +162,12 @@ Image phantom_image(const PhantomDescription& description, const PhantomField& f
     return image;
 }
 
-Image phantom_mask(const PhantomDescription& description, const PhantomField& field) {
+Image phantom_mask(const PhantomDescription& description, const PhantomField& field,
+                   const Progress& progress) {
     const PhantomImaging& imaging = description.imaging;
     Image mask = empty_grid(description, field);
     const int step = std::max(1, imaging.mask_slice_step);
-    mask.voxels = filled(mask, [&](int i, int j, int k) {
+    mask.voxels = filled(mask, progress, [&](int i, int j, int k) {
         const int drawn = std::min(k / step * step + step / 2, mask.size[2] - 1);
         if (deleted(imaging.deletions, i, j, drawn)) return 0.0F;
         const Vec3 p = mask.to_patient(Vec3(i, j, drawn));

@@ -9,17 +9,23 @@
 
 namespace vesselbench {
 
-Phantom make_phantom(const PhantomDescription& description) {
+Phantom make_phantom(const PhantomDescription& description, const Progress& progress) {
     const PhantomField field(description.parts);
     const auto surface_box = [&](const PhantomField& f) {
         Eigen::AlignedBox3d box = f.bounds();
         return Eigen::AlignedBox3d(box.min() - Vec3::Constant(2.3 * description.surface_edge),
                                    box.max() + Vec3::Constant(2.3 * description.surface_edge));
     };
+    const auto surface_of = [&](const PhantomField& f) {
+        return exact_surface(f, surface_box(f), description.surface_edge, progress.silent());
+    };
     Phantom phantom;
-    phantom.image = phantom_image(description, field);
-    phantom.mask = phantom_mask(description, field);
-    phantom.exact = exact_surface(field, surface_box(field), description.surface_edge);
+    progress.report(0.0, "making the phantom's image");
+    phantom.image = phantom_image(description, field, progress.silent());
+    progress.report(0.5, "making the phantom's mask");
+    phantom.mask = phantom_mask(description, field, progress.silent());
+    progress.report(0.8, "making the phantom's surface");
+    phantom.exact = surface_of(field);
     if (description.surface_noise > 0.0) {
         Positions noisy = phantom.exact.points();
         for (std::size_t v = 0; v < noisy.size(); ++v)
@@ -29,7 +35,7 @@ Phantom make_phantom(const PhantomDescription& description) {
     }
     if (!description.neighbours.empty()) {
         const PhantomField other(description.neighbours);
-        phantom.neighbour = exact_surface(other, surface_box(other), description.surface_edge);
+        phantom.neighbour = surface_of(other);
     }
     return phantom;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/phantoms/description.h"
 
@@ -20,6 +21,7 @@ struct Phantom {
 /// Makes everything in a description; the same description gives the same bits.
 /// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image
 /// above 512 Mi voxels)
-[[nodiscard]] Phantom make_phantom(const PhantomDescription& description);
+[[nodiscard]] Phantom make_phantom(const PhantomDescription& description,
+                                   const Progress& progress = {});
 
 }  // namespace vesselbench

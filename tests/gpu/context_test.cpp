@@ -1,10 +1,12 @@
 #include "gpu/context.h"
 
+#include <optional>
 #include <thread>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/fence.h"
 #include "gpu/gpu_smoother.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
@@ -27,6 +29,30 @@ SCENARIO("Destroying a context makes the previous one current", "[gpu][context]"
     CHECK(read_storage<float>(buffer, 2) == values);
 }
 
+SCENARIO("A fence orders the commands of two threads' contexts", "[gpu][context]") {
+    const auto test = test_device();
+    if (!test) return;
+    constexpr std::size_t kWords = 1 << 20;
+    OffscreenContext shared(Sharing::WithCurrent);
+    shared.release();
+    const Buffer buffer = make_storage(test->device, kWords * 4, "words");
+    fill_storage(buffer, 1);
+    std::optional<Fence> ready(std::in_place), filled;
+    std::thread worker([&] {
+        shared.make_current();
+        ready->order();
+        const auto before = read_storage<std::uint32_t>(buffer, kWords);
+        CHECK(before == std::vector<std::uint32_t>(kWords, 1));
+        for (std::uint32_t word = 2; word <= 50; ++word) fill_storage(buffer, word);
+        filled.emplace();
+        shared.release();
+    });
+    worker.join();
+    filled->order();
+    CHECK(read_storage<std::uint32_t>(buffer, kWords) == std::vector<std::uint32_t>(kWords, 50));
+    CHECK(filled->reached());
+}
+
 SCENARIO("Another thread smooths what the first one sees", "[gpu][context]") {
     const auto test = test_device();
     if (!test) return;
@@ -35,15 +61,18 @@ SCENARIO("Another thread smooths what the first one sees", "[gpu][context]") {
     shared.release();
     const auto on_device = uploaded(*test, sphere);
     GpuSmoother smoother(on_device, {});
-    finish_device();
+    const Fence uploaded_all;
+    std::optional<Fence> smoothed;
     std::thread worker([&] {
         shared.make_current();
+        uploaded_all.order();
         smoother.start(LaplaceParameters{});
         smoother.run(10);
-        finish_device();
+        smoothed.emplace();
         shared.release();
     });
     worker.join();
+    smoothed->order();
     const Positions wanted =
         apply_filter(*sphere.topology, sphere.points(), LaplaceParameters{}, {.iterations = 10});
     CHECK(relative_distances(wanted, smoother.positions()).back() <= 2e-6);

@@ -13,13 +13,6 @@ namespace vesselbench::test {
 
 namespace {
 
-void report(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* text,
-            const void* errors) {
-    if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH)
-        const_cast<std::vector<std::string>*>(static_cast<const std::vector<std::string>*>(errors))
-            ->push_back(text);
-}
-
 std::size_t place(const Picture& picture, int x, int y) {
     return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                 static_cast<std::size_t>(x));
@@ -35,14 +28,9 @@ double count(const Picture& picture, const Counts& counts) {
 
 }  // namespace
 
-DebugOutput::DebugOutput() {
-    glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-    glDebugMessageCallback(report, &errors_);
-}
+ErrorCheck::ErrorCheck() : output_([this](const std::string& text) { errors_.push_back(text); }) {}
 
-DebugOutput::~DebugOutput() {
-    glDebugMessageCallback(nullptr, nullptr);
+ErrorCheck::~ErrorCheck() {
     for (const std::string& error : errors_) UNSCOPED_INFO(error);
     CHECK(errors_.empty());
     CHECK(glGetError() == GL_NO_ERROR);

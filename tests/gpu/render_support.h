@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/surface.h"
 #include "gpu/context.h"
+#include "gpu/debug_output.h"
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
@@ -15,21 +16,22 @@
 namespace vesselbench::test {
 
 /// Collects what the driver reports while it exists; its end checks that there was no error.
-class DebugOutput {
+class ErrorCheck {
 public:
-    DebugOutput();
-    ~DebugOutput();
-    DebugOutput(const DebugOutput&) = delete;
-    DebugOutput& operator=(const DebugOutput&) = delete;
+    ErrorCheck();
+    ~ErrorCheck();
+    ErrorCheck(const ErrorCheck&) = delete;
+    ErrorCheck& operator=(const ErrorCheck&) = delete;
 
 private:
     std::vector<std::string> errors_;
+    DebugOutput output_;
 };
 
 /// A context, a renderer and a square target for the length of a test.
 struct RenderTest {
     OffscreenContext context;
-    DebugOutput debug;
+    ErrorCheck errors;
     Renderer renderer;
     RenderTarget target;
 

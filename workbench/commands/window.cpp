@@ -1,6 +1,9 @@
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+
+#include <stdlib.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
@@ -21,6 +24,31 @@ constexpr auto kPatience = 10min;  ///< for a file to be opened
 AppOptions app_options() {
     return {.session = {.find = find_operation}};
 }
+
+/// A folder for what the window writes while it is drawn once.
+class ScratchFolder {
+public:
+    ScratchFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "vesselbench-XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw IoError("cannot create a temporary folder in '" +
+                          std::filesystem::temp_directory_path().string() + "'");
+        path_ = name;
+    }
+
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
 
 struct PictureSize {
     int width = 0, height = 0;
@@ -53,17 +81,23 @@ void draw_screenshot(const WindowOptions& options) {
     if (options.theme != "dark" && options.theme != "light")
         throw UsageError("--theme '" + options.theme + "' is not allowed: it is dark or light");
     const PictureSize size = size_from(options.size);
+    const ScratchFolder scratch;  // a picture leaves no project and no settings behind
     AppOptions app = app_options();
+    app.settings = app.documents = scratch.path();
     app.display_scale = scale_for(size.height);
-    OffscreenShell shell(std::move(app), size.width, size.height);
+    std::string reported;
+    DebugReport report;
+    if (wants_debug_output()) report = [&](const std::string& text) { reported = text; };
+    OffscreenShell shell(std::move(app), size.width, size.height, report);
     Settings& settings = shell.app().place().settings;
     settings.dark = options.theme == "dark";
     settings.scale = 1.0;
     shell.frame();
-    if (!options.file.empty()) shell.app().open(options.file);
+    if (!options.file.empty()) shell.app().place().open_bundled(options.file);
     if (!shell.settle(kPatience)) throw AlgorithmFailure("the file took too long to open");
     if (const auto& failure = shell.app().place().document.failure())
         throw InvalidInput(failure->text);
+    if (!reported.empty()) throw GpuUnavailable("OpenGL reported: " + reported);
     write_file(options.screenshot, png(shell.picture()));
     std::cout << "wrote " << options.screenshot << "\n";
 }

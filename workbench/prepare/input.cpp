@@ -54,8 +54,7 @@ fs::path plain_path(const std::string& text) {
 void make_phantom_files(Input& input, const Json& json, const Progress& progress) {
     PhantomDescription description = builtin_phantom(json["phantom"].get<std::string>());
     description.seed = json.value("seed", description.seed);
-    progress.report(0.0, "making the phantom");
-    const Phantom phantom = make_phantom(description);
+    const Phantom phantom = make_phantom(description, progress);
     const auto folder = std::make_shared<TemporaryFolder>();
     input.keep = folder;
     input.is_image = true;

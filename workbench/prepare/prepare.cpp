@@ -9,6 +9,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/prepare_report.h"
+#include "workbench/session/stored_recipes.h"
 
 namespace vesselbench {
 
@@ -76,6 +77,11 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     return recipe;
 }
 
+/// So that a reopened project still has them.
+void keep_recipes(const fs::path& project, const Input& input) {
+    if (input.recipes) store_recipes(project, input.recipes->dump());
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Progress& progress) {
     PendingFiles files;
@@ -107,6 +113,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     bool any_edit = false;
     try {
         Session session = Session::create(project, {.find = find_operation});
+        keep_recipes(project, input);
         const Teller noting = [&](const std::string& text) {
             any_edit = true;
             tell(text);
@@ -138,6 +145,7 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
     const RecipeEntry loading = loading_entry(input);
     Session session = Session::create(project, std::move(options));
     try {
+        keep_recipes(project, input);
         apply_recipe(session, {loading}, "", tell, progress);
     } catch (const std::exception&) {
         remove_project(project);

@@ -127,6 +127,8 @@ bool App::is_settled() const {
 }
 
 void App::open(const std::filesystem::path& path) {
+    impl_->shown.help = impl_->shown.prepare = false;
+    impl_->place.ask(FileQuestion::None);
     impl_->place.open(path);
 }
 

@@ -5,7 +5,9 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/purposes.h"
 #include "workbench/prepare/prepare.h"
+#include "workbench/session/stored_recipes.h"
 #include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
@@ -13,6 +15,7 @@ namespace vesselbench {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 /// A case folder that describes a built-in phantom, for as long as it lives.
 class PhantomFolder {
@@ -24,8 +27,7 @@ public:
                           fs::temp_directory_path().string() + "'");
         made_ = name;
         fs::create_directory(folder());
-        write_file(folder() / "case.json",
-                   nlohmann::ordered_json({{"name", phantom}, {"phantom", phantom}}).dump());
+        write_file(folder() / "case.json", Json({{"name", phantom}, {"phantom", phantom}}).dump());
     }
 
     ~PhantomFolder() {
@@ -42,8 +44,35 @@ private:
     fs::path made_;
 };
 
+/// \throw UsageError, or an exception of JSON, if the recipe of a purpose cannot be used
+void check_recipes(const Input& input) {
+    for (const Purpose& purpose : purposes()) {
+        const Json own = own_recipe(input, purpose.name);
+        if (!own.is_null())
+            static_cast<void>(recipe_from_json(own, recipe_use(input, purpose.name)));
+    }
+}
+
+/// What a reopened project knows of its input: its own recipes, unless they cannot be used.
+std::optional<Input> remembered_input(const fs::path& project, std::vector<std::string>& remarks) {
+    const std::string text = stored_recipes(project);
+    if (text.empty()) return std::nullopt;
+    try {
+        Input input;
+        input.recipes = std::make_shared<const Json>(Json::parse(text));
+        check_recipes(input);
+        return input;
+    } catch (const std::exception& error) {
+        remarks.push_back(
+            std::string("warning: the recipe of the case cannot be used, the usual one is: ") +
+            error.what());
+        return std::nullopt;
+    }
+}
+
 Opened open_project(const OpenRequest& request, const SessionOptions& options) {
     Opened opened{.session = Session::open(request.path, options), .project = request.path};
+    opened.input = remembered_input(request.path, opened.remarks);
     const std::string reason = opened.session.read_only_reason();
     if (!reason.empty()) opened.remarks.push_back("read-only: " + reason);
     return opened;
@@ -52,6 +81,11 @@ Opened open_project(const OpenRequest& request, const SessionOptions& options) {
 Opened open_input(const fs::path& path, const fs::path& project, const SessionOptions& options,
                   const Progress& progress) {
     const Input input = resolve_input({.input = path.string()}, progress.part(0.0, 0.4));
+    try {
+        check_recipes(input);
+    } catch (const std::exception& error) {
+        throw InvalidInput("case '" + input.name + "': its recipe cannot be used: " + error.what());
+    }
     std::vector<std::string> remarks;
     const Teller tell = [&](const std::string& text) { remarks.push_back(text); };
     Session session = start_project(project, input, options, tell, progress.part(0.4, 1.0));

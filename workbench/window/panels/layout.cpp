@@ -19,6 +19,12 @@ Layout layout_of(float width, float height, float em) {
     layout.bottom = {side + line, top + middle - below, centre, below};
     layout.operation = {width - right, top, right, middle};
     layout.status = {0, height - status, width, status};
+    // A window manager may make the window smaller than its least size.
+    for (ScreenRect* rect : {&layout.window, &layout.tool_bar, &layout.rail, &layout.view,
+                             &layout.bottom, &layout.operation, &layout.status}) {
+        rect->width = std::max(rect->width, 1.0F);
+        rect->height = std::max(rect->height, 1.0F);
+    }
     layout.compact = width < em * 62;
     return layout;
 }

@@ -1,5 +1,8 @@
 #include "workbench/window/shell/glfw_shell.h"
 
+#include <cstdlib>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +14,7 @@
 #include <imgui.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/debug_output.h"
 #include "workbench/window/shell/drawing_session.h"
 
 namespace vesselbench {
@@ -52,6 +56,19 @@ struct DestroyWindow {
 
 using Window = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
+/// What the display offers at best: "only OpenGL 3.3 (Core Profile) Mesa on llvmpipe".
+std::string best_version() {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    const Window window(glfwCreateWindow(64, 64, "", nullptr, nullptr));
+    if (!window) return "no OpenGL at all";
+    glfwMakeContextCurrent(window.get());
+    const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    const std::string device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    glfwMakeContextCurrent(nullptr);
+    return "only OpenGL " + version + " on " + device;
+}
+
 GLFWwindow* create(int api) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -59,6 +76,7 @@ GLFWwindow* create(int api) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, api);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, wants_debug_output() ? GLFW_TRUE : GLFW_FALSE);
     return glfwCreateWindow(kWidth, kHeight, "vesselbench", nullptr, nullptr);
 }
 
@@ -66,7 +84,8 @@ GLFWwindow* create(int api) {
 Window make_window() {
     GLFWwindow* window = create(GLFW_EGL_CONTEXT_API);
     if (window == nullptr) window = create(GLFW_NATIVE_CONTEXT_API);
-    if (window == nullptr) give_up("the display offers no OpenGL 4.3 core context");
+    if (window == nullptr)
+        give_up("the window needs OpenGL 4.3, but the display offers " + best_version());
     glfwMakeContextCurrent(window);
     glfwSwapInterval(1);
     glfwSetWindowSizeLimits(window, 800, 560, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -122,6 +141,38 @@ private:
     int frames_ = kFramesAfterInput;
 };
 
+/// Sizes and places in pixels, also where the display system counts in larger units (Wayland).
+void count_in_pixels(GLFWwindow* window, float width, float height) {
+    int units_wide = 0, units_high = 0;
+    glfwGetWindowSize(window, &units_wide, &units_high);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {width, height};
+    io.DisplayFramebufferScale = {1, 1};
+    if (units_wide <= 0 || units_high <= 0 || !ImGui::IsMousePosValid(&io.MousePos)) return;
+    io.MousePos.x *= width / static_cast<float>(units_wide);
+    io.MousePos.y *= height / static_cast<float>(units_high);
+}
+
+/// What the driver reports while the window runs, if that is wanted.
+class DriverReports {
+public:
+    DriverReports() {
+        if (!wants_debug_output()) return;
+        output_.emplace([this](const std::string& text) {
+            if (first_.empty()) first_ = text;
+        });
+    }
+
+    /// \throw GpuUnavailable if there was any
+    void require_none() const {
+        if (!first_.empty()) throw GpuUnavailable("OpenGL reported: " + first_);
+    }
+
+private:
+    std::string first_;
+    std::optional<DebugOutput> output_;
+};
+
 AppOptions completed(AppOptions options, GLFWwindow* window) {
     options.device = checked_device();
     options.display_scale = content_scale(window);
@@ -138,8 +189,12 @@ struct GlfwShell::Impl {
           events(window.get(), app) {}
 
     void draw() {
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(window.get(), &width, &height);
+        if (width <= 0 || height <= 0) return;  // it is minimised
         app.set_display_scale(content_scale(window.get()));
         ImGui_ImplGlfw_NewFrame();
+        count_in_pixels(window.get(), static_cast<float>(width), static_cast<float>(height));
         drawing.draw(app);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         drawing.render();
@@ -155,6 +210,7 @@ struct GlfwShell::Impl {
 
     Glfw glfw;
     Window window;
+    DriverReports reports;
     DrawingSession drawing;
     App app;
     Events events;
@@ -179,6 +235,10 @@ void GlfwShell::frame() {
     impl_->show_title();
 }
 
+void GlfwShell::require_no_reports() const {
+    impl_->reports.require_none();
+}
+
 void GlfwShell::wait() {
     impl_->events.wait();
 }
@@ -192,6 +252,7 @@ void run_window(AppOptions options, const std::filesystem::path& file,
         shell.frame();
         shell.wait();
     }
+    shell.require_no_reports();
 }
 
 }  // namespace vesselbench

@@ -30,6 +30,10 @@ public:
     /// Waits until a frame should be drawn: an idle window draws nothing.
     void wait();
 
+    /// Where reports of the driver are wanted (debug builds, tests): \throw GpuUnavailable with the
+    /// first one, if there was any
+    void require_no_reports() const;
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

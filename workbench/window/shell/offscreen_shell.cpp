@@ -1,11 +1,14 @@
 #include "workbench/window/shell/offscreen_shell.h"
 
+#include <ctime>
 #include <optional>
 #include <thread>
 
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/stopwatch.h"
 #include "gpu/context.h"
 #include "gpu/objects.h"
 #include "workbench/window/keys.h"
@@ -50,11 +53,29 @@ void set_key_map(ImGuiIO& io) {
     for (const auto& [key, number] : map) io.KeyMap[key] = number;
 }
 
+OffscreenContext window_context() {
+    try {
+        return OffscreenContext();
+    } catch (const GpuUnavailable& error) {
+        throw GpuUnavailable(std::string("the window needs OpenGL 4.3: ") + error.what() +
+                             "; the command line works without it (vesselbench --help)");
+    }
+}
+
+/// Seconds that this thread has worked.
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 }  // namespace
 
 struct OffscreenShell::Impl {
-    Impl(AppOptions options, int width, int height)
-        : colour(colour_buffer(width, height)), frame_buffer(framebuffer_of(colour)) {
+    Impl(AppOptions options, int width, int height, DebugReport report)
+        : debug(report ? std::make_unique<DebugOutput>(std::move(report)) : nullptr),
+          colour(colour_buffer(width, height)),
+          frame_buffer(framebuffer_of(colour)) {
         set_key_map(ImGui::GetIO());
         ImGui::GetIO().MousePos = {-1e4F, -1e4F};
         set_size(width, height);
@@ -66,15 +87,17 @@ struct OffscreenShell::Impl {
         ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     }
 
-    OffscreenContext context;
+    OffscreenContext context = window_context();
+    std::unique_ptr<DebugOutput> debug;
     DrawingSession drawing;
     Renderbuffer colour;
     Framebuffer frame_buffer;
     std::optional<App> app;
+    std::function<void(const FrameTime&)> watch;
 };
 
-OffscreenShell::OffscreenShell(AppOptions options, int width, int height)
-    : impl_(std::make_unique<Impl>(std::move(options), width, height)) {}
+OffscreenShell::OffscreenShell(AppOptions options, int width, int height, DebugReport report)
+    : impl_(std::make_unique<Impl>(std::move(options), width, height, std::move(report))) {}
 
 OffscreenShell::~OffscreenShell() = default;
 
@@ -83,11 +106,18 @@ App& OffscreenShell::app() {
 }
 
 void OffscreenShell::frame() {
+    const Stopwatch clock;
+    const double start = thread_seconds();
     ImGui::GetIO().DeltaTime = kFrameTime;
     impl_->drawing.draw(*impl_->app);
     glBindFramebuffer(GL_FRAMEBUFFER, impl_->frame_buffer.id());
     impl_->drawing.render();
     ImGui::GetIO().MouseWheel = 0;
+    if (impl_->watch) impl_->watch({clock.seconds(), thread_seconds() - start});
+}
+
+void OffscreenShell::watch_frames(std::function<void(const FrameTime&)> watch) {
+    impl_->watch = std::move(watch);
 }
 
 bool OffscreenShell::run_until(const std::function<bool()>& condition,
@@ -155,15 +185,19 @@ void OffscreenShell::wheel(float notches) {
     frame();
 }
 
-void OffscreenShell::drag(float from_x, float from_y, float to_x, float to_y, MouseButton button) {
+void OffscreenShell::drag(float from_x, float from_y, float to_x, float to_y, MouseButton button,
+                          HeldKeys held) {
     constexpr int kMoves = 8;
     move_mouse(from_x, from_y);
+    ImGui::GetIO().KeyCtrl = held.control;
+    ImGui::GetIO().KeyShift = held.shift;
     press(button);
     for (int i = 1; i <= kMoves; ++i) {
         const float share = static_cast<float>(i) / kMoves;
         move_mouse(from_x + share * (to_x - from_x), from_y + share * (to_y - from_y));
     }
     release(button);
+    ImGui::GetIO().KeyCtrl = ImGui::GetIO().KeyShift = false;
 }
 
 void OffscreenShell::type(const std::string& text) {

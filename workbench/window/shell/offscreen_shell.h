@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "gpu/debug_output.h"
 #include "gpu/picture.h"
 #include "workbench/window/app.h"
 
@@ -17,12 +18,18 @@ struct HeldKeys {
     bool control = false, shift = false;
 };
 
+/// What a frame took [s]: by the clock, and of the calling thread's work.
+struct FrameTime {
+    double clock = 0.0, work = 0.0;
+};
+
 /// The window without a display: draws into a framebuffer, and takes mouse, keys and texts from
 /// calls. For tests and screenshots. One may exist at a time.
 class OffscreenShell {
 public:
+    /// \param report receives OpenGL's errors; empty: nobody does
     /// \throw GpuUnavailable if there is no OpenGL 4.3
-    OffscreenShell(AppOptions options, int width, int height);
+    OffscreenShell(AppOptions options, int width, int height, DebugReport report = {});
     ~OffscreenShell();
 
     OffscreenShell(const OffscreenShell&) = delete;
@@ -39,6 +46,9 @@ public:
     /// Draws frames until nothing runs and everything shown is drawn. \return false as above
     bool settle(std::chrono::milliseconds time);
 
+    /// Calls back after every frame.
+    void watch_frames(std::function<void(const FrameTime&)> watch);
+
     [[nodiscard]] Picture picture() const;
 
     void resize(int width, int height);
@@ -51,7 +61,7 @@ public:
     void click(float x, float y);
     void wheel(float notches);
     void drag(float from_x, float from_y, float to_x, float to_y,
-              MouseButton button = MouseButton::Left);
+              MouseButton button = MouseButton::Left, HeldKeys held = {});
     void type(const std::string& text);
     void press_key(int key, HeldKeys held = {});
 
