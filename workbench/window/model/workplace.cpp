@@ -16,6 +16,7 @@ bool Workplace::update() {
         settings.remember(document.project());
         settings.save();
         choose_step(Step::Source);
+        comparison_.reset();
     }
     was_opening_ = document.is_opening();
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
@@ -24,7 +25,8 @@ bool Workplace::update() {
         form_.reset();
         disarm();
     }
-    return update_places() || changed;
+    const bool compared = comparison_ && document.is_open() && comparison_->update(document);
+    return update_places() || compared || changed;
 }
 
 bool Workplace::update_places() {
@@ -72,6 +74,7 @@ void Workplace::open_phantom(const std::string& name) {
 
 void Workplace::close() {
     leave_form();
+    stop_comparing();
     document.close();
     settings.refresh();
     renew_lists();
@@ -199,6 +202,19 @@ void Workplace::pick(const Vec3& point) {
     if (!target) return;
     set_field(armed_, picked_text(*target, form_->field(armed_).text, point));
     if (is_complete(*target, form_->field(armed_).text)) disarm();
+}
+
+// --- comparing
+
+void Workplace::compare(StateId reference) {
+    const bool again = comparison_ && comparison_->reference() == reference;
+    stop_comparing();
+    if (!again && document.is_open()) comparison_.emplace(reference, compare_mode_);
+}
+
+void Workplace::stop_comparing() {
+    if (comparison_) compare_mode_ = comparison_->mode();
+    comparison_.reset();
 }
 
 // --- questions for a file
