@@ -333,8 +333,10 @@ void Viewport::Impl::draw_overlays(PanelContext& c) {
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     compared.draw_labels(c.ui, area);
+    ScreenRect legend = rect;
+    if (compared.colours_model()) legend.y += c.ui.em * 1.5F;  // below the comparison's banner
     if (model.shows_deviation(model_look()) && !compared.hides_model())
-        draw_deviation_legend(c.ui, rect, model.deviation()->full,
+        draw_deviation_legend(c.ui, legend, model.deviation()->full,
                               compared.colours_model()       ? "Distance from the reference [mm]"
                               : c.place.document.previewed() ? "Distance from before [mm]"
                                                              : "Distance from the source [mm]");
