@@ -31,6 +31,51 @@ constexpr auto kStale = EditStatus::Stale;
 
 }  // namespace
 
+SCENARIO("A note can be written on any revision of an edit", "[session]") {
+    Session session = sphere_session();
+    const EditId id = session.apply("bump", bump_at(kTop, 0.5)).edit.edit.id;
+    session.change_edit(id, bump_at(kTop, 0.7));
+    const auto states = session.snapshot()->history->states().size();
+    session.set_note({id, 1}, "too little");
+    session.set_note({id, 2}, "better");
+    CHECK(session.log()[1].edit.note == "better");
+    CHECK(session.snapshot()->past->at({id, 1}).edit.note == "too little");
+    CHECK(session.snapshot()->history->states().size() == states);
+    CHECK_THROWS_AS(session.set_note({id, 3}, "none"), UsageError);
+    WHEN("the project is saved and opened") {
+        const std::string file = temporary_folder() + "/noted.vbench";
+        session.save_as(file);
+        CHECK(Session::open(file, options()).log()[1].edit.note == "better");
+    }
+    session.set_note({id, 2}, "");
+    CHECK(session.log()[1].edit.note.empty());
+}
+
+SCENARIO("The scene of any state is known without going there", "[session]") {
+    Session session = sphere_session();
+    const double plain = top_of(session.scene());
+    const StateId before = session.snapshot()->history->current();
+    const EditId bump = session.apply("bump", bump_at(kTop, 0.5)).edit.edit.id;
+    const StateId after = session.snapshot()->history->current();
+    session.remove_edit(bump);
+    const StateId now = session.snapshot()->history->current();
+    CHECK(top_of(session.known_scene(before)) == plain);
+    CHECK(top_of(session.known_scene(after)) == Approx(plain + 0.5));
+    CHECK(session.known_scene(0).surface == std::nullopt);
+    CHECK(session.snapshot()->history->current() == now);
+    CHECK_THROWS_AS(session.known_scene(99), UsageError);
+    WHEN("edits are pending there") {
+        session.undo();
+        session.change_edit(1, {{"radius", 4.0}});
+        const StateId pending = session.snapshot()->history->current();
+        REQUIRE(session.log()[1].status == kPending);
+        session.jump(before);
+        THEN("it is the scene before them") {
+            CHECK(top_of(session.known_scene(pending)) < plain - 3.0);
+        }
+    }
+}
+
 SCENARIO("The log describes each edit and its effect", "[session]") {
     Session session = sphere_session();
     EditOptions how;

@@ -5,6 +5,7 @@
 #include "geometry/formats/image_file.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/model/pick_target.h"

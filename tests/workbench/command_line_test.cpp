@@ -196,6 +196,14 @@ SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
         CHECK_THAT(again.out, StartsWith("edit 2.3: smooth") && Contains("pending now: 3 subdivi"));
         CHECK(json_of({"log", project})["edits"][1]["note"] == "less");
     }
+    THEN("a note is written on an edit, and removed") {
+        const Json noted = json_of({"note", project, "3", "for the print"});
+        CHECK(noted["note"] == "for the print");
+        CHECK(json_of({"log", project})["edits"][2]["note"] == "for the print");
+        const ProgramRun plain = run({"note", project, "3"});
+        CHECK(plain.out == "edit 3 subdivide has no note\n");
+        CHECK(run({"note", project, "9", "x"}).exit_code == 2);
+    }
     THEN("an edit is removed, and undo brings it back") {
         const Json removed = json_of({"remove", project, "2"});
         CHECK(removed["removed"] == 2);

@@ -218,6 +218,16 @@ void add_change_and_remove(CommandLine& line) {
     remove.footer(kChangeFooter);
 }
 
+void add_note(CommandLine& line) {
+    const auto options = std::make_shared<NoteOptions>();
+    CLI::App& command = add_command(line, "note", "Write a note on an edit, or remove it",
+                                    [options] { return note_edit(*options), 0; });
+    add_project(command, options->project);
+    add_edit(command, options->edit);
+    command.add_option("WORDS", options->words, "The note (default: none)")->type_name("");
+    add_json(command, options->json);
+}
+
 void add_log(CommandLine& line) {
     const auto options = std::make_shared<LogOptions>();
     CLI::App& command =
@@ -521,6 +531,7 @@ void set_up(CommandLine& line) {
     add_new(line);
     add_apply(line);
     add_change_and_remove(line);
+    add_note(line);
     add_log(line);
     add_undo_and_redo(line);
     add_replay(line);

@@ -59,6 +59,16 @@ struct RemoveOptions {
 /// Leaves an edit out; later edits become pending.
 void remove_edit(const RemoveOptions& options);
 
+struct NoteOptions {
+    std::string project;
+    std::int64_t edit = 0;
+    std::string words;  ///< empty: no note
+    bool json = false;
+};
+
+/// Replaces the note on an edit of the current state.
+void note_edit(const NoteOptions& options);
+
 struct LogOptions {
     std::string project;
     bool json = false;

@@ -241,6 +241,18 @@ void remove_edit(const RemoveOptions& options) {
     print_pending(*now);
 }
 
+void note_edit(const NoteOptions& options) {
+    Session session = Session::open(options.project, {.find = find_operation});
+    session.set_note(edit_of(*session.snapshot(), options.edit).edit, options.words);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    const EditRecord& edit = edit_of(*now, options.edit);
+    if (options.json)
+        std::cout << Json({{"edit", edit.edit.id}, {"note", edit.note}}).dump(2) << "\n";
+    else
+        std::cout << "edit " << edit_list({&edit})
+                  << (edit.note.empty() ? " has no note" : ": \"" + edit.note + "\"") << "\n";
+}
+
 void show_log(const LogOptions& options) {
     const Session session = open_for_reading(options.project);
     const std::shared_ptr<const Snapshot> now = session.snapshot();

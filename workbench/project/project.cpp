@@ -193,6 +193,13 @@ void ProjectFile::commit(const ProjectChange& change) {
     }
 }
 
+void ProjectFile::set_note(EditRef edit, const std::string& note) {
+    if (!parts_->read_only_reason.empty()) throw IoError(parts_->read_only_reason);
+    Transaction transaction(parts_->database);
+    update_note(parts_->database, edit, note);
+    transaction.commit();
+}
+
 Scene ProjectFile::scene(ResultId id, const Progress& progress) const {
     if (id == 0) return {};
     const SceneRow row = parts_->scene_row(id);

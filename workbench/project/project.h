@@ -87,6 +87,9 @@ public:
     /// One transaction. \throw IoError if it cannot be written; the project is then unchanged
     void commit(const ProjectChange& change);
 
+    /// Replaces the note of an edit revision. \throw IoError as commit()
+    void set_note(EditRef edit, const std::string& note);
+
     /// The scene of a result, sharing its parts with the scenes in memory.
     /// \throw InvalidInput if it is damaged, or if a part of it is referenced only and was not
     ///        recalled

@@ -106,6 +106,14 @@ void insert_edit(const Database& database, const EditRecord& edit) {
         .step();
 }
 
+void update_note(const Database& database, EditRef edit, const std::string& note) {
+    database.prepare("UPDATE edits SET note = ? WHERE edit = ? AND revision = ?")
+        .bind(0, note)
+        .bind(1, edit.id)
+        .bind(2, std::int64_t{edit.revision})
+        .step();
+}
+
 void insert_sources(const Database& database, EditRef edit,
                     const std::vector<SourceFile>& sources) {
     for (const SourceFile& source : sources)

@@ -14,6 +14,7 @@ namespace vesselbench {
 // The rows of edits, results, sources and states; always inside the caller's transaction.
 
 void insert_edit(const Database& database, const EditRecord& edit);
+void update_note(const Database& database, EditRef edit, const std::string& note);
 void insert_sources(const Database& database, EditRef edit, const std::vector<SourceFile>& sources);
 
 /// \param scene the packed SceneRow; empty for a stale result

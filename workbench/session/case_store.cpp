@@ -56,6 +56,14 @@ void CaseStore::commit_results(History next, const std::vector<NewResult>& resul
     history_ = std::make_shared<const History>(std::move(next));
 }
 
+void CaseStore::set_note(EditRef edit, const std::string& note) {
+    check_writable();
+    remember({edit}, {});
+    project_.set_note(edit, note);
+    edits_.at(edit).note = note;
+    past_.reset();
+}
+
 std::shared_ptr<const ResultRecord> CaseStore::record(ResultId id) {
     remember({}, {id});
     return records_.at(id);
@@ -76,7 +84,7 @@ void CaseStore::remember(std::vector<EditRef> edits, std::vector<ResultId> resul
         records_[id] = std::make_shared<const ResultRecord>(std::move(record));
 }
 
-/// Edits and results are only ever added.
+/// Edits and results are only ever added; set_note() resets it.
 void CaseStore::renew_past() {
     const auto& edits = history_->edits();
     if (past_ && past_->size() == edits.size() && past_results_ == history_->results().size())

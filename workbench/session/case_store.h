@@ -35,6 +35,10 @@ public:
     /// Enters results of pending edits. A read-only case keeps them in memory.
     void commit_results(History next, const std::vector<NewResult>& results);
 
+    /// Replaces the note of an edit revision.
+    /// \throw IoError if the case is read-only or cannot be written
+    void set_note(EditRef edit, const std::string& note);
+
     /// True if the result is kept in memory because the case is read-only.
     [[nodiscard]] bool is_own(ResultId id) const { return own_scenes_.contains(id); }
 

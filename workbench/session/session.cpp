@@ -11,6 +11,7 @@
 #include "workbench/session/case_store.h"
 #include "workbench/session/edit_place.h"
 #include "workbench/session/edit_runner.h"
+#include "workbench/session/known_results.h"
 
 namespace vesselbench {
 
@@ -266,6 +267,18 @@ Scene Session::scene_after(EditId id, Progress progress) {
     auto entries = entries_before(parts_->store.history(), id);
     entries.emplace_back().edit = parts_->store.history().find(id).value();
     return parts_->runner.load(parts_->runner.evaluate(entries, progress), progress);
+}
+
+Scene Session::known_scene(StateId state, const std::string& variant, Progress progress) {
+    const ResultId end = known_results(parts_->store.history(), {state}, variant).front();
+    return parts_->runner.load(end, progress);
+}
+
+void Session::set_note(EditRef edit, const std::string& note) {
+    if (!parts_->store.history().edits().contains(edit))
+        throw UsageError("there is no revision " + std::to_string(edit.revision) + " of edit " +
+                         std::to_string(edit.id) + "; see the edits with log");
+    parts_->store.set_note(edit, note);
 }
 
 std::vector<LogEntry> Session::log() const {

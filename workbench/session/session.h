@@ -100,6 +100,18 @@ public:
     /// The scene right after one edit of the current state; pending edits up to it run first.
     [[nodiscard]] Scene scene_after(EditId id, Progress progress = {});
 
+    /// The scene of a variant in any state, as far as its edits have run there: before the first
+    /// pending one. Runs nothing, and the current state stays.
+    /// \throw UsageError if there is no such state
+    [[nodiscard]] Scene known_scene(StateId state, const std::string& variant = kDefaultVariant,
+                                    Progress progress = {});
+
+    /// Replaces the note on a revision of an edit of any state; empty: none. No state is made: a
+    /// note changes no model.
+    /// \throw UsageError if there is no such edit; IoError if the session only reads or the project
+    /// cannot be written
+    void set_note(EditRef edit, const std::string& note);
+
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 

@@ -10,6 +10,7 @@
 #include "workbench/window/panels/file_dialog.h"
 #include "workbench/window/panels/help_overlay.h"
 #include "workbench/window/panels/layout.h"
+#include "workbench/window/panels/note_dialog.h"
 #include "workbench/window/panels/operation_panel.h"
 #include "workbench/window/panels/prepare_dialog.h"
 #include "workbench/window/panels/rail_panel.h"
@@ -17,6 +18,7 @@
 #include "workbench/window/panels/start_screen.h"
 #include "workbench/window/panels/status_line.h"
 #include "workbench/window/panels/tool_bar.h"
+#include "workbench/window/view/thumbnails.h"
 #include "workbench/window/view/viewport.h"
 
 namespace vesselbench {
@@ -28,6 +30,10 @@ constexpr float kTextSize = 15.0F;  ///< at scale 1 [pixels]
 std::filesystem::path or_else(const std::filesystem::path& given,
                               std::filesystem::path (*otherwise)()) {
     return given.empty() ? otherwise() : given;
+}
+
+std::filesystem::path cache_of(const AppOptions& options) {
+    return or_else(options.cache.empty() ? options.settings : options.cache, cache_folder);
 }
 
 DocumentOptions document_options(const AppOptions& options) {
@@ -42,6 +48,7 @@ struct App::Impl {
     explicit Impl(const AppOptions& options)
         : place(document_options(options), Settings(or_else(options.settings, settings_folder))),
           viewport(options.wake),
+          thumbnails(options.wake, cache_of(options)),
           device(options.device),
           display_scale(options.display_scale) {}
 
@@ -55,6 +62,7 @@ struct App::Impl {
     Ui ui;
     Shown shown;
     Viewport viewport;
+    Thumbnails thumbnails;
     FileDialog files;
     std::string device;
     double display_scale = 1.0;
@@ -95,12 +103,17 @@ void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
 void App::draw() {
     Impl& app = *impl_;
     app.moved = app.place.update();
+    app.thumbnails.update(app.place.document, app.viewport.renderer());
     app.ui.begin_frame();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const Layout layout = layout_of(size.x, size.y, app.ui.em);
     app.shown.compact = layout.compact;
-    PanelContext context{app.ui, app.place, app.shown, app.device,
-                         [](const std::string& text) { ImGui::SetClipboardText(text.c_str()); }};
+    PanelContext context{app.ui,
+                         app.place,
+                         app.shown,
+                         app.device,
+                         [](const std::string& text) { ImGui::SetClipboardText(text.c_str()); },
+                         app.thumbnails};
     handle_shortcuts(context);
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, app.ui.theme.border);
     draw_tool_bar(context, layout.tool_bar);
@@ -114,12 +127,19 @@ void App::draw() {
     app.files.draw(context, layout.window);
     if (app.shown.prepare && app.place.document.is_open())
         draw_prepare_dialog(context, layout.window);
+    if (app.shown.note && app.place.document.is_open()) draw_note_dialog(context, layout.window);
     if (app.shown.help) draw_help_overlay(context, layout.window);
 }
 
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->place.slices().pending() || impl_->viewport.pending();
+           impl_->place.slices().pending() || impl_->place.is_comparing() ||
+           impl_->viewport.pending() || impl_->thumbnails.pending();
+}
+
+std::optional<double> App::next_change() const {
+    const auto& comparison = impl_->place.comparison();
+    return comparison ? comparison->next_blink(ImGui::GetTime()) : std::nullopt;
 }
 
 bool App::is_settled() const {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gpu/render/view_camera.h"
@@ -16,6 +17,7 @@ struct AppOptions {
     std::function<void()> wake;       ///< called by any thread when a frame should be drawn
     std::filesystem::path settings;   ///< folder; empty: the user's
     std::filesystem::path documents;  ///< folder; empty: the user's
+    std::filesystem::path cache;      ///< folder; empty: that of the settings, else the user's
     std::string device;               ///< name of the OpenGL device, for the status line
     double display_scale = 1.0;       ///< of the display: 2 where pixels are half as large
 };
@@ -42,6 +44,10 @@ public:
     /// True if the next frame would look different without any input: something has ended, or
     /// progress is shown.
     [[nodiscard]] bool is_moving() const;
+
+    /// Time after which the next frame would look different although nothing runs [s]: the two of a
+    /// comparison blink. None: never.
+    [[nodiscard]] std::optional<double> next_change() const;
 
     /// A file that was dropped on the window or named on the command line.
     void open(const std::filesystem::path& path);

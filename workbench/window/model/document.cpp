@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/prepare.h"
@@ -402,6 +403,15 @@ void Document::run_pending() {
     });
 }
 
+void Document::set_note(EditRef edit, const std::string& note) {
+    if (!begin_request()) return;
+    const auto job = runner_->submit([edit, note](Session& session, const Progress&) {
+        session.set_note(edit, note);
+        return Nothing{};
+    });
+    watch(job, "writing a note", {}, false, [](const Nothing&) {});
+}
+
 Recipe Document::recipe(const std::string& purpose) const {
     const Scene* scene = current();
     RecipeUse use = {scene != nullptr && scene->image ? "image" : "surface", purpose};
@@ -452,15 +462,17 @@ void Document::export_to(const std::filesystem::path& file) {
     } catch (const UsageError& error) {
         return fail(error.what(), {});
     }
+    const ExportFormat* format = row_that_writes(export_formats(), file.string());
+    const std::string unit = format == nullptr ? "" : ", in " + format->unit;
     const auto write = [file](const Scene& scene, const Progress& progress) {
         PendingFiles files;
         export_scene(files, file, scene, {});
         progress.check_cancelled();
         files.commit();
     };
-    watch(runner_->with_scene(variant_, write), "export", {}, false, [this, file](const Nothing&) {
-        tell(make_message(MessageKind::Success, "exported " + file.string()));
-    });
+    const std::string done = "exported " + file.string() + unit;
+    watch(runner_->with_scene(variant_, write), "export", {}, false,
+          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
 }
 
 void Document::save_copy(const std::filesystem::path& project) {

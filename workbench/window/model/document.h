@@ -61,6 +61,9 @@ public:
     /// Counts changes of snapshot().
     [[nodiscard]] int snapshot_changes() const { return snapshot_changes_; }
 
+    /// For requests that nothing here depends on; null while no case is open.
+    [[nodiscard]] SessionRunner* runner() const { return runner_.get(); }
+
     [[nodiscard]] const std::string& variant() const { return variant_; }
 
     void show_variant(const std::string& variant);
@@ -112,6 +115,9 @@ public:
 
     /// The operations that prepare() would run.
     [[nodiscard]] Recipe recipe(const std::string& purpose) const;
+
+    /// Replaces the note on a revision of an edit, also of another state; empty: none.
+    void set_note(EditRef edit, const std::string& note);
 
     void export_to(const std::filesystem::path& file);
     void save_copy(const std::filesystem::path& project);

@@ -61,6 +61,8 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     if (found == snapshot.past->end()) return row;
     const EditRecord& edit = found->second.edit;
     row.arguments = argument_summary(find_operation(edit.operation), edit.given);
+    row.note = edit.note;
+    row.edit = state.edit;
     row.author = edit.author;
     row.time = short_time(edit.time);
     if (found->second.result && state.change != StateChange::Remove)

@@ -16,6 +16,8 @@ struct HistoryRow {
     bool on_path = false;  ///< the current state comes from it, or it is it
     std::string title;     ///< "smooth", "changed smooth", "removed smooth", "empty case"
     std::string arguments;
+    std::string note;
+    EditRef edit;        ///< the revision that was applied or changed; id 0: none
     std::string change;  ///< "volume -2.1 %, moved up to 0.31 mm"
     std::string author;
     std::string time;  ///< UTC, "2024-05-17 09:30"

@@ -41,6 +41,11 @@ fs::path settings_folder() {
     return (given.empty() ? home_folder() / ".config" : given) / "vesselbench";
 }
 
+fs::path cache_folder() {
+    const fs::path given = from_environment("XDG_CACHE_HOME");
+    return (given.empty() ? home_folder() / ".cache" : given) / "vesselbench";
+}
+
 fs::path documents_folder() {
     const fs::path given = from_environment("XDG_DOCUMENTS_DIR");
     if (is_folder(given)) return given;

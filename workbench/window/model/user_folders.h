@@ -7,6 +7,9 @@ namespace vesselbench {
 /// $XDG_CONFIG_HOME/vesselbench, or its default below the home folder. It may not exist.
 [[nodiscard]] std::filesystem::path settings_folder();
 
+/// $XDG_CACHE_HOME/vesselbench, or its default below the home folder. It may not exist.
+[[nodiscard]] std::filesystem::path cache_folder();
+
 /// $XDG_DOCUMENTS_DIR, else Documents in the home folder if it exists, else the home folder.
 [[nodiscard]] std::filesystem::path documents_folder();
 

@@ -20,6 +20,7 @@ bool Workplace::update() {
         settings.save();
         slices_.clear();
         choose_step(Step::Source);
+        comparison_.reset();
     }
     was_opening_ = document.is_opening();
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
@@ -29,7 +30,8 @@ bool Workplace::update() {
         disarm();
     }
     const bool new_slices = slices_.update(document.shown());
-    return update_places() || new_slices || changed;
+    const bool compared = comparison_ && document.is_open() && comparison_->update(document);
+    return update_places() || new_slices || compared || changed;
 }
 
 bool Workplace::update_places() {
@@ -77,6 +79,7 @@ void Workplace::open_phantom(const std::string& name) {
 
 void Workplace::close() {
     leave_form();
+    stop_comparing();
     document.close();
     slices_.clear();
     settings.refresh();
@@ -212,6 +215,19 @@ void Workplace::pick(const Vec3& point) {
 void Workplace::pick_label(int label) {
     if (armed_target() == PickTarget::Labels)
         set_field(armed_, picked_labels(form_->field(armed_).text, label));
+}
+
+// --- comparing
+
+void Workplace::compare(StateId reference) {
+    const bool again = comparison_ && comparison_->reference() == reference;
+    stop_comparing();
+    if (!again && document.is_open()) comparison_.emplace(reference, compare_mode_);
+}
+
+void Workplace::stop_comparing() {
+    if (comparison_) compare_mode_ = comparison_->mode();
+    comparison_.reset();
 }
 
 // --- questions for a file

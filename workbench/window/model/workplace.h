@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "workbench/window/model/brush_form.h"
+#include "workbench/window/model/comparison.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/image_slices.h"
@@ -122,6 +123,22 @@ public:
 
     [[nodiscard]] const ImageSlices& slices() const { return slices_; }
 
+    // --- comparing
+
+    /// None while nothing is compared.
+    [[nodiscard]] std::optional<Comparison>& comparison() { return comparison_; }
+
+    [[nodiscard]] const std::optional<Comparison>& comparison() const { return comparison_; }
+
+    /// Compares a state with the shown one, in the mode of the last time; the same state again ends
+    /// it.
+    void compare(StateId reference);
+
+    void stop_comparing();
+
+    /// True while a comparison is being read or measured.
+    [[nodiscard]] bool is_comparing() const { return comparison_ && comparison_->pending(); }
+
     // --- questions for a file
 
     [[nodiscard]] FileQuestion question() const { return question_; }
@@ -152,6 +169,8 @@ private:
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
     ImageSlices slices_;
+    std::optional<Comparison> comparison_;
+    CompareMode compare_mode_ = CompareMode::SideBySide;
 };
 
 }  // namespace vesselbench

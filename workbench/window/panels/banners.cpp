@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/comparison_banner.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -96,6 +97,32 @@ void draw_read_only(PanelContext& c, ScreenRect& place) {
         c.place.ask(FileQuestion::SaveCopy);
 }
 
+/// The first edit of the shown variant that no longer applies, unless its form is open.
+const LogEntry* stale_edit(const PanelContext& c) {
+    const Document& document = c.place.document;
+    const auto& form = c.place.form();
+    for (const LogEntry& entry : document.snapshot()->log) {
+        const std::string& variant = entry.edit.place.variant;
+        if (entry.status != EditStatus::Stale) continue;
+        if (!variant.empty() && variant != document.variant()) continue;
+        return form && form->edit() == entry.edit.edit.id ? nullptr : &entry;
+    }
+    return nullptr;
+}
+
+void draw_stale(PanelContext& c, ScreenRect& place, float gap) {
+    const LogEntry* stale = stale_edit(c);
+    if (stale == nullptr) return;
+    const EditId edit = stale->edit.edit.id;
+    const Banner banner{
+        icons::kStale, c.ui.theme.danger,
+        readable(stale->edit.operation) + " no longer applies and is left out: " + stale->reason,
+        "Change it"};
+    place.height = height_of(c.ui, banner, place.width);
+    if (draw_banner(c, "stale", banner, place) == Answer::Action) c.place.choose_edit(edit);
+    place.y += place.height + gap;
+}
+
 void draw_preview(PanelContext& c, ScreenRect& place) {
     const Banner banner{icons::kPreview, c.ui.theme.accent,
                         "Preview of " + readable(c.place.document.previewed()->edit().operation) +
@@ -120,6 +147,12 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_read_only(c, place);
         place.y += place.height + gap;
     }
+    if (c.place.comparison()) {
+        place.height = comparison_banner_height(c.ui);
+        draw_comparison_banner(c, place);
+        place.y += place.height + gap;
+    }
+    draw_stale(c, place, gap);
     const int pending = pending_count(*document.snapshot(), document.variant());
     if (pending > 0) {
         draw_pending(c, place, pending);

@@ -36,7 +36,7 @@ const char* title_of(FileQuestion question) {
         case FileQuestion::Open:
             return "Open";
         case FileQuestion::SaveCopy:
-            return "Save a copy of the project";
+            return "Save as";
         case FileQuestion::Export:
             return "Export the model";
         case FileQuestion::Parameter:
@@ -45,6 +45,13 @@ const char* title_of(FileQuestion question) {
             break;
     }
     return "";
+}
+
+/// Whether the variant has a volume mesh, or pending edits that may make one.
+bool can_have_volume(const Document& document) {
+    const Scene* scene = document.current();
+    return pending_count(*document.snapshot(), document.variant()) > 0 ||
+           (scene != nullptr && scene->volume_mesh);
 }
 
 std::string size_text(std::uintmax_t bytes) {
@@ -70,6 +77,7 @@ void FileDialog::begin(PanelContext& c) {
     const fs::path project = c.place.document.project();
     const fs::path near = project.parent_path();
     name_.clear();
+    replaced_.clear();
     if (writes())
         name_ =
             project.stem().string() + (question_ == FileQuestion::Export ? ".stl" : " copy.vbench");
@@ -134,13 +142,17 @@ void FileDialog::draw_formats(PanelContext& c) {
     ImGui::BeginChild("formats");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
     const std::string suffix = fs::path(name_).extension().string();
+    const bool has_volume = can_have_volume(c.place.document);
     for (const ExportFormat& format : export_formats()) {
         const std::string own = format.suffixes.empty() ? "" : format.suffixes[0];
+        const bool writable = has_volume || format.kind != FormatKind::VolumeMesh;
         if (row(c.ui, "format." + (own.empty() ? format.name : own),
                 {.title = format.name + (own.empty() ? "" : "  " + own),
-                 .detail = format.content + ", in " + format.unit,
+                 .detail = writable ? format.content + ", in " + format.unit
+                                    : "needs a volume mesh: tetrahedralize",
                  .selected = suffix == own,
-                 .help = format.content}))
+                 .enabled = writable,
+                 .help = format.content + ", in " + format.unit}))
             name_ = fs::path(name_).stem().string() + own;
     }
     ImGui::PopStyleVar();
@@ -151,16 +163,25 @@ bool FileDialog::can_finish() const {
     return !name_.empty();
 }
 
+/// An exported file may be replaced, by asking for it twice; a project never.
+bool FileDialog::may_write(const fs::path& file) {
+    if (!fs::exists(file)) return true;
+    const bool replaceable = question_ == FileQuestion::Export && fs::is_regular_file(file);
+    if (replaceable && replaced_ == file) return true;
+    error_ = "'" + name_ + "' exists: " +
+             (replaceable ? "press Export again to replace it" : "choose another name");
+    replaced_ = file;
+    return false;
+}
+
 void FileDialog::finish(PanelContext& c) {
+    if (question_ == FileQuestion::SaveCopy && !name_.ends_with(".vbench")) name_ += ".vbench";
     const fs::path file = listing_.folder / name_;
     if (!writes() && !fs::exists(file)) {
         error_ = "'" + name_ + "' does not exist";
         return;
     }
-    if (writes() && fs::exists(file)) {
-        error_ = "'" + name_ + "' exists: choose another name";
-        return;
-    }
+    if (writes() && !may_write(file)) return;
     question_ = FileQuestion::None;
     c.place.answer(file);
 }
@@ -192,6 +213,11 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
     begin_dialog(ui, "file dialog", window, ui.em * 56, ui.em * 36);
     heading(ui, title_of(question_));
+    if (question_ == FileQuestion::SaveCopy)
+        wrapped(ui,
+                "Writes the project with its whole history. You go on working in " +
+                    c.place.document.project().filename().string() + ".",
+                ui.theme.muted);
     space(ui, 1);
     draw_folder_line(c);
     const float line = ImGui::GetFrameHeight();

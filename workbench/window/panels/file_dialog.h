@@ -24,12 +24,14 @@ private:
     void finish(PanelContext& context);
     [[nodiscard]] bool writes() const;
     [[nodiscard]] bool can_finish() const;
+    [[nodiscard]] bool may_write(const std::filesystem::path& file);
 
     FileQuestion question_ = FileQuestion::None;
     FolderListing listing_;
     std::string typed_folder_;
     std::string name_;
     std::string error_;
+    std::filesystem::path replaced_;  ///< a file that the user was warned about
 };
 
 }  // namespace vesselbench

@@ -17,14 +17,16 @@ struct KeyHelp {
     const char* meaning;
 };
 
-constexpr std::array<KeyHelp, 8> kEditing = {{{"Ctrl+Z", "undo"},
-                                              {"Ctrl+Shift+Z", "redo"},
-                                              {"Ctrl+O", "open a file"},
-                                              {"Ctrl+E", "export the model"},
-                                              {"Ctrl+Enter", "apply the operation"},
-                                              {"Ctrl+P", "preview the operation"},
-                                              {"Esc", "stop picking, cancel, or close"},
-                                              {"F1", "this help"}}};
+constexpr std::array<KeyHelp, 10> kEditing = {{{"Ctrl+Z", "undo"},
+                                               {"Ctrl+Shift+Z", "redo"},
+                                               {"Space", "switch a blinking comparison"},
+                                               {"Ctrl+O", "open a file"},
+                                               {"Ctrl+S", "save as"},
+                                               {"Ctrl+E", "export the model"},
+                                               {"Ctrl+Enter", "apply the operation"},
+                                               {"Ctrl+P", "preview the operation"},
+                                               {"Esc", "stop picking, cancel, or close"},
+                                               {"F1", "this help"}}};
 constexpr std::array<KeyHelp, 8> kViewing = {{{"Left drag", "turn"},
                                               {"Middle or Shift+left drag", "move"},
                                               {"Wheel", "zoom to the cursor"},

@@ -1,10 +1,13 @@
 #include "workbench/window/panels/history_panel.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <imgui.h>
 
 #include "workbench/window/model/readable.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/view/thumbnail_drawing.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
@@ -12,6 +15,10 @@ namespace vesselbench {
 namespace {
 
 constexpr int kMostColumns = 8;
+
+float row_height(const Ui& ui) {
+    return ui.em * 2.2F;
+}
 
 ImVec2 node_at(const Ui& ui, const ImVec2& corner, int column, int row, float height) {
     return {corner.x + ui.grid(1.5F) + static_cast<float>(std::min(column, kMostColumns)) * ui.em,
@@ -39,17 +46,24 @@ void draw_node(const Ui& ui, const std::vector<HistoryRow>& rows, int i, const I
 }
 
 struct Columns {
-    float title, change, author, time, end;
+    float picture, title, change, author, time, end, tools;
 };
+
+/// Of a thumbnail in a row; its height is the row's.
+float picture_width(float height) {
+    return height * kThumbnailWidth / kThumbnailHeight;
+}
 
 Columns columns_of(const Ui& ui, const HistoryTree& tree, float width) {
     const float graph =
         ui.grid(3.5F) + static_cast<float>(std::min(tree.columns, kMostColumns)) * ui.em;
     const float time = ui.em * 8.5F, author = ui.em * 6;
-    Columns columns{.title = graph, .end = width - ui.grid(1)};
+    Columns columns{.picture = graph, .tools = width - ui.grid(0.5F) - 2 * ImGui::GetFrameHeight()};
+    columns.title = graph + picture_width(row_height(ui)) + ui.grid(1);
+    columns.end = columns.tools - ui.grid(0.5F);
     columns.time = columns.end - time;
     columns.author = columns.time - author;
-    columns.change = graph + (columns.author - graph) * 0.42F;
+    columns.change = columns.title + (columns.author - columns.title) * 0.42F;
     return columns;
 }
 
@@ -59,6 +73,10 @@ void cell(const Ui& ui, float x, float until, float y, const std::string& words,
     ImGui::GetWindowDrawList()->AddText({window.x + x, y}, colour, shown.c_str());
 }
 
+std::string first_line(const std::string& words) {
+    return words.substr(0, words.find('\n'));
+}
+
 void draw_cells(const Ui& ui, const HistoryRow& state, const Columns& columns, float y) {
     const Paint strong = state.on_path ? ui.theme.text : ui.theme.muted;
     ImGui::PushFont(state.current ? ui.fonts.medium : ui.fonts.regular);
@@ -66,25 +84,100 @@ void draw_cells(const Ui& ui, const HistoryRow& state, const Columns& columns, f
     cell(ui, columns.title, columns.change, y, title, strong);
     const float wide = ImGui::CalcTextSize(title.c_str()).x;
     ImGui::PopFont();
-    cell(ui, columns.title + wide + ui.grid(1), columns.change, y, state.arguments, ui.theme.muted);
+    const std::string words =
+        state.note.empty() ? state.arguments
+                           : "\u201C" + first_line(state.note) + "\u201D  " + state.arguments;
+    cell(ui, columns.title + wide + ui.grid(1), columns.change, y, words, ui.theme.muted);
     cell(ui, columns.change, columns.author, y, state.change, ui.theme.muted);
     cell(ui, columns.author, columns.time, y, state.author, ui.theme.muted);
     cell(ui, columns.time, columns.end, y, state.time, ui.theme.muted);
+}
+
+ImTextureID image_of(unsigned texture) {
+    return reinterpret_cast<ImTextureID>(std::uintptr_t{texture});
+}
+
+/// Registers the visible part of a rectangle.
+void register_row(Ui& ui, const std::string& name, ImVec2 from, ImVec2 to) {
+    const ImVec2 window = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const float top = std::max(from.y, window.y), bottom = std::min(to.y, window.y + size.y);
+    if (bottom > top) ui.item(name, ScreenRect{from.x, top, to.x - from.x, bottom - top});
+}
+
+/// A small picture of the state, if there is one.
+void draw_picture(PanelContext& c, const HistoryRow& state, ImVec2 from, float height) {
+    const ImVec2 to{from.x + picture_width(height), from.y + height};
+    const unsigned texture = c.thumbnails.of_state(state.state);
+    if (texture != 0) ImGui::GetWindowDrawList()->AddImage(image_of(texture), from, to);
+}
+
+void draw_help(PanelContext& c, const HistoryRow& state) {
+    const float wide = c.ui.em * 17;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {c.ui.grid(1.25F), c.ui.grid(1)});
+    ImGui::BeginTooltip();
+    if (const unsigned texture = c.thumbnails.of_state(state.state); texture != 0)
+        ImGui::Image(image_of(texture), {wide, wide * kThumbnailHeight / kThumbnailWidth});
+    ImGui::PushTextWrapPos(c.ui.em * 24);
+    text(c.ui, readable(state.title) + " " + state.arguments, c.ui.theme.text);
+    if (!state.note.empty()) text(c.ui, "\u201C" + state.note + "\u201D", c.ui.theme.text);
+    if (!state.change.empty()) text(c.ui, state.change, c.ui.theme.muted);
+    if (!state.current) text(c.ui, "Click to go to this state; nothing is lost.", c.ui.theme.muted);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+    ImGui::PopStyleVar();
+}
+
+/// An icon that is pale until the mouse is over it, or it is pressed.
+bool quiet_icon(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
+                bool pressed) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetFrameHeight();
+    const bool lit = pressed || ImGui::IsMouseHoveringRect(from, {from.x + side, from.y + side});
+    ImGui::PushStyleColor(ImGuiCol_Text, lit ? c.ui.theme.text : faded(c.ui.theme.muted, 0.6));
+    const bool clicked = icon_button(c.ui, name, icon, help, true, pressed);
+    ImGui::PopStyleColor();
+    return clicked;
+}
+
+/// The buttons at the row's end.
+void draw_tools(PanelContext& c, const HistoryRow& state, ImVec2 at) {
+    const std::string id = std::to_string(state.state);
+    ImGui::SetCursorScreenPos(at);
+    if (state.edit.id != 0 &&
+        quiet_icon(c, "history.note." + id, icons::kNote,
+                   state.note.empty() ? "Write a note on this edit" : state.note,
+                   !state.note.empty()))
+        c.shown.note = NoteInProgress{state.edit, readable(state.title), state.note};
+    if (state.current) return;
+    const auto& comparison = c.place.comparison();
+    const bool compared = comparison && comparison->reference() == state.state;
+    ImGui::SetCursorScreenPos({at.x + ImGui::GetFrameHeight(), at.y});
+    if (quiet_icon(c, "history.compare." + id, icons::kCompare,
+                   compared ? "End the comparison" : "Compare this state with the shown one",
+                   compared))
+        c.place.compare(state.state);
 }
 
 void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, float height) {
     const std::string name = "history." + std::to_string(state.state);
     const bool clicked =
         ImGui::InvisibleButton(name.c_str(), {ImGui::GetContentRegionAvail().x, height});
-    c.ui.item(name);
+    const bool seen = ImGui::IsItemVisible(), hovered = ImGui::IsItemHovered();
+    ImGui::SetItemAllowOverlap();
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-    if (state.current || ImGui::IsItemHovered())
+    // A click on its middle must not hit its buttons.
+    register_row(c.ui, name, from, {from.x + columns.tools, to.y});
+    if (!seen) return;
+    if (state.current || hovered)
         ImGui::GetWindowDrawList()->AddRectFilled(
             from, to, state.current ? c.ui.theme.selected : c.ui.theme.hover);
+    draw_picture(c, state, {from.x + columns.picture, from.y}, height);
     draw_cells(c.ui, state, columns, from.y + (height - c.ui.em) / 2);
-    if (!state.arguments.empty() || !state.change.empty())
-        help_on_hover(c.ui, state.title + " " + state.arguments + "\n" + state.change +
-                                "\nClick to go to this state; nothing is lost.");
+    const ImVec2 next = ImGui::GetCursorPos();
+    if (hovered && ImGui::GetMousePos().x < from.x + columns.tools) draw_help(c, state);
+    const float side = ImGui::GetFrameHeight();
+    draw_tools(c, state, {from.x + columns.tools, from.y + (height - side) / 2});
+    ImGui::SetCursorPos(next);
     if (clicked && !state.current) c.place.document.jump(state.state);
 }
 
@@ -97,7 +190,7 @@ void scroll_to_current(int row, float height) {
 
 void draw_history(PanelContext& c) {
     const HistoryTree& tree = c.place.history();
-    const float height = c.ui.em * 1.75F;
+    const float height = row_height(c.ui);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Columns columns = columns_of(c.ui, tree, ImGui::GetContentRegionAvail().x);

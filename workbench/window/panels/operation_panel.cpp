@@ -88,6 +88,15 @@ std::string help_of(const Parameter& parameter) {
     return help + "  Default: " + default_text(parameter) + ".";
 }
 
+/// The form's edit, if it no longer applies.
+const LogEntry* stale_edit(const PanelContext& c) {
+    const auto& form = c.place.form();
+    if (!form || !form->edit()) return nullptr;
+    for (const LogEntry& entry : c.place.document.snapshot()->log)
+        if (entry.edit.edit.id == *form->edit() && entry.status == EditStatus::Stale) return &entry;
+    return nullptr;
+}
+
 /// Why the operation cannot run, or the help of a parameter: always in the same place.
 void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
     const auto& failure = c.place.document.failure();
@@ -97,6 +106,11 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
         });
     if (parameter != nullptr) return wrapped(c.ui, help_of(*parameter), c.ui.theme.muted);
     if (failure) return wrapped(c.ui, failure->text, c.ui.theme.danger);
+    if (const LogEntry* stale = stale_edit(c))
+        return wrapped(c.ui,
+                       "No longer applies: " + stale->reason +
+                           "\nChange its arguments, pick its place again, or leave it out.",
+                       c.ui.theme.danger);
     if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
     wrapped(c.ui,
             c.place.can_paint()
@@ -106,10 +120,17 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
             c.ui.theme.muted);
 }
 
-void draw_remedy(PanelContext& c) {
+/// The operation that the text of a failure, or of a stale edit's reason, recommends.
+std::string remedy_of(const PanelContext& c) {
     const auto& failure = c.place.document.failure();
-    if (!failure || failure->remedy.empty()) return;
-    const std::string remedy = failure->remedy;
+    if (failure) return failure->remedy;
+    const LogEntry* stale = stale_edit(c);
+    return stale == nullptr ? "" : remedy_in(stale->reason, stale->edit.operation);
+}
+
+void draw_remedy(PanelContext& c) {
+    const std::string remedy = remedy_of(c);
+    if (remedy.empty()) return;
     if (button(c.ui, "operation.remedy", "Go to " + readable(remedy),
                {.icon = icons::kRight, .width = -1}))
         c.place.choose(remedy);
@@ -142,6 +163,24 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
     }
 }
 
+const EditRecord* record_of(const PanelContext& c, EditId edit) {
+    for (const LogEntry& entry : c.place.document.snapshot()->log)
+        if (entry.edit.edit.id == edit) return &entry.edit;
+    return nullptr;
+}
+
+void draw_note(PanelContext& c, EditId edit) {
+    const EditRecord* record = record_of(c, edit);
+    if (record == nullptr) return;
+    const bool noted = !record->note.empty();
+    if (button(c.ui, "operation.note", noted ? "Note" : "Add a note",
+               {.icon = icons::kNote,
+                .width = (ImGui::GetContentRegionAvail().x - c.ui.grid(1)) / 3,
+                .help = noted ? record->note : "Write down why this edit was made"}))
+        c.shown.note = NoteInProgress{record->edit, readable(record->operation), record->note};
+    ImGui::SameLine(0, c.ui.grid(1));
+}
+
 void draw_removal(PanelContext& c, EditId edit) {
     const bool idle = !c.place.document.activity().has_value();
     if (!button(c.ui, "operation.remove", "Leave this edit out",
@@ -157,8 +196,7 @@ void draw_removal(PanelContext& c, EditId edit) {
 /// Height of the part below the fields.
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
-    const auto& failure = c.place.document.failure();
-    const float more = (form.edit() ? line : 0) + (failure && !failure->remedy.empty() ? line : 0);
+    const float more = (form.edit() ? line : 0) + (remedy_of(c).empty() ? 0 : line);
     return c.ui.em * 7.5F + line + more + c.ui.grid(1);
 }
 
@@ -170,6 +208,7 @@ void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* pa
     ImGui::EndChild();
     draw_remedy(c);
     if (!c.place.form()) return;
+    if (edit) draw_note(c, *edit);
     if (edit) draw_removal(c, *edit);
     if (c.place.form()) draw_actions(c, form);
 }

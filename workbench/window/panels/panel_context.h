@@ -1,15 +1,24 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "workbench/case/edit_record.h"
 #include "workbench/window/model/workplace.h"
+#include "workbench/window/view/thumbnails.h"
 #include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 
 enum class BottomTab { History, Messages };
+
+/// A note while it is written.
+struct NoteInProgress {
+    EditRef edit;
+    std::string title;  ///< of the edit: "Clip opening"
+    std::string words;
+};
 
 /// Which parts of the window are shown.
 struct Shown {
@@ -17,6 +26,7 @@ struct Shown {
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
+    std::optional<NoteInProgress> note;     ///< the dialog for it
     bool compact = false;                   ///< little room: tool buttons without labels
 };
 
@@ -27,6 +37,7 @@ struct PanelContext {
     Shown& shown;
     std::string device;  ///< of OpenGL
     std::function<void(const std::string&)> to_clipboard;
+    Thumbnails& thumbnails;
 };
 
 }  // namespace vesselbench

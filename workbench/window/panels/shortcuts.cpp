@@ -13,8 +13,9 @@ bool pressed(int key) {
 }
 
 void handle_escape(PanelContext& c) {
-    if (c.shown.help || c.shown.prepare) {
+    if (c.shown.help || c.shown.prepare || c.shown.note) {
         c.shown.help = c.shown.prepare = false;
+        c.shown.note.reset();
     } else if (c.place.question() != FileQuestion::None) {
         c.place.ask(FileQuestion::None);
     } else if (c.place.document.is_painting()) {
@@ -23,6 +24,8 @@ void handle_escape(PanelContext& c) {
         c.place.disarm();
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
+    } else if (c.place.comparison() && !ImGui::GetIO().WantTextInput) {
+        c.place.stop_comparing();
     } else if (!ImGui::GetIO().WantTextInput) {
         c.place.leave_form();
     }
@@ -41,6 +44,7 @@ void handle_control(PanelContext& c) {
     const bool open = c.place.document.is_open();
     if (!ImGui::GetIO().WantTextInput) handle_history(c);
     if (pressed(keys::letter('O'))) c.place.ask(FileQuestion::Open);
+    if (pressed(keys::letter('S')) && open) c.place.ask(FileQuestion::SaveCopy);
     if (pressed(keys::letter('E')) && open) c.place.ask(FileQuestion::Export);
     if (pressed(keys::letter('P'))) c.place.preview();
     if (pressed(keys::kEnter)) c.place.apply();
@@ -61,7 +65,8 @@ void handle_image(PanelContext& c) {
 void handle_shortcuts(PanelContext& c) {
     if (pressed(keys::kF1)) c.shown.help = !c.shown.help;
     if (pressed(keys::kEscape)) handle_escape(c);
-    const bool dialog = c.shown.help || c.shown.prepare || c.place.question() != FileQuestion::None;
+    const bool dialog =
+        c.shown.help || c.shown.prepare || c.shown.note || c.place.question() != FileQuestion::None;
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl && !dialog) handle_control(c);
     if (!io.KeyCtrl && !dialog && !io.WantTextInput) handle_image(c);

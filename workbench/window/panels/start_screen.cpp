@@ -1,6 +1,7 @@
 #include "workbench/window/panels/start_screen.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <imgui.h>
 
@@ -9,6 +10,7 @@
 #include "workbench/window/model/user_folders.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/thumbnail_drawing.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/row.h"
 
@@ -42,9 +44,25 @@ const char* about_phantom(const std::string& name) {
     return "A phantom";
 }
 
+/// The picture of the last row's project, at the row's left end; else an icon.
+void draw_picture(PanelContext& c, const RecentProject& entry, float width) {
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    const float height = width * kThumbnailHeight / kThumbnailWidth;
+    const float top = (from.y + to.y - height) / 2, left = from.x + c.ui.grid(0.5F);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const unsigned texture = entry.missing ? 0 : c.thumbnails.of_project(entry.file);
+    if (texture != 0)
+        return draw.AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t{texture}), {left, top},
+                             {left + width, top + height});
+    const ImVec2 size = ImGui::CalcTextSize(icons::kVessel);
+    draw.AddText({left + (width - size.x) / 2, (from.y + to.y - size.y) / 2},
+                 entry.missing ? c.ui.theme.muted : c.ui.theme.accent, icons::kVessel);
+}
+
 void draw_recent(PanelContext& c) {
     group_heading(c.ui, "Recent projects");
     space(c.ui, 1);
+    const float picture = c.ui.em * 3.7F;
     const std::vector<RecentProject> recent = c.place.settings.recent();
     if (recent.empty())
         wrapped(c.ui, "Projects that you open are listed here.", c.ui.theme.muted, false);
@@ -52,14 +70,14 @@ void draw_recent(PanelContext& c) {
         const RecentProject& entry = recent[i];
         const std::string folder = entry.file.parent_path().string();
         if (row(c.ui, "recent." + std::to_string(i),
-                {.icon = icons::kVessel,
-                 .icon_colour = entry.missing ? 0 : c.ui.theme.accent,
-                 .title = entry.file.stem().string(),
+                {.title = entry.file.stem().string(),
                  .detail = entry.missing ? "missing: " + folder : folder,
                  .right = entry.opened,
                  .strong = true,
-                 .enabled = !entry.missing}))
+                 .enabled = !entry.missing,
+                 .indent = picture}))
             c.place.open(entry.file);
+        draw_picture(c, entry, picture);
     }
 }
 

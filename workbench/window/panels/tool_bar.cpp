@@ -24,7 +24,7 @@ void draw_files(PanelContext& c) {
         place.ask(FileQuestion::Open);
     ImGui::SameLine();
     if (icon_button(c.ui, "tool.save_copy", icons::kSave,
-                    "Save a copy of the project. The project itself is written at every edit.",
+                    "Save as: a copy of the project. The project itself is written at every edit.",
                     open))
         place.ask(FileQuestion::SaveCopy);
 }

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;
 constexpr double kProgressInterval = 0.1;  ///< between frames while something runs [s]
+constexpr double kShortestWait = 0.001;    ///< for a change whose time has come [s]
 constexpr int kFramesAfterInput = 3;       ///< until ImGui shows everything that input caused
 
 /// What GLFW last complained about. Its callback has no other way to hand it over.
@@ -127,6 +128,8 @@ public:
         }
         if (app_.is_moving())
             glfwWaitEventsTimeout(kProgressInterval);
+        else if (const auto change = app_.next_change())
+            glfwWaitEventsTimeout(std::max(*change, kShortestWait));
         else
             glfwWaitEvents();
         note();

@@ -10,6 +10,7 @@ inline constexpr const char* kCamera = "\uF100";
 inline constexpr const char* kCheck = "\uF12C";
 inline constexpr const char* kClose = "\uF156";
 inline constexpr const char* kColumns = "\uF56D";
+inline constexpr const char* kCompare = "\uF18A";
 inline constexpr const char* kCopy = "\uF18F";
 inline constexpr const char* kCube = "\uF1A7";
 inline constexpr const char* kCut = "\uF190";
@@ -32,6 +33,7 @@ inline constexpr const char* kInformation = "\uF2FD";
 inline constexpr const char* kLeft = "\uF141";
 inline constexpr const char* kMessages = "\uF36A";
 inline constexpr const char* kMoon = "\uF594";
+inline constexpr const char* kNote = "\uF39E";
 inline constexpr const char* kOpen = "\uF256";
 inline constexpr const char* kPalette = "\uF3D8";
 inline constexpr const char* kPending = "\uF150";
@@ -56,10 +58,11 @@ inline constexpr const char* kWarning = "\uF026";
 inline constexpr const char* kWater = "\uF58C";
 
 /// All of them, for the font's texture: nothing else of the icon font is drawn.
-inline constexpr std::array<unsigned short, 48> kCodes = {
-    0xF026, 0xF028, 0xF05D, 0xF068, 0xF100, 0xF12C, 0xF140, 0xF141, 0xF142, 0xF150, 0xF156, 0xF18F,
-    0xF190, 0xF193, 0xF1A4, 0xF1A7, 0xF1C0, 0xF207, 0xF208, 0xF224, 0xF24B, 0xF256, 0xF2C1, 0xF2DA,
-    0xF2DC, 0xF2E9, 0xF2FD, 0xF338, 0xF36A, 0xF3D8, 0xF3EB, 0xF40A, 0xF415, 0xF42B, 0xF44E, 0xF450,
-    0xF4FE, 0xF537, 0xF54C, 0xF561, 0xF56D, 0xF58C, 0xF594, 0xF5A8, 0xF5CC, 0xF5E0, 0xF625, 0xF62C};
+inline constexpr std::array<unsigned short, 50> kCodes = {
+    0xF026, 0xF028, 0xF05D, 0xF068, 0xF100, 0xF12C, 0xF140, 0xF141, 0xF142, 0xF150,
+    0xF156, 0xF18A, 0xF18F, 0xF190, 0xF193, 0xF1A4, 0xF1A7, 0xF1C0, 0xF207, 0xF208,
+    0xF224, 0xF24B, 0xF256, 0xF2C1, 0xF2DA, 0xF2DC, 0xF2E9, 0xF2FD, 0xF338, 0xF36A,
+    0xF39E, 0xF3D8, 0xF3EB, 0xF40A, 0xF415, 0xF42B, 0xF44E, 0xF450, 0xF4FE, 0xF537,
+    0xF54C, 0xF561, 0xF56D, 0xF58C, 0xF594, 0xF5A8, 0xF5CC, 0xF5E0, 0xF625, 0xF62C};
 
 }  // namespace vesselbench::icons

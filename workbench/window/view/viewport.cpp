@@ -13,6 +13,7 @@
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/brush_pointer.h"
+#include "workbench/window/view/comparison_view.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/region_drawing.h"
 #include "workbench/window/view/slice_planes.h"
@@ -41,8 +42,9 @@ struct DrawnAs {
     int width = 0, height = 0;
     bool dark = false;
     std::optional<std::uint32_t> lit_patch;
-    int region = 0;  ///< version of the typed region's lines
-    int slices = 0;  ///< version of the image's planes
+    int region = 0;    ///< version of the typed region's lines
+    int slices = 0;    ///< version of the image's planes
+    int compared = 0;  ///< version of the comparison's reference
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -51,9 +53,10 @@ struct DrawnAs {
 
 struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
-        : model(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
+        : model(wake), compared(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
 
     void take_scene(PanelContext& c);
+    void take_comparison(PanelContext& c);
     void take_form(PanelContext& c);
     void take_slices(PanelContext& c);
     void pick_places(PanelContext& c, bool over, bool released);
@@ -70,6 +73,7 @@ struct Viewport::Impl {
     void draw_overlays(PanelContext& c);
     void draw_empty(PanelContext& c) const;
     [[nodiscard]] SceneView scene_view(const Ui& ui) const;
+    [[nodiscard]] ViewLook model_look() const;
     [[nodiscard]] Layers layers(const Ui& ui) const;
     [[nodiscard]] Eigen::Vector2d mouse_ndc() const;
 
@@ -81,6 +85,7 @@ struct Viewport::Impl {
     }
 
     ModelDrawing model;
+    ComparisonView compared;
     Renderer renderer;
     Picker picker;
     BrushPointer brush;
@@ -93,12 +98,14 @@ struct Viewport::Impl {
     unsigned texture = 0;
     ViewCamera camera;
     ViewLook look;
-    ScreenRect rect;
+    ScreenRect area;  ///< all of the view
+    ScreenRect rect;  ///< the part of it that shows the model
     std::optional<DrawnAs> drawn;
     std::filesystem::path framed_project;     ///< whose model the camera was set for
     std::optional<ViewCamera> framed_camera;  ///< as it was set; another one is the user's
     int seen_scenes = -1;
-    int models = 0;  ///< counts changes of the drawn model
+    float seen_width = 0;  ///< of the area
+    int models = 0;        ///< counts changes of the drawn model
     int drawings = 0;
     bool dark = true;
 };
@@ -108,11 +115,16 @@ Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wa
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending() || impl_->brush.pending() || impl_->places.pending();
+    return impl_->model.pending() || impl_->compared.pending() || impl_->brush.pending() ||
+           impl_->places.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
     return impl_->camera;
+}
+
+Renderer& Viewport::renderer() {
+    return impl_->renderer;
 }
 
 int Viewport::drawings() const {
@@ -131,7 +143,7 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     const auto& form = c.place.form();
     model.set_painted(form ? painted_attribute(*form) : "");
     document.want_deviation(look.deviation);
-    model.set_deviation(document.deviation());
+    model.set_deviation(compared.colours_model() ? compared.difference() : document.deviation());
     if (!model.update()) return;
     drawn.reset();
     ++models;
@@ -142,6 +154,22 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     } else {
         follow_model();
     }
+}
+
+/// What is compared, and the room that it leaves to the model.
+void Viewport::Impl::take_comparison(PanelContext& c) {
+    compared.update(c);
+    const float before = rect.width;
+    const bool resized = area.width != seen_width;
+    seen_width = area.width;
+    rect = compared.room_for_model(area);
+    if (before != rect.width && !resized) follow_model();
+}
+
+ViewLook Viewport::Impl::model_look() const {
+    ViewLook own = look;
+    own.deviation = look.deviation || compared.colours_model();
+    return own;
 }
 
 /// The region that the form describes.
@@ -199,7 +227,7 @@ void Viewport::Impl::follow_model() {
 
 Layers Viewport::Impl::layers(const Ui& ui) const {
     const double line = std::max(1.0, ui.em / 15.0);
-    Layers layers = model.layers(look, line);
+    Layers layers = model.layers(model_look(), line);
     for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
     region.add_to(layers, 2 * line);
     planes.add_to(layers, line);
@@ -208,13 +236,14 @@ Layers Viewport::Impl::layers(const Ui& ui) const {
 
 SceneView Viewport::Impl::scene_view(const Ui& ui) const {
     return {.camera = camera,
-            .rectangle = target->rectangle(),
+            .rectangle = {0, 0, std::max(1, static_cast<int>(rect.width)),
+                          std::max(1, static_cast<int>(rect.height))},
             .background = Background{linear(ui.theme.view_above), linear(ui.theme.view_below)}};
 }
 
 void Viewport::Impl::draw_model(const Ui& ui) {
-    const int width = std::max(1, static_cast<int>(rect.width));
-    const int height = std::max(1, static_cast<int>(rect.height));
+    const int width = std::max(1, static_cast<int>(area.width));
+    const int height = std::max(1, static_cast<int>(area.height));
     const DrawnAs now{camera,
                       look,
                       width,
@@ -222,12 +251,16 @@ void Viewport::Impl::draw_model(const Ui& ui) {
                       ui.theme.dark,
                       places.lit_patch(),
                       region.version(),
-                      planes.space_version()};
+                      planes.space_version(),
+                      compared.version()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
     target->bind();
-    renderer.draw(scene_view(ui), layers(ui));
+    SceneView view = scene_view(ui);
+    view.rectangle.x = static_cast<int>(rect.x - area.x);
+    if (!compared.hides_model()) renderer.draw(view, layers(ui));
+    compared.draw(renderer, view, look, std::max(1.0, ui.em / 15.0));
     texture = target->resolve();
     drawn = now;
     ++drawings;
@@ -235,12 +268,12 @@ void Viewport::Impl::draw_model(const Ui& ui) {
 
 Eigen::Vector2d Viewport::Impl::mouse_ndc() const {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return {2.0 * (mouse.x - rect.x) / rect.width - 1.0,
-            1.0 - 2.0 * (mouse.y - rect.y) / rect.height};
+    const float x = mouse.x + compared.shift_to_model(area, mouse.x);
+    return {2.0 * (x - rect.x) / rect.width - 1.0, 1.0 - 2.0 * (mouse.y - rect.y) / rect.height};
 }
 
 void Viewport::Impl::handle_brush(PanelContext& c) {
-    if (!target) return;
+    if (!target || compared.hides_model()) return;
     const SceneView view = scene_view(c.ui);
     const Layers shown = layers(c.ui);
     brush.update(c, {view, shown, *model.surface(), rect});
@@ -272,7 +305,8 @@ void Viewport::Impl::set_centre() {
     Ui plain;  // ids do not depend on colours
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const Picked picked =
-        picker.pick(scene_view(plain), layers(plain), static_cast<int>(mouse.x - rect.x),
+        picker.pick(scene_view(plain), layers(plain),
+                    static_cast<int>(mouse.x + compared.shift_to_model(area, mouse.x) - rect.x),
                     static_cast<int>(rect.height - 1 - (mouse.y - rect.y)));
     if (picked.layer != 0) camera.centre = picked.point;
 }
@@ -301,10 +335,10 @@ void Viewport::Impl::draw_toggle(PanelContext& c, const std::string& name, const
 
 void Viewport::Impl::draw_toolbar(PanelContext& c) {
     const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
-    const ImVec2 at{rect.x + c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)};
     const bool has_image = c.place.slices().has_image();
     const auto count = has_image ? 7.0F : 6.0F;
     const float width = count * side + (count - 1) * c.ui.grid(0.25F) + 2 * pad;
+    const ImVec2 at{area.x + c.ui.grid(1.5F), area.y + c.ui.grid(1.5F)};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 to{at.x + width, at.y + side + 2 * pad};
     draw.AddRectFilled(at, to, faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
@@ -332,10 +366,14 @@ void Viewport::Impl::draw_overlays(PanelContext& c) {
     if (model.surface() != nullptr) brush.draw(c, camera, rect);
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
-    if (model.shows_deviation(look))
-        draw_deviation_legend(c.ui, rect, model.deviation()->full,
-                              c.place.document.previewed() ? "Distance from before [mm]"
-                                                           : "Distance from the source [mm]");
+    compared.draw_labels(c.ui, area);
+    ScreenRect legend = rect;
+    if (compared.colours_model()) legend.y += c.ui.em * 1.5F;  // below the comparison's banner
+    if (model.shows_deviation(model_look()) && !compared.hides_model())
+        draw_deviation_legend(c.ui, legend, model.deviation()->full,
+                              compared.colours_model()       ? "Distance from the reference [mm]"
+                              : c.place.document.previewed() ? "Distance from before [mm]"
+                                                             : "Distance from the source [mm]");
 }
 
 /// What to do while there is no surface.
@@ -363,9 +401,10 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     const ScreenRect row = slice_row_rect(whole);
     const ScreenRect rect{whole.x, whole.y, whole.width,
                           sliced ? row.y - 1 - whole.y : whole.height};
-    view.rect = rect;
+    view.area = rect;
     begin_frame(c.ui, "view", rect,
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
+    view.take_comparison(c);
     view.take_scene(c);
     view.take_slices(c);
     ImGui::InvisibleButton("view.area", {rect.width, rect.height},
@@ -373,13 +412,15 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     ImGui::SetItemAllowOverlap();
     c.ui.item("view.area");
     const bool over = ImGui::IsItemHovered();
+    const bool over_model = over && !view.compared.hides_model() &&
+                            view.compared.shift_to_model(rect, ImGui::GetIO().MousePos.x) == 0;
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
     if (view.model.surface() != nullptr) view.handle_brush(c);
     if (view.has_content()) view.handle_mouse(!c.place.can_paint());
     view.handle_keys(over);
     view.take_form(c);
-    view.pick_places(c, over, released);
+    view.pick_places(c, over_model, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
     ImGui::GetWindowDrawList()->AddImage(

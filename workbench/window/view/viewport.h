@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "gpu/render/renderer.h"
 #include "gpu/render/view_camera.h"
 #include "workbench/window/panels/panel_context.h"
 
@@ -26,6 +27,9 @@ public:
     [[nodiscard]] bool pending() const;
 
     [[nodiscard]] const ViewCamera& camera() const;
+
+    /// For other pictures in the same context.
+    [[nodiscard]] Renderer& renderer();
 
     /// Number of times that the scene was drawn, for tests of idle windows.
     [[nodiscard]] int drawings() const;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "workbench/case/history.h"
+
+namespace vesselbench {
+
+/// For each of some states, the last result of a variant that is known there: the one before its
+/// first pending edit. 0: the empty scene.
+/// \throw UsageError if there is no such state
+[[nodiscard]] std::vector<ResultId> known_results(History history,
+                                                  const std::vector<StateId>& states,
+                                                  const std::string& variant);
+
+}  // namespace vesselbench
