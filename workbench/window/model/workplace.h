@@ -7,6 +7,7 @@
 
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/document.h"
+#include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
@@ -45,6 +46,11 @@ public:
     [[nodiscard]] const std::vector<RailStep>& rail() const { return rail_; }
 
     [[nodiscard]] const HistoryTree& history() const { return history_; }
+
+    /// The mouse is over an edit, in the rail or in the view: it is lit up in the next frame.
+    void point_at_edit(EditId edit) { next_pointed_ = edit; }
+
+    [[nodiscard]] const std::optional<EditId>& pointed_edit() const { return pointed_; }
 
     // --- the operation panel
 
@@ -111,6 +117,36 @@ public:
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
 
+    // --- handles in the view
+
+    /// Begins to drag a handle of the form's.
+    void begin_drag();
+
+    /// Fills in fields while a handle is dragged.
+    void drag(const std::vector<FieldText>& texts);
+
+    void end_drag() { before_drag_.reset(); }
+
+    /// Ends a drag, and brings back the texts from before it.
+    void cancel_drag();
+
+    /// The form when the drag began; none: nothing is dragged.
+    [[nodiscard]] const std::optional<OperationForm>& before_drag() const { return before_drag_; }
+
+    // --- openings that are clicked
+
+    /// Adds an opening to the form's openings, or takes it away; or asks for its role, if the form
+    /// is one that sets roles, or there is none.
+    void click_opening(const PatchMeasures& opening);
+
+    /// The opening whose role is asked for.
+    [[nodiscard]] const std::optional<PatchMeasures>& role_question() const { return opening_; }
+
+    /// Fills in the form that gives the opening a role.
+    void give_role(PatchKind role);
+
+    void forget_role_question() { opening_.reset(); }
+
     // --- questions for a file
 
     [[nodiscard]] FileQuestion question() const { return question_; }
@@ -140,6 +176,9 @@ private:
     PlaceSearch search_;
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
+    std::optional<EditId> pointed_, next_pointed_;
+    std::optional<OperationForm> before_drag_;
+    std::optional<PatchMeasures> opening_;  ///< whose role is asked for
 };
 
 }  // namespace vesselbench

@@ -12,9 +12,13 @@
 #include "workbench/window/keys.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/branch_highlight.h"
 #include "workbench/window/view/brush_pointer.h"
+#include "workbench/window/view/edit_marks.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/region_drawing.h"
+#include "workbench/window/view/role_card.h"
+#include "workbench/window/view/view_handles.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/widgets/controls.h"
@@ -27,6 +31,7 @@ constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns
 constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
 constexpr double kMargin = 0.12;        ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
+constexpr double kLinePull = 0.01;   ///< of lines on the surface, by half the view's height [-]
 constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
 Colour linear(Paint colour) {
@@ -43,7 +48,8 @@ struct DrawnAs {
     int width = 0, height = 0;
     bool dark = false;
     std::optional<std::uint32_t> lit_patch;
-    int region = 0;  ///< version of the typed region's lines
+    int region = 0;  ///< version of the form's lines
+    int branch = 0;  ///< version of the highlight
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -52,13 +58,19 @@ struct DrawnAs {
 
 struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
-        : model(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
+        : model(wake),
+          picker(renderer),
+          brush(renderer),
+          places(renderer, wake),
+          handles(wake),
+          branch(wake) {}
 
     void take_scene(PanelContext& c);
     void take_form(PanelContext& c);
     void pick_places(PanelContext& c, bool over, bool released);
     void frame_model();
     void follow_model();
+    void follow_handles();
     void draw_model(const Ui& ui);
     void handle_brush(PanelContext& c);
     void handle_mouse(bool sets_centre);
@@ -67,7 +79,7 @@ struct Viewport::Impl {
     void draw_toolbar(PanelContext& c);
     void draw_toggle(PanelContext& c, const std::string& name, const char* icon,
                      const std::string& help, bool& on);
-    void draw_overlays(PanelContext& c);
+    void draw_overlays(PanelContext& c, bool over_view);
     void draw_empty(PanelContext& c) const;
     [[nodiscard]] SceneView scene_view(const Ui& ui) const;
     [[nodiscard]] Layers layers(const Ui& ui) const;
@@ -80,6 +92,8 @@ struct Viewport::Impl {
     Picker picker;
     BrushPointer brush;
     ViewPlaces places;
+    ViewHandles handles;
+    BranchHighlight branch;
     RegionDrawing region;
     std::optional<RenderTarget> target;
     unsigned texture = 0;
@@ -100,7 +114,8 @@ Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wa
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending() || impl_->brush.pending() || impl_->places.pending();
+    return impl_->model.pending() || impl_->brush.pending() || impl_->places.pending() ||
+           impl_->handles.pending() || impl_->branch.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -136,10 +151,13 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     }
 }
 
-/// The region that the form describes.
+/// What the form describes.
 void Viewport::Impl::take_form(PanelContext& c) {
-    const bool shows = c.place.form() && model.surface() != nullptr;
-    region.show(shows ? region_lines(*c.place.form()) : std::vector<RegionLine>());
+    const auto& form = c.place.form();
+    const bool shows = form && model.surface() != nullptr;
+    region.show(shows ? handles.lines() : std::vector<RegionLine>());
+    const bool previews = c.place.document.previewed().has_value();
+    branch.update(form && !previews ? &*form : nullptr, model.surface(), places.spot());
 }
 
 /// \param over the cursor is over the view \param released the left button was, after a press in
@@ -149,13 +167,14 @@ void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    places.update(c, {.view = scene_view(c.ui),
-                      .layers = layers(c.ui),
-                      .rect = rect,
-                      .surface = model.surface(),
-                      .version = models,
-                      .over = over && !ImGui::IsAnyMouseDown(),
-                      .clicked = over && released && still && !io.KeyShift});
+    places.update(c,
+                  {.view = scene_view(c.ui),
+                   .layers = layers(c.ui),
+                   .rect = rect,
+                   .surface = model.surface(),
+                   .version = models,
+                   .over = over && !ImGui::IsAnyMouseDown() && !handles.has_cursor(),
+                   .clicked = over && released && still && !io.KeyShift && !handles.has_cursor()});
 }
 
 void Viewport::Impl::frame_model() {
@@ -173,11 +192,24 @@ void Viewport::Impl::follow_model() {
     if (growth > 1.0 + kSlack || growth < 1.0 - 3.0 * kSlack || shift > kSlack) frame_model();
 }
 
+/// Zooms out to handles that are beyond the view, as follow_model.
+void Viewport::Impl::follow_handles() {
+    if (model.surface() == nullptr || framed_camera != camera || handles.holds_left()) return;
+    Positions points = handles.beyond({camera, rect});
+    if (points.empty()) return;
+    const Positions& shown = model.surface()->points();
+    points.insert(points.end(), shown.begin(), shown.end());
+    camera = framed(camera, points, aspect(), kMargin);
+    framed_camera = camera;
+}
+
 Layers Viewport::Impl::layers(const Ui& ui) const {
     const double line = std::max(1.0, ui.em / 15.0);
     Layers layers = model.layers(look, line);
     for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
-    region.add_to(layers, 2 * line);
+    const double pull = kLinePull * camera.half_height;
+    branch.add_to(layers, pull / 2);
+    region.add_to(layers, 2 * line, pull);
     return layers;
 }
 
@@ -190,8 +222,9 @@ SceneView Viewport::Impl::scene_view(const Ui& ui) const {
 void Viewport::Impl::draw_model(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(rect.width));
     const int height = std::max(1, static_cast<int>(rect.height));
-    const DrawnAs now{camera,          look, width, height, ui.theme.dark, places.lit_patch(),
-                      region.version()};
+    const DrawnAs now{
+        camera,          look, width, height, ui.theme.dark, places.lit_patch(), region.version(),
+        branch.version()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
@@ -221,7 +254,8 @@ void Viewport::Impl::handle_mouse(bool sets_centre) {
     const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
                                 -2.0 * io.MouseDelta.y / rect.height);
     const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !brush.holds_left())) {
+    if (ImGui::IsItemActive() && moved.norm() > 0 &&
+        (middle || !(brush.holds_left() || handles.holds_left()))) {
         const bool pans = middle || io.KeyShift;
         const double turn = kTurnPerHeight / rect.height;
         if (pans)
@@ -232,7 +266,8 @@ void Viewport::Impl::handle_mouse(bool sets_centre) {
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0)
         camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (sets_centre && !places.took_click() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    if (sets_centre && !places.took_click() && !handles.has_cursor() &&
+        ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         set_centre();
 }
 
@@ -286,11 +321,16 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
     draw_toggle(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective);
 }
 
-void Viewport::Impl::draw_overlays(PanelContext& c) {
-    if (model.surface() != nullptr) places.draw(c, {camera, rect});
+void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
+    if (model.surface() != nullptr) {
+        places.draw(c, {camera, rect});
+        handles.draw(c, {camera, rect});
+        draw_edit_marks(c, {camera, rect}, over_view && !c.place.form());
+    }
     draw_toolbar(c);
     if (model.surface() == nullptr) return draw_empty(c);
     brush.draw(c, camera, rect);
+    draw_role_card(c, {camera, rect});
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     if (model.shows_deviation(look))
@@ -332,17 +372,19 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
     if (view.model.surface() != nullptr) {
         view.handle_brush(c);
+        view.handles.update(c, {view.camera, rect});
         view.handle_mouse(!c.place.can_paint());
     }
     view.handle_keys(over);
     view.take_form(c);
+    view.follow_handles();
     view.pick_places(c, over, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
     ImGui::GetWindowDrawList()->AddImage(
         reinterpret_cast<ImTextureID>(std::uintptr_t{view.texture}), {rect.x, rect.y}, to, {0, 1},
         {1, 0});
-    view.draw_overlays(c);
+    view.draw_overlays(c, over);
     end_frame();
 }
 
