@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "workbench/operations/table.h"
-#include "workbench/window/model/typed_region.h"
 
 using namespace vesselbench;
 
@@ -70,35 +69,5 @@ SCENARIO("Two corners make a box", "[window][picking]") {
     CHECK(is_complete(PickTarget::Corners, box));
     WHEN("it is picked again") {
         CHECK(picked_text(PickTarget::Corners, box, Vec3(0, 0, 0)) == "0,0,0");
-    }
-}
-
-SCENARIO("A typed region is shown as lines", "[window][picking]") {
-    OperationForm form(find_operation("crop"));
-    CHECK(region_lines(form).empty());
-    WHEN("a box is typed") {
-        form.set("box", "0,0,0,1,2");
-        CHECK(region_lines(form).empty());
-        form.set("box", "0,0,0,1,2,3");
-        std::size_t edges = 0;
-        for (const RegionLine& line : region_lines(form))
-            edges += line.closed ? line.points.size() : line.points.size() - 1;
-        CHECK(edges == 12);
-    }
-    WHEN("a ball is typed") {
-        form.set("centre", "1,2,3");
-        CHECK(region_lines(form).empty());
-        form.set("radius", "5");
-        const auto lines = region_lines(form);
-        CHECK(lines.size() == 3);
-        for (const RegionLine& line : lines)
-            for (const Vec3& point : line.points)
-                CHECK((point - Vec3(1, 2, 3)).norm() == Approx(5));
-        form.set("radius", "-5");
-        CHECK(region_lines(form).empty());
-    }
-    WHEN("the operation has no region") {
-        OperationForm other(find_operation("smooth"));
-        CHECK(region_lines(other).empty());
     }
 }

@@ -76,7 +76,9 @@ Surface name_openings(const Surface& surface, const std::vector<std::string>& un
                      [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
     const auto make_inlet = [&](std::size_t p) {
         patches[p].kind = PatchKind::Inlet;
-        if (std::erase(open, p) > 0) patches[p].name = free_patch_name("inlet", 0, patches);
+        // Files keep names only: an inlet called outlet_1 would be an outlet again.
+        if (std::erase(open, p) > 0 || patches[p].name.starts_with("outlet"))
+            patches[p].name = free_patch_name("inlet", 0, patches);
     };
     const bool has_inlet = std::any_of(patches.begin(), patches.end(),
                                        [](const Patch& p) { return p.kind == PatchKind::Inlet; });

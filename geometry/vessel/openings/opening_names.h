@@ -15,7 +15,8 @@ namespace vesselbench {
 
 /// Orders the patches (wall, inlet, outlets by descending area, the rest) and assigns a kind and a
 /// name to those of kind Cut that are listed in `unnamed`: the inlet, the others outlet_1,
-/// outlet_2 ... by descending area.
+/// outlet_2 ... by descending area. An inlet that is named as an outlet, or the other way round, is
+/// renamed.
 /// \param inlet a point near the opening that is the inlet [mm]; none: the largest, unless a patch
 /// of that kind exists
 [[nodiscard]] Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,

@@ -283,4 +283,11 @@ BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph
     return result;
 }
 
+std::vector<std::uint8_t> triangles_of_branch(const Surface& surface, const CenterlineGraph& graph,
+                                              std::size_t tip,
+                                              const BranchRemovalParameters& parameters) {
+    return triangles_to_remove(surface, branch_root(graph, tip), graph.nodes[tip].position,
+                               parameters.margin);
+}
+
 }  // namespace vesselbench

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "geometry/kernel/surface.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 
@@ -31,5 +34,11 @@ struct BranchRemovalParameters {
 [[nodiscard]] BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph,
                                           std::size_t tip,
                                           const BranchRemovalParameters& parameters = {});
+
+/// What remove_branch cuts off: 1 for each triangle that goes, else 0; #T.
+/// \throw AlgorithmFailure if the branch has no parent vessel
+[[nodiscard]] std::vector<std::uint8_t> triangles_of_branch(
+    const Surface& surface, const CenterlineGraph& graph, std::size_t tip,
+    const BranchRemovalParameters& parameters = {});
 
 }  // namespace vesselbench

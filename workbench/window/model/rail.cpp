@@ -6,6 +6,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/model/edit_places.h"
 
 namespace vesselbench {
 
@@ -38,7 +39,8 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .operation = edit.operation,
                  .arguments = argument_summary(find_operation(edit.operation), edit.given),
                  .status = entry.status,
-                 .reason = entry.reason};
+                 .reason = entry.reason,
+                 .places = places_of_edit(entry)};
     if (entry.result) {
         row.change = change_text(entry.result->change);
         row.warnings = entry.result->warnings;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/model/opening_roles.h"
 #include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
@@ -15,6 +16,7 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
 
 bool Workplace::update() {
     const bool changed = document.poll();
+    pointed_ = std::exchange(next_pointed_, std::nullopt);
     if (was_opening_ && !document.is_opening() && document.is_open() && !document.failure()) {
         settings.remember(document.project());
         settings.save();
@@ -28,6 +30,7 @@ bool Workplace::update() {
         seen_entered_ = document.entered();
         form_.reset();
         disarm();
+        end_drag();
     }
     const bool new_slices = slices_.update(document.shown());
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
@@ -37,6 +40,7 @@ bool Workplace::update() {
 bool Workplace::update_places() {
     const bool tips = form_ && wants_tips(*form_) && !document.previewed();
     const bool same_scene = searched_scenes_ == document.scene_changes();
+    if (!same_scene) forget_role_question();
     if (!same_scene || (tips && !searched_tips_)) {
         searched_scenes_ = document.scene_changes();
         searched_tips_ = tips;
@@ -130,6 +134,8 @@ void Workplace::leave_form() {
     if (form_) document.forget_failure();
     form_.reset();
     disarm();
+    end_drag();
+    forget_role_question();
     previewed_changes_ = -1;
 }
 
@@ -228,6 +234,43 @@ void Workplace::compare(StateId reference) {
 void Workplace::stop_comparing() {
     if (comparison_) compare_mode_ = comparison_->mode();
     comparison_.reset();
+}
+
+// --- handles in the view
+
+void Workplace::begin_drag() {
+    before_drag_ = form_;
+}
+
+void Workplace::drag(const std::vector<FieldText>& texts) {
+    if (!form_ || !before_drag_) return;
+    for (const FieldText& field : texts) set_field(field.parameter, field.text);
+}
+
+void Workplace::cancel_drag() {
+    const std::optional<OperationForm> before = std::exchange(before_drag_, std::nullopt);
+    if (!form_ || !before) return;
+    for (const FormField& field : before->fields()) set_field(field.parameter->name, field.text);
+}
+
+// --- openings that are clicked
+
+void Workplace::click_opening(const PatchMeasures& opening) {
+    forget_role_question();
+    const bool free = !form_ || (has_roles(*form_) && !form_->edit());
+    if (form_ && has_field(*form_, "opening"))
+        set_field("opening", with_name_switched(form_->field("opening").text, opening.name));
+    else if (free && can_change())
+        opening_ = opening;
+}
+
+void Workplace::give_role(PatchKind role) {
+    const std::optional<PatchMeasures> opening = std::exchange(opening_, std::nullopt);
+    const Scene* scene = document.shown();
+    if (!opening || scene == nullptr || !scene->surface) return;
+    const auto texts = role_texts(*opening, role, scene->surface->patches);
+    if (!form_ || !has_roles(*form_)) choose("clip-opening");
+    for (const FieldText& field : texts) set_field(field.parameter, field.text);
 }
 
 // --- questions for a file

@@ -8,6 +8,7 @@
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/comparison.h"
 #include "workbench/window/model/document.h"
+#include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/image_slices.h"
 #include "workbench/window/model/operation_form.h"
@@ -47,6 +48,11 @@ public:
     [[nodiscard]] const std::vector<RailStep>& rail() const { return rail_; }
 
     [[nodiscard]] const HistoryTree& history() const { return history_; }
+
+    /// The mouse is over an edit, in the rail or in the view: it is lit up in the next frame.
+    void point_at_edit(EditId edit) { next_pointed_ = edit; }
+
+    [[nodiscard]] const std::optional<EditId>& pointed_edit() const { return pointed_; }
 
     // --- the operation panel
 
@@ -139,6 +145,36 @@ public:
     /// True while a comparison is being read or measured.
     [[nodiscard]] bool is_comparing() const { return comparison_ && comparison_->pending(); }
 
+    // --- handles in the view
+
+    /// Begins to drag a handle of the form's.
+    void begin_drag();
+
+    /// Fills in fields while a handle is dragged.
+    void drag(const std::vector<FieldText>& texts);
+
+    void end_drag() { before_drag_.reset(); }
+
+    /// Ends a drag, and brings back the texts from before it.
+    void cancel_drag();
+
+    /// The form when the drag began; none: nothing is dragged.
+    [[nodiscard]] const std::optional<OperationForm>& before_drag() const { return before_drag_; }
+
+    // --- openings that are clicked
+
+    /// Adds an opening to the form's openings, or takes it away; or asks for its role, if the form
+    /// is one that sets roles, or there is none.
+    void click_opening(const PatchMeasures& opening);
+
+    /// The opening whose role is asked for.
+    [[nodiscard]] const std::optional<PatchMeasures>& role_question() const { return opening_; }
+
+    /// Fills in the form that gives the opening a role.
+    void give_role(PatchKind role);
+
+    void forget_role_question() { opening_.reset(); }
+
     // --- questions for a file
 
     [[nodiscard]] FileQuestion question() const { return question_; }
@@ -171,6 +207,9 @@ private:
     ImageSlices slices_;
     std::optional<Comparison> comparison_;
     CompareMode compare_mode_ = CompareMode::SideBySide;
+    std::optional<EditId> pointed_, next_pointed_;
+    std::optional<OperationForm> before_drag_;
+    std::optional<PatchMeasures> opening_;  ///< whose role is asked for
 };
 
 }  // namespace vesselbench

@@ -20,6 +20,10 @@ void handle_escape(PanelContext& c) {
         c.place.ask(FileQuestion::None);
     } else if (c.place.document.is_painting()) {
         c.place.document.drop_stroke();
+    } else if (c.place.before_drag()) {
+        c.place.cancel_drag();
+    } else if (c.place.role_question()) {
+        c.place.forget_role_question();
     } else if (!c.place.armed().empty()) {
         c.place.disarm();
     } else if (c.place.document.activity()) {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "gpu/render/layers.h"
-#include "workbench/window/model/typed_region.h"
+#include "workbench/window/model/region_lines.h"
 
 namespace vesselbench {
 
-/// The typed region of a form as lines of the 3D view.
+/// The lines of a form in the 3D view.
 class RegionDrawing {
 public:
     /// Needs the window's OpenGL context if the lines have changed.
@@ -17,11 +17,12 @@ public:
     /// Counts changes.
     [[nodiscard]] int version() const { return version_; }
 
-    void add_to(Layers& layers, double width) const;
+    /// \param width [pixels] \param pull of lines that lie on the surface, towards the eye [mm]
+    void add_to(Layers& layers, double width, double pull) const;
 
 private:
     std::vector<RegionLine> shown_;
-    std::shared_ptr<const DrawnLines> lines_;
+    std::shared_ptr<const DrawnLines> faint_, lines_, front_;
     int version_ = 0;
 };
 

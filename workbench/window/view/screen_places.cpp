@@ -11,17 +11,6 @@ namespace {
 /// An opening that is not round reaches farther than the circle of its area.
 constexpr double kLongOpening = 1.6;
 
-/// Text on a plate, from its left middle.
-void draw_plate(const Ui& ui, ImVec2 at, const std::string& words) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImFont* font = ui.fonts.small;
-    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
-    const float pad = ui.grid(0.75F), top = at.y - size.y / 2;
-    draw.AddRectFilled({at.x, top - pad / 2}, {at.x + size.x + 2 * pad, top + size.y + pad / 2},
-                       faded(ui.theme.panel, 0.88), ImGui::GetStyle().FrameRounding);
-    draw.AddText(font, font->FontSize, {at.x + pad, top}, ui.theme.text, words.c_str());
-}
-
 }  // namespace
 
 std::optional<Eigen::Vector2f> OnScreen::place(const Vec3& point) const {
@@ -68,6 +57,16 @@ void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std
     draw.AddCircleFilled(middle, radius - ui.em * 0.1F, fill);
     if (look == MarkLook::Offered) draw.AddCircleFilled(middle, radius * 0.45F, ui.theme.accent);
     if (!label.empty()) draw_plate(ui, {middle.x + radius + ui.em * 0.4F, middle.y}, label);
+}
+
+void draw_plate(const Ui& ui, const Eigen::Vector2f& at, const std::string& words) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont* font = ui.fonts.small;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    const float pad = ui.grid(0.75F), top = at.y() - size.y / 2;
+    draw.AddRectFilled({at.x(), top - pad / 2}, {at.x() + size.x + 2 * pad, top + size.y + pad / 2},
+                       faded(ui.theme.panel, 0.88), ImGui::GetStyle().FrameRounding);
+    draw.AddText(font, font->FontSize, {at.x() + pad, top}, ui.theme.text, words.c_str());
 }
 
 void draw_hint(const Ui& ui, const ScreenRect& view, const std::string& words) {

@@ -99,25 +99,42 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     const SurfacePlaces& places = c.place.surface_places();
     std::optional<PickTarget> target = c.place.armed_target();
     if (target && is_in_slices(*target)) target.reset();
-    if (!target) clicked_.reset();
-    if (target && seen.clicked) {
+    if (seen.clicked) {
         clicked_ = mouse();
-        click_time_ = ImGui::GetTime();
+        c.place.forget_role_question();
+        if (target) click_time_ = ImGui::GetTime();
     }
     const Eigen::Vector2f cursor = clicked_.value_or(mouse());
     const OnScreen screen{seen.view.camera, seen.rect};
     const bool wanted =
         !c.place.can_paint() && (target || may_be_over(screen, places.openings, cursor));
-    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
+    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) {
+        clicked_.reset();
+        return forget();
+    }
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
     light_opening(c, seen);
-    if (!target) return spot_.reset();
-    offered_ = offered_for(*target, places);
-    find_spot(seen, cursor, kMarkReach * c.ui.em);
+    if (target) {
+        offered_ = offered_for(*target, places);
+        find_spot(seen, cursor, kMarkReach * c.ui.em);
+    } else {
+        spot_.reset();
+    }
     if (!clicked_ || !answer_ || answer_->question != now) return;
     clicked_.reset();
-    if (spot_) c.place.pick(spot_->point);
+    take_click(c);
+}
+
+void ViewPlaces::take_click(PanelContext& c) {
+    if (c.place.armed_target()) {
+        if (spot_) c.place.pick(spot_->point);
+        return;
+    }
+    if (!lit_patch_) return;
+    if (const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_))
+        c.place.click_opening(*opening);
+    if (!c.place.role_question()) click_time_ = ImGui::GetTime();
 }
 
 void ViewPlaces::draw_offered(const PanelContext& c, const OnScreen& screen) const {
@@ -139,7 +156,7 @@ void ViewPlaces::draw_spot(const PanelContext& c, const OnScreen& screen) const 
 }
 
 void ViewPlaces::draw_opening(PanelContext& c) const {
-    if (!lit_patch_ || c.place.armed_target()) return;
+    if (!lit_patch_ || c.place.armed_target() || c.place.role_question()) return;
     const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_);
     if (opening == nullptr) return;
     const Eigen::Vector2f at = mouse();

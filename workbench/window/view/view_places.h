@@ -29,7 +29,8 @@ public:
     /// \param renderer must outlive it \param wake as Viewport's
     ViewPlaces(Renderer& renderer, std::function<void()> wake);
 
-    /// Once a frame, before the model is drawn. May fill in a parameter of the form.
+    /// Once a frame, before the model is drawn. May fill in a parameter of the form, or ask for the
+    /// role of an opening.
     void update(PanelContext& context, const SeenModel& seen);
 
     /// Marks, hints and the figures of the opening under the cursor, over the model.
@@ -38,11 +39,16 @@ public:
     /// Patch label of the opening under the cursor.
     [[nodiscard]] std::optional<std::uint32_t> lit_patch() const { return lit_patch_; }
 
+    /// The place that a click would pick for the armed parameter [mm].
+    [[nodiscard]] std::optional<Vec3> spot() const {
+        return spot_ ? std::optional(spot_->point) : std::nullopt;
+    }
+
     /// True while a search runs.
     [[nodiscard]] bool pending() const { return picker_.pending(); }
 
-    /// True if a click that came just before was for an armed parameter, so that a second one is no
-    /// double click.
+    /// True if a click that came just before changed the form, so that a second one is no double
+    /// click.
     [[nodiscard]] bool took_click() const;
 
 private:
@@ -63,6 +69,7 @@ private:
     void search(const SeenModel& seen, const Question& now);
     void find_spot(const SeenModel& seen, const Eigen::Vector2f& cursor, float reach);
     void light_opening(const PanelContext& context, const SeenModel& seen);
+    void take_click(PanelContext& context);
     void forget();
     void draw_offered(const PanelContext& context, const OnScreen& screen) const;
     void draw_spot(const PanelContext& context, const OnScreen& screen) const;

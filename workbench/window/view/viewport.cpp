@@ -10,14 +10,19 @@
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
 #include "workbench/window/keys.h"
+#include "workbench/window/model/region_lines.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/branch_highlight.h"
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/comparison_view.h"
+#include "workbench/window/view/edit_marks.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/region_drawing.h"
+#include "workbench/window/view/role_card.h"
 #include "workbench/window/view/slice_planes.h"
 #include "workbench/window/view/slice_row.h"
+#include "workbench/window/view/view_handles.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/widgets/controls.h"
@@ -30,6 +35,7 @@ constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns
 constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
 constexpr double kMargin = 0.12;        ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
+constexpr double kLinePull = 0.01;   ///< of lines on the surface, by half the view's height [-]
 constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
 /// From the front, somewhat from the left and above: all three planes of an image are seen.
@@ -42,7 +48,8 @@ struct DrawnAs {
     int width = 0, height = 0;
     bool dark = false;
     std::optional<std::uint32_t> lit_patch;
-    int region = 0;    ///< version of the typed region's lines
+    int region = 0;    ///< version of the form's lines
+    int branch = 0;    ///< version of the highlight
     int slices = 0;    ///< version of the image's planes
     int compared = 0;  ///< version of the comparison's reference
 
@@ -53,7 +60,13 @@ struct DrawnAs {
 
 struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
-        : model(wake), compared(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
+        : model(wake),
+          compared(wake),
+          picker(renderer),
+          brush(renderer),
+          places(renderer, wake),
+          handles(wake),
+          branch(wake) {}
 
     void take_scene(PanelContext& c);
     void take_comparison(PanelContext& c);
@@ -62,6 +75,7 @@ struct Viewport::Impl {
     void pick_places(PanelContext& c, bool over, bool released);
     void frame_model();
     void follow_model();
+    void follow_handles();
     void draw_model(const Ui& ui);
     void handle_brush(PanelContext& c);
     void handle_mouse(bool sets_centre);
@@ -70,7 +84,7 @@ struct Viewport::Impl {
     void draw_toolbar(PanelContext& c);
     void draw_toggle(PanelContext& c, const std::string& name, const char* icon,
                      const std::string& help, bool& on);
-    void draw_overlays(PanelContext& c);
+    void draw_overlays(PanelContext& c, bool over_view);
     void draw_empty(PanelContext& c) const;
     [[nodiscard]] SceneView scene_view(const Ui& ui) const;
     [[nodiscard]] ViewLook model_look() const;
@@ -90,6 +104,8 @@ struct Viewport::Impl {
     Picker picker;
     BrushPointer brush;
     ViewPlaces places;
+    ViewHandles handles;
+    BranchHighlight branch;
     RegionDrawing region;
     SlicePlanes planes;
     SliceRow slice_row;
@@ -116,7 +132,7 @@ Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
     return impl_->model.pending() || impl_->compared.pending() || impl_->brush.pending() ||
-           impl_->places.pending();
+           impl_->places.pending() || impl_->handles.pending() || impl_->branch.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -172,12 +188,6 @@ ViewLook Viewport::Impl::model_look() const {
     return own;
 }
 
-/// The region that the form describes.
-void Viewport::Impl::take_form(PanelContext& c) {
-    const bool shown = c.place.form() && has_content();
-    region.show(shown ? region_lines(*c.place.form()) : std::vector<RegionLine>());
-}
-
 /// An image without a surface is looked at as a whole.
 void Viewport::Impl::take_slices(PanelContext& c) {
     planes.update(c.place.slices());
@@ -192,6 +202,17 @@ void Viewport::Impl::take_slices(PanelContext& c) {
     frame_model();
 }
 
+/// What the form describes.
+void Viewport::Impl::take_form(PanelContext& c) {
+    const auto& form = c.place.form();
+    if (form && model.surface() != nullptr)
+        region.show(handles.lines());
+    else
+        region.show(form && has_content() ? region_lines(*form) : std::vector<RegionLine>());
+    const bool previews = c.place.document.previewed().has_value();
+    branch.update(form && !previews ? &*form : nullptr, model.surface(), places.spot());
+}
+
 /// \param over the cursor is over the view \param released the left button was, after a press in
 /// the view
 void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
@@ -199,13 +220,14 @@ void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    places.update(c, {.view = scene_view(c.ui),
-                      .layers = layers(c.ui),
-                      .rect = rect,
-                      .surface = model.surface(),
-                      .version = models,
-                      .over = over && !ImGui::IsAnyMouseDown(),
-                      .clicked = over && released && still && !io.KeyShift});
+    places.update(c,
+                  {.view = scene_view(c.ui),
+                   .layers = layers(c.ui),
+                   .rect = rect,
+                   .surface = model.surface(),
+                   .version = models,
+                   .over = over && !ImGui::IsAnyMouseDown() && !handles.has_cursor(),
+                   .clicked = over && released && still && !io.KeyShift && !handles.has_cursor()});
 }
 
 void Viewport::Impl::frame_model() {
@@ -225,12 +247,25 @@ void Viewport::Impl::follow_model() {
     if (growth > 1.0 + kSlack || growth < 1.0 - 3.0 * kSlack || shift > kSlack) frame_model();
 }
 
+/// Zooms out to handles that are beyond the view, as follow_model.
+void Viewport::Impl::follow_handles() {
+    if (model.surface() == nullptr || framed_camera != camera || handles.holds_left()) return;
+    Positions points = handles.beyond({camera, rect});
+    if (points.empty()) return;
+    const Positions& shown = model.surface()->points();
+    points.insert(points.end(), shown.begin(), shown.end());
+    camera = framed(camera, points, aspect(), kMargin);
+    framed_camera = camera;
+}
+
 Layers Viewport::Impl::layers(const Ui& ui) const {
     const double line = std::max(1.0, ui.em / 15.0);
     Layers layers = model.layers(model_look(), line);
     for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
-    region.add_to(layers, 2 * line);
     planes.add_to(layers, line);
+    const double pull = kLinePull * camera.half_height;
+    branch.add_to(layers, pull / 2);
+    region.add_to(layers, 2 * line, pull);
     return layers;
 }
 
@@ -251,6 +286,7 @@ void Viewport::Impl::draw_model(const Ui& ui) {
                       ui.theme.dark,
                       places.lit_patch(),
                       region.version(),
+                      branch.version(),
                       planes.space_version(),
                       compared.version()};
     if (drawn == now) return;
@@ -285,7 +321,8 @@ void Viewport::Impl::handle_mouse(bool sets_centre) {
     const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
                                 -2.0 * io.MouseDelta.y / rect.height);
     const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !brush.holds_left())) {
+    if (ImGui::IsItemActive() && moved.norm() > 0 &&
+        (middle || !(brush.holds_left() || handles.holds_left()))) {
         const bool pans = middle || io.KeyShift;
         const double turn = kTurnPerHeight / rect.height;
         if (pans)
@@ -296,7 +333,8 @@ void Viewport::Impl::handle_mouse(bool sets_centre) {
     if (!ImGui::IsItemHovered()) return;
     if (io.MouseWheel != 0)
         camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (sets_centre && !places.took_click() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    if (sets_centre && !places.took_click() && !handles.has_cursor() &&
+        ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         set_centre();
 }
 
@@ -358,12 +396,19 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
         c.place.slices().show_in_space(planes_shown);
 }
 
-void Viewport::Impl::draw_overlays(PanelContext& c) {
+void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
     if (has_content()) places.draw(c, {camera, rect});
+    if (model.surface() != nullptr) {
+        handles.draw(c, {camera, rect});
+        draw_edit_marks(c, {camera, rect}, over_view && !c.place.form());
+    }
     draw_toolbar(c);
     if (model.surface() == nullptr) draw_empty(c);
     if (!has_content()) return;
-    if (model.surface() != nullptr) brush.draw(c, camera, rect);
+    if (model.surface() != nullptr) {
+        brush.draw(c, camera, rect);
+        draw_role_card(c, {camera, rect});
+    }
     draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     compared.draw_labels(c.ui, area);
@@ -416,17 +461,21 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
                             view.compared.shift_to_model(rect, ImGui::GetIO().MousePos.x) == 0;
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (view.model.surface() != nullptr) view.handle_brush(c);
+    if (view.model.surface() != nullptr) {
+        view.handle_brush(c);
+        view.handles.update(c, {view.camera, view.rect});
+    }
     if (view.has_content()) view.handle_mouse(!c.place.can_paint());
     view.handle_keys(over);
     view.take_form(c);
+    view.follow_handles();
     view.pick_places(c, over_model, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
     ImGui::GetWindowDrawList()->AddImage(
         reinterpret_cast<ImTextureID>(std::uintptr_t{view.texture}), {rect.x, rect.y}, to, {0, 1},
         {1, 0});
-    view.draw_overlays(c);
+    view.draw_overlays(c, over);
     end_frame();
     if (sliced) view.slice_row.draw(c, {view.renderer, view.planes}, row);
 }

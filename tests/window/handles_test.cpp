@@ -1,0 +1,319 @@
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/remove_branch.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/model/branch_part.h"
+#include "workbench/window/model/crop_handles.h"
+#include "workbench/window/model/cut_handles.h"
+#include "workbench/window/model/handle.h"
+#include "workbench/window/model/length_handles.h"
+#include "workbench/window/model/opening_roles.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// From the front: x to the right, z up, half a millimetre a pixel, the origin in the middle.
+const PixelView kFront{.camera = {.half_height = 50.0}, .width = 400, .height = 200};
+
+bool near(const Vec3& a, const Vec3& b, double margin = 1e-6) {
+    return (a - b).norm() < margin;
+}
+
+void fill(OperationForm& form, const std::vector<FieldText>& texts) {
+    for (const FieldText& field : texts) form.set(field.parameter, field.text);
+}
+
+const Bounds kModel{.min = {0, 0, 0}, .max = {10, 20, 30}};
+
+/// The upper end of a tube of 4 mm radius, to be cut.
+struct TubeCut {
+    Surface tube = fine_tube(4, 30, 96);
+    OperationForm form{find_operation("clip-opening")};
+
+    TubeCut() { form.set("tip", "0,0,30"); }
+
+    [[nodiscard]] Cut find(const std::shared_ptr<const CutBranch>& known = nullptr) const {
+        return find_cut(tube, cut_question(form).value(), known);
+    }
+};
+
+double tilt_of(const std::vector<double>& planes) {
+    return std::acos(planes.at(8)) * 180 / std::numbers::pi;
+}
+
+}  // namespace
+
+SCENARIO("Handles follow the cursor as far as their paths allow", "[window][handles]") {
+    CHECK(kFront.place({10, 5, 20})->isApprox(ViewPixel(220, 60)));
+    CHECK(kFront.pixel_at({0, 0, 0}) == Approx(0.5));
+    Handle handle{.name = "a", .point = {0, 3, 0}};
+    GIVEN("a free one") {
+        CHECK(near(dragged_point(handle, kFront, {220, 80}), {10, 3, 10}));
+    }
+    GIVEN("one on a line") {
+        handle.path = HandlePath::Line;
+        CHECK(near(dragged_point(handle, kFront, {220, 80}), {0, 3, 10}));
+        THEN("it stays if the line is seen from its end") {
+            handle.direction = Vec3::UnitY();
+            CHECK(near(dragged_point(handle, kFront, {220, 80}), {0, 3, 0}));
+        }
+        THEN("it is under the cursor in perspective, too") {
+            PixelView view = kFront;
+            view.camera.perspective = true;
+            handle.direction = Vec3(1, 1, 1).normalized();
+            const ViewPixel to = *view.place(handle.point + 7.0 * handle.direction);
+            CHECK(near(dragged_point(handle, view, to), handle.point + 7.0 * handle.direction));
+        }
+    }
+    GIVEN("one on a track") {
+        handle.path = HandlePath::Track;
+        handle.track = {{0, 0, 0}, {0, 0, 20}, {20, 0, 20}};
+        CHECK(near(dragged_point(handle, kFront, {222, 50}), {11, 0, 20}));
+        CHECK(near(dragged_point(handle, kFront, {200, 190}), {0, 0, 0}));
+    }
+    GIVEN("one around a pivot") {
+        handle.path = HandlePath::Ball;
+        handle.point = {0, -10, 0};
+        CHECK(near(dragged_point(handle, kFront, {210, 100}), {5, -std::sqrt(75.0), 0}));
+        THEN("beside the ball it is on its outline") {
+            CHECK(near(dragged_point(handle, kFront, {300, 100}), {10, 0, 0}));
+        }
+        THEN("one on the far side stays there") {
+            handle.point = {0, 10, 0};
+            CHECK(near(dragged_point(handle, kFront, {210, 100}), {5, std::sqrt(75.0), 0}));
+        }
+    }
+}
+
+SCENARIO("The handle under the cursor is the nearest one within reach", "[window][handles]") {
+    const std::vector<Handle> handles = {{.name = "a", .point = {0, 0, 0}},
+                                         {.name = "b", .point = {5, 0, 0}},
+                                         {.name = "hidden", .point = {0, 9, 0}}};
+    CHECK(nearest_handle(handles, kFront, {203, 100}, 8) == 0U);
+    CHECK(nearest_handle(handles, kFront, {207, 100}, 8) == 1U);
+    CHECK_FALSE(nearest_handle(handles, kFront, {203, 120}, 8));
+}
+
+SCENARIO("A crop box is dragged by its faces and corners", "[window][handles]") {
+    OperationForm form(find_operation("crop"));
+    REQUIRE(has_region(form));
+    GIVEN("no region yet") {
+        const FormShape offered = crop_shape(form, kModel);
+        REQUIRE(offered.handles.size() == 14);
+        CHECK(offered.lines.front().faint);
+        CHECK(offered.handles[3].name == "crop.face.x1");
+        CHECK(offered.handles[3].point.x() > 10);
+        THEN("a drag makes a box that keeps the rest of the model") {
+            fill(form, crop_texts(form, kModel, 3, {6.004, 1, 1}));
+            const auto box = form.arguments().list("box");
+            CHECK(box[3] == 6.0);
+            CHECK(box[0] < 0);
+            CHECK(box[5] > 30);
+            CHECK_FALSE(crop_shape(form, kModel).lines.front().faint);
+        }
+    }
+    GIVEN("a typed box") {
+        form.set("box", "1,2,3,4,6,8");
+        CHECK(near(crop_shape(form, kModel).handles[0].point, {1, 4, 5.5}));
+        CHECK(crop_texts(form, kModel, 2, {9, 9, 3.25}) ==
+              std::vector<FieldText>{{"box", "1,2,3.25,4,6,8"}});
+        THEN("its last corner moves three faces") {
+            CHECK(crop_texts(form, kModel, 13, {5, 7, 9}) ==
+                  std::vector<FieldText>{{"box", "1,2,3,5,7,9"}});
+        }
+        THEN("a face cannot pass the other one") {
+            CHECK(crop_texts(form, kModel, 0, {7, 0, 0}) ==
+                  std::vector<FieldText>{{"box", "3.9,2,3,4,6,8"}});
+        }
+    }
+    GIVEN("half a box, as after the first of two clicks") {
+        form.set("box", "1,2,3");
+        CHECK(crop_shape(form, kModel).handles.empty());
+    }
+}
+
+SCENARIO("A crop ball is dragged by its centre and its outline", "[window][handles]") {
+    OperationForm form(find_operation("crop"));
+    form.set("centre", "1,2,3");
+    CHECK(crop_shape(form, kModel).lines.front().faint);
+    form.set("radius", "5");
+    const FormShape shape = crop_shape(form, kModel);
+    REQUIRE(shape.handles.size() == 7);
+    CHECK(shape.lines.size() == 3);
+    for (const RegionLine& line : shape.lines)
+        for (const Vec3& point : line.points) CHECK((point - Vec3(1, 2, 3)).norm() == Approx(5));
+    CHECK(near(shape.handles[4].point, {6, 2, 3}));
+    CHECK(crop_texts(form, kModel, 4, {8.5, 2, 3}) ==
+          std::vector<FieldText>{{"centre", "1,2,3"}, {"radius", "7.5"}});
+    CHECK(crop_texts(form, kModel, 0, {4, 4, 4}) ==
+          std::vector<FieldText>{{"centre", "4,4,4"}, {"radius", "5"}});
+    form.set("radius", "-5");
+    CHECK(crop_shape(form, kModel).lines.front().faint);
+    CHECK_FALSE(has_region(OperationForm(find_operation("smooth"))));
+}
+
+SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[window][handles]") {
+    OperationForm form(find_operation("extrude-opening"));
+    const auto patches = measure_patches(closed_tube(4, 30, 96, 10));
+    const std::vector<PatchMeasures> openings(patches.begin() + 1, patches.end());
+    const double diameter = 2 * std::sqrt(openings[1].area / std::numbers::pi);
+    REQUIRE(diameter == Approx(8).epsilon(0.002));
+    REQUIRE(has_lengths(form));
+    const FormShape shape = length_shape(form, openings);
+    REQUIRE(shape.handles.size() == 2);
+    CHECK(shape.handles[1].name == "length.outlet_1");
+    CHECK(near(shape.handles[1].point, {0, 0, 30 + 3 * diameter}));
+    CHECK_THAT(shape.notes[1].text, Contains("3 diameters"));
+    WHEN("it is dragged to 12.345 mm") {
+        fill(form, length_texts(form, openings, 1, {0.5, 0, 42.345}, 0.3));
+        CHECK(form.arguments().real("length") == Approx(12.35).margin(0.0051));
+        CHECK(form.field("diameters").text.empty());
+        CHECK(length_shape(form, openings).handles[0].point.z() == Approx(-12.35).margin(0.0051));
+    }
+    WHEN("it is dragged near two diameters") {
+        form.set("length", "5");
+        fill(form, length_texts(form, openings, 1, {0, 0, 30 + 2 * diameter + 0.2}, 0.3));
+        CHECK(form.field("diameters").text == "2");
+        CHECK(form.field("length").text.empty());
+    }
+    WHEN("it is dragged into the vessel") {
+        fill(form, length_texts(form, openings, 1, {0, 0, 10}, 0.3));
+        CHECK(form.arguments().real("length") == Approx(0.8).margin(0.01));
+    }
+    WHEN("one opening is named") {
+        form.set("opening", "inlet");
+        CHECK(length_shape(form, openings).handles.size() == 1);
+    }
+}
+
+SCENARIO("A cut stays perpendicular to the centerline while it slides", "[window][handles]") {
+    TubeCut tube;
+    tube.form.set("distance", "10");
+    const Cut cut = tube.find();
+    REQUIRE(cut.problem.empty());
+    CHECK(cut.diameter == Approx(8).epsilon(0.002));
+    CHECK(cut.area == Approx(std::numbers::pi * 16).epsilon(0.004));
+    CHECK(cut.plane.normal.z() == Approx(1).epsilon(1e-4));
+    CHECK(cut.plane.point.z() == Approx(20).margin(0.1));
+    CHECK(cut.tilt_deg < 1);
+    for (const Vec3& point : cut.ring)
+        CHECK(std::hypot(point.x(), point.y()) == Approx(4).epsilon(0.003));
+    const FormShape shape = cut_shape(tube.form, cut);
+    REQUIRE(shape.handles.size() == 2);
+    CHECK(near(shape.handles[0].point, {0, 0, 20}, 0.1));
+    CHECK_THAT(shape.notes.front().text, Contains("diameter 8.00 mm, area 50.2 mm\u00B2"));
+    WHEN("it is dragged") {
+        fill(tube.form, cut_texts(tube.form, cut, 0, {0, 0, 17}));
+        CHECK(tube.form.arguments().real("distance") == Approx(13).margin(0.1));
+        CHECK(near(cut_shape(tube.form, cut).handles[0].point, {0, 0, 17}, 0.1));
+        CHECK(tube.find(cut.branch).branch == cut.branch);
+    }
+    WHEN("it is dragged beyond the tip") {
+        fill(tube.form, cut_texts(tube.form, cut, 0, {0, 0, 50}));
+        CHECK(tube.form.arguments().real("distance") == Approx(0.01));
+    }
+    WHEN("the distance is typed") {
+        tube.form.set("distance", "5");
+        CHECK(near(cut_shape(tube.form, cut).handles[0].point, {0, 0, 25}, 0.1));
+    }
+}
+
+SCENARIO("A cut is tilted by its normal", "[window][handles]") {
+    TubeCut tube;
+    tube.form.set("distance", "10");
+    const Cut cut = tube.find();
+    const Vec3 at = cut.plane.point;
+    WHEN("it is hardly tilted") {
+        const auto texts = cut_texts(tube.form, cut, 1, at + Vec3(0.2, 0, 8));
+        CHECK(texts.front().parameter == "distance");
+        CHECK_FALSE(texts.front().text.empty());
+    }
+    WHEN("it is tilted by 30 degrees") {
+        fill(tube.form, cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4 * std::sqrt(3.0))));
+        const auto planes = tube.form.arguments().list("planes");
+        REQUIRE(planes.size() == 10);
+        CHECK(tilt_of(planes) == Approx(30).margin(0.01));
+        CHECK(tube.form.field("names").text == "outlet:outlet_1");
+        CHECK(tube.form.valid());
+        const Cut tilted = tube.find(cut.branch);
+        CHECK(tilted.tilt_deg == Approx(30).margin(1));
+        CHECK(tilted.area ==
+              Approx(std::numbers::pi * 16 / std::cos(std::numbers::pi / 6)).epsilon(0.005));
+        CHECK_THAT(cut_shape(tube.form, tilted).notes.front().text, Contains("tilted 30"));
+        THEN("it keeps its tilt when it slides") {
+            fill(tube.form, cut_texts(tube.form, tilted, 0, {0, 0, 15}));
+            const auto slid = tube.form.arguments().list("planes");
+            CHECK(slid[5] == Approx(15).margin(0.1));
+            CHECK(tilt_of(slid) == Approx(30).margin(1));
+        }
+        THEN("turned back it is perpendicular again") {
+            fill(tube.form, cut_texts(tube.form, tilted, 1, at + Vec3(0, 0, 8)));
+            CHECK(tube.form.field("planes").text.empty());
+            CHECK(tube.form.arguments().real("distance") == Approx(10).margin(0.1));
+        }
+    }
+    WHEN("it is tilted to the side") {
+        fill(tube.form, cut_texts(tube.form, cut, 1, at + Vec3(8, 0, 0)));
+        CHECK(tilt_of(tube.form.arguments().list("planes")) == Approx(60).margin(0.01));
+    }
+}
+
+SCENARIO("A cut that is not possible says why", "[window][handles]") {
+    TubeCut tube;
+    tube.form.set("distance", "100");
+    const Cut cut = tube.find();
+    CHECK_THAT(cut.problem, Contains("long"));
+    REQUIRE(cut.branch);
+    CHECK(cut_shape(tube.form, cut).handles.size() == 1);
+    tube.form.set("tip", "");
+    CHECK_FALSE(cut_question(tube.form));
+}
+
+SCENARIO("The lit part of a branch is what its removal cuts off", "[window][handles]") {
+    const std::string folder = temporary_folder();
+    REQUIRE(run_program(program_path(), {"phantom", "y", "--out", folder}).exit_code == 0);
+    const Surface y = read_surface(folder + "/exact.vtp").surface;
+    const auto graph = lines_to(y, {12, 0, 18}, 4, {});
+    const std::size_t tip = nearest_tip(*graph, {12, 0, 18}).value();
+    const Surface part = branch_part(y, graph->nodes[tip].position, kUsualMargin, {});
+    REQUIRE_FALSE(part.empty());
+    CHECK(measure(part).area == Approx(remove_branch(y, *graph, tip).removed_area));
+    CHECK(bounds(part).min.x() > -4);
+    CHECK(bounds(part).max.x() > 10);
+    CHECK(branch_part(fine_tube(4, 30, 24), {0, 0, 30}, kUsualMargin, {}).empty());
+}
+
+SCENARIO("An opening's role is text of the form", "[window][handles]") {
+    const Surface tube = closed_tube(4, 30, 24, 10);
+    const auto patches = measure_patches(tube);
+    OperationForm form(find_operation("clip-opening"));
+    REQUIRE(has_roles(form));
+    WHEN("the outlet becomes the inlet") {
+        form.set("kind", "outlet");
+        fill(form, role_texts(patches.at(2), PatchKind::Inlet, tube.patches));
+        CHECK(form.field("tip").text == "0,0,30");
+        CHECK(form.field("inlet").text == "0,0,30");
+        CHECK(form.field("kind").text.empty());
+    }
+    WHEN("the inlet becomes an outlet") {
+        fill(form, role_texts(patches.at(1), PatchKind::Outlet, tube.patches));
+        CHECK(form.field("kind").text == "outlet");
+        CHECK(form.field("name").text == "outlet_2");
+    }
+    CHECK(form.valid());
+    CHECK(with_name_switched("", "inlet") == "inlet");
+    CHECK(with_name_switched("inlet", "outlet_1") == "inlet,outlet_1");
+    CHECK(with_name_switched("inlet,outlet_1", "inlet") == "outlet_1");
+}

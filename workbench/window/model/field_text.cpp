@@ -1,0 +1,61 @@
+#include "workbench/window/model/field_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kStepsPerMm = 100.0;
+
+const FormField* find(const OperationForm& form, const std::string& parameter) {
+    const auto found = std::ranges::find_if(
+        form.fields(), [&](const FormField& field) { return field.parameter->name == parameter; });
+    return found == form.fields().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool has_field(const OperationForm& form, const std::string& parameter) {
+    return find(form, parameter) != nullptr;
+}
+
+std::optional<Value> value_of(const OperationForm& form, const std::string& parameter) {
+    const FormField* field = find(form, parameter);
+    if (field == nullptr || !field->active || field->text.empty() || !field->error.empty())
+        return std::nullopt;
+    return checked_value(*field->parameter, Value(field->text));
+}
+
+std::optional<double> number_of(const OperationForm& form, const std::string& parameter) {
+    const auto value = value_of(form, parameter);
+    if (!value) return std::nullopt;
+    if (const auto* whole = std::get_if<std::int64_t>(&*value)) return static_cast<double>(*whole);
+    return std::get<double>(*value);
+}
+
+std::optional<Vec3> point_of(const OperationForm& form, const std::string& parameter) {
+    const auto value = value_of(form, parameter);
+    return value ? std::optional(std::get<Vec3>(*value)) : std::nullopt;
+}
+
+std::vector<double> list_of(const OperationForm& form, const std::string& parameter) {
+    const auto value = value_of(form, parameter);
+    return value ? std::get<std::vector<double>>(*value) : std::vector<double>();
+}
+
+std::string text_of(const OperationForm& form, const std::string& parameter) {
+    const FormField* field = find(form, parameter);
+    return field == nullptr || !field->active || !field->error.empty() ? "" : field->text;
+}
+
+double rounded_length(double millimetres) {
+    return std::round(millimetres * kStepsPerMm) / kStepsPerMm + 0.0;  // 0 instead of -0
+}
+
+Vec3 rounded_place(const Vec3& point) {
+    return point.unaryExpr([](double part) { return rounded_length(part); });
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/window/model/operation_form.h"
+
+namespace vesselbench {
+
+/// A text for a parameter of a form; an empty one takes the value away.
+struct FieldText {
+    std::string parameter;
+    std::string text;
+
+    bool operator==(const FieldText&) const = default;
+};
+
+/// True if the form's operation has the parameter.
+[[nodiscard]] bool has_field(const OperationForm& form, const std::string& parameter);
+
+/// The value of a field; none if there is no such field, or it is empty, wrong or without effect.
+[[nodiscard]] std::optional<Value> value_of(const OperationForm& form,
+                                            const std::string& parameter);
+
+[[nodiscard]] std::optional<double> number_of(const OperationForm& form,
+                                              const std::string& parameter);
+[[nodiscard]] std::optional<Vec3> point_of(const OperationForm& form, const std::string& parameter);
+
+/// Empty if it is not given.
+[[nodiscard]] std::vector<double> list_of(const OperationForm& form, const std::string& parameter);
+
+/// The typed text, or an empty one.
+[[nodiscard]] std::string text_of(const OperationForm& form, const std::string& parameter);
+
+/// A length or a coordinate as a drag fills it in: in steps of 0.01 mm, finer than a pixel of most
+/// views and short enough to be read.
+[[nodiscard]] double rounded_length(double millimetres);
+[[nodiscard]] Vec3 rounded_place(const Vec3& point);
+
+}  // namespace vesselbench

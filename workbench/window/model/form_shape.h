@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "workbench/window/model/field_text.h"
+#include "workbench/window/model/handle.h"
+#include "workbench/window/model/region_lines.h"
+
+namespace vesselbench {
+
+/// A text beside a point of the view.
+struct ViewNote {
+    Vec3 point = Vec3::Zero();  ///< [mm]
+    std::string text;
+};
+
+/// What a form shows in the view, and what can be dragged there.
+struct FormShape {
+    std::vector<RegionLine> lines;
+    std::vector<Handle> handles;
+    std::vector<ViewNote> notes;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,101 @@
+#include "workbench/window/model/length_handles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/case/measure_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kLeastShare = 0.1;  ///< of a diameter: what a drag cannot go below [-]
+constexpr int kRails = 4;            ///< lines along a tube
+
+std::vector<std::string> named_in(const std::string& text) {
+    std::vector<std::string> names;
+    std::istringstream list(text);
+    for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    return names;
+}
+
+double default_diameters(const OperationForm& form) {
+    const auto& otherwise = form.field("diameters").parameter->default_value;
+    if (!otherwise) return 0.0;
+    const auto* whole = std::get_if<std::int64_t>(&*otherwise);
+    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(*otherwise);
+}
+
+double length_at(const OperationForm& form, const PatchMeasures& opening) {
+    if (const auto length = number_of(form, "length")) return *length;
+    return number_of(form, "diameters").value_or(default_diameters(form)) *
+           diameter_of_area(opening.area);
+}
+
+/// "12 mm = 3 diameters"
+std::string length_text(double length, double diameter) {
+    return formatted(length, "%.4g mm = ") + formatted(length / diameter, "%.3g diameters");
+}
+
+void add_tube(std::vector<RegionLine>& lines, const PatchMeasures& opening, double length) {
+    const double radius = diameter_of_area(opening.area) / 2;
+    const Vec3 along = length * opening.normal;
+    const RegionLine start = circle_line(opening.centroid, opening.normal, radius);
+    RegionLine end = start;
+    for (Vec3& point : end.points) point += along;
+    const std::size_t step = start.points.size() / kRails;
+    for (std::size_t i = 0; i < start.points.size(); i += step)
+        lines.push_back({.points = {start.points[i], end.points[i]}});
+    lines.push_back(std::move(end));
+}
+
+}  // namespace
+
+bool has_lengths(const OperationForm& form) {
+    return has_field(form, "opening") && has_field(form, "diameters") && has_field(form, "length");
+}
+
+std::vector<PatchMeasures> lengthened_openings(const OperationForm& form,
+                                               const std::vector<PatchMeasures>& openings) {
+    const std::vector<std::string> names = named_in(text_of(form, "opening"));
+    std::vector<PatchMeasures> chosen;
+    std::ranges::copy_if(openings, std::back_inserter(chosen), [&](const PatchMeasures& opening) {
+        const bool open = opening.kind == PatchKind::Inlet || opening.kind == PatchKind::Outlet;
+        return names.empty() ? open : std::ranges::count(names, opening.name) > 0;
+    });
+    return chosen;
+}
+
+FormShape length_shape(const OperationForm& form, const std::vector<PatchMeasures>& openings) {
+    FormShape shape;
+    if (!text_of(form, "lengths").empty()) return shape;
+    for (const PatchMeasures& opening : lengthened_openings(form, openings)) {
+        const double length = length_at(form, opening);
+        const Vec3 end = opening.centroid + length * opening.normal;
+        add_tube(shape.lines, opening, length);
+        shape.handles.push_back({.name = "length." + opening.name,
+                                 .point = end,
+                                 .path = HandlePath::Line,
+                                 .direction = opening.normal,
+                                 .help = "Lengthen " + opening.name + " along its axis"});
+        shape.notes.push_back({end, length_text(length, diameter_of_area(opening.area))});
+    }
+    return shape;
+}
+
+std::vector<FieldText> length_texts(const OperationForm& form,
+                                    const std::vector<PatchMeasures>& openings, std::size_t handle,
+                                    const Vec3& to, double snap) {
+    const PatchMeasures opening = lengthened_openings(form, openings).at(handle);
+    const double diameter = diameter_of_area(opening.area);
+    const double length =
+        std::max(opening.normal.dot(to - opening.centroid), kLeastShare * diameter);
+    const double whole = std::round(length / diameter);
+    if (whole >= 1.0 && std::abs(length - whole * diameter) <= snap)
+        return {{"diameters", to_text(Value(whole))}, {"length", ""}};
+    return {{"diameters", ""}, {"length", to_text(Value(rounded_length(length)))}};
+}
+
+}  // namespace vesselbench

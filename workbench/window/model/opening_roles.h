@@ -1,0 +1,20 @@
+#pragma once
+
+#include "geometry/kernel/measure.h"
+#include "workbench/window/model/field_text.h"
+
+namespace vesselbench {
+
+/// True for operations that can change the role of an opening.
+[[nodiscard]] bool has_roles(const OperationForm& form);
+
+/// Texts by which an opening becomes the inlet, and the inlet so far an outlet; or an outlet, with
+/// a free name if it was none.
+/// \param patches of the surface
+[[nodiscard]] std::vector<FieldText> role_texts(const PatchMeasures& opening, PatchKind role,
+                                                const std::vector<Patch>& patches);
+
+/// A list of names, separated by commas, with a name added or taken away.
+[[nodiscard]] std::string with_name_switched(const std::string& list, const std::string& name);
+
+}  // namespace vesselbench

@@ -1,0 +1,58 @@
+#include "workbench/window/view/branch_highlight.h"
+
+#include "workbench/window/model/branch_part.h"
+#include "workbench/window/model/field_text.h"
+
+namespace vesselbench {
+
+namespace {
+
+const Colour kLit(0.95F, 0.42F, 0.08F);
+
+bool removes_branch(const OperationForm& form) {
+    return has_field(form, "tip") && has_field(form, "margin") && has_field(form, "continuity");
+}
+
+}  // namespace
+
+void BranchHighlight::clear() {
+    if (drawn_) ++version_;
+    drawn_.reset();
+}
+
+void BranchHighlight::update(const OperationForm* form, const Surface* surface,
+                             const std::optional<Vec3>& hovered) {
+    std::optional<Question> now;
+    if (form != nullptr && surface != nullptr && removes_branch(*form))
+        if (const auto tip = hovered ? hovered : point_of(*form, "tip"))
+            now = Question{*tip, number_of(*form, "margin").value_or(kUsualMargin)};
+    if (!now) {
+        if (asked_) task_.forget();
+        asked_.reset();
+        clear();
+        return;
+    }
+    if (const auto answer = task_.take()) {
+        clear();
+        if (*answer) drawn_ = std::make_shared<const DrawnSurface>(**answer);
+        ++version_;
+    }
+    if (asked_ == now && positions_ == surface->positions) return;
+    if (positions_ != surface->positions) clear();
+    asked_ = now;
+    positions_ = surface->positions;
+    task_.begin(
+        [surface = *surface, ask = *now](const Progress& progress) -> std::optional<DrawingArrays> {
+            const Surface part = branch_part(surface, ask.tip, ask.margin, progress);
+            if (part.empty()) return std::nullopt;
+            return prepare_drawing(part);
+        });
+}
+
+void BranchHighlight::add_to(Layers& layers, double pull) const {
+    if (!drawn_) return;
+    layers.surfaces.push_back(
+        {.source = drawn_, .base = kLit, .back = kLit, .pull = pull, .highlighted = true});
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/screen_places.h"
+
+namespace vesselbench {
+
+/// Marks where the edit was made that is pointed at in the rail or in the view.
+/// \param over the cursor is over the view, and points at nothing else there
+void draw_edit_marks(PanelContext& context, const OnScreen& screen, bool over);
+
+}  // namespace vesselbench

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/screen_places.h"
+
+namespace vesselbench {
+
+/// Asks for the role of the opening that was clicked, beside it; nothing if none was.
+void draw_role_card(PanelContext& context, const OnScreen& screen);
+
+}  // namespace vesselbench

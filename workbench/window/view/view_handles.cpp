@@ -1,0 +1,173 @@
+#include "workbench/window/view/view_handles.h"
+
+#include <imgui.h>
+
+#include "workbench/window/model/crop_handles.h"
+#include "workbench/window/model/cut_handles.h"
+#include "workbench/window/model/length_handles.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kReach = 0.85;  ///< a cursor so near to a handle is over it [em]
+constexpr double kSnap = 0.4;    ///< a dragged length so near to a detent goes there [em]
+
+const Surface* model_of(const PanelContext& c) {
+    const Scene* scene = c.place.document.current();
+    return scene != nullptr && scene->surface && !scene->surface->empty() ? &*scene->surface
+                                                                          : nullptr;
+}
+
+PixelView pixels_of(const OnScreen& screen) {
+    return {screen.camera, screen.rect.width, screen.rect.height};
+}
+
+ViewPixel cursor_in(const ScreenRect& rect) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return {mouse.x - rect.x, mouse.y - rect.y};
+}
+
+void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colour) {
+    if (look == HandleLook::Square)
+        draw.AddRectFilled({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, colour,
+                           radius / 4);
+    else
+        draw.AddCircleFilled(at, radius, colour);
+}
+
+}  // namespace
+
+// --- what is shown
+
+void ViewHandles::take_model(const PanelContext& c) {
+    const Surface* model = model_of(c);
+    if (model == nullptr) {
+        positions_.reset();
+        openings_.clear();
+        return;
+    }
+    if (positions_ != model->positions) {
+        positions_ = model->positions;
+        bounds_ = bounds(*model);
+    }
+    if (!c.place.document.previewed() && !c.place.searches_places())
+        openings_ = c.place.surface_places().openings;
+}
+
+void ViewHandles::take_shape(const PanelContext& c) {
+    const auto& form = c.place.form();
+    const Surface* model = model_of(c);
+    const bool cuts = form && model != nullptr && has_cut(*form);
+    search_.update(model, cuts ? cut_question(*form) : std::nullopt);
+    shape_ = {};
+    if (!form || model == nullptr) return;
+    if (has_region(*form))
+        shape_ = crop_shape(*form, bounds_);
+    else if (has_lengths(*form))
+        shape_ = length_shape(*form, openings_);
+    else if (search_.cut())
+        shape_ = cut_shape(*form, *search_.cut());
+    if (!c.place.armed().empty()) shape_.handles.clear();
+}
+
+// --- dragging
+
+void ViewHandles::find_hot(const PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
+    hot_.reset();
+    const bool pressed = ImGui::IsItemActive() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    if (pressed || (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()))
+        hot_ = nearest_handle(shape_.handles, view, cursor, kReach * c.ui.em);
+}
+
+void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
+    start_ = {.index = *hot_,
+              .handle = shape_.handles[*hot_],
+              .cut = search_.cut(),
+              .cursor = cursor,
+              .offset = cursor - view.place(shape_.handles[*hot_].point).value_or(cursor)};
+    c.place.begin_drag();
+    state_ = State::Dragging;
+}
+
+std::vector<FieldText> ViewHandles::texts(const OperationForm& before, const Vec3& to,
+                                          double snap) const {
+    if (has_region(before)) return crop_texts(before, bounds_, start_.index, to);
+    if (has_lengths(before)) return length_texts(before, openings_, start_.index, to, snap);
+    return start_.cut ? cut_texts(before, *start_.cut, start_.index, to) : std::vector<FieldText>();
+}
+
+void ViewHandles::follow(PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
+    if (cursor == start_.cursor) return;
+    const Vec3 to = dragged_point(start_.handle, view, cursor - start_.offset);
+    const double snap = kSnap * c.ui.em * view.pixel_at(to);
+    c.place.drag(texts(*c.place.before_drag(), to, snap));
+}
+
+void ViewHandles::update(PanelContext& c, const OnScreen& screen) {
+    take_model(c);
+    take_shape(c);
+    const PixelView view = pixels_of(screen);
+    const ViewPixel cursor = cursor_in(screen.rect);
+    if (state_ == State::Idle) {
+        find_hot(c, view, cursor);
+        if (hot_ && ImGui::IsItemActive() && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+            begin(c, view, cursor);
+        return;
+    }
+    if (state_ == State::Dragging && !c.place.before_drag()) state_ = State::Dropped;
+    if (state_ == State::Dragging) {
+        follow(c, view, cursor);
+        take_shape(c);
+    }
+    if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
+    c.place.end_drag();
+    state_ = State::Idle;
+}
+
+Positions ViewHandles::beyond(const OnScreen& screen) const {
+    Positions places;
+    bool outside = false;
+    for (const Handle& handle : shape_.handles) {
+        const auto seen = project(screen.camera, screen.aspect(), handle.point);
+        outside = outside || !seen || seen->head<2>().cwiseAbs().maxCoeff() > 1.0;
+        places.push_back(handle.point);
+    }
+    return outside ? places : Positions();
+}
+
+// --- drawing
+
+void ViewHandles::draw_handle(PanelContext& c, const OnScreen& screen, std::size_t index) const {
+    const Handle& handle = shape_.handles[index];
+    const auto place = screen.place(handle.point);
+    if (!place) return;
+    const bool lit = state_ == State::Dragging ? start_.index == index : hot_ == index;
+    const float radius = c.ui.em * (lit ? 0.48F : 0.38F);
+    const ImVec2 at{place->x(), place->y()};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    fill(draw, handle.look, at, radius + c.ui.em * 0.1F, paint(0x101418, 200));
+    fill(draw, handle.look, at, radius, paint(0xFFFFFF));
+    fill(draw, handle.look, at, radius - c.ui.em * 0.1F, lit ? c.ui.theme.accent : paint(0xE07A10));
+    if (handle.look == HandleLook::Ring)
+        fill(draw, handle.look, at, radius * 0.4F, paint(0xFFFFFF));
+    c.ui.item(handle.name, ScreenRect{at.x - radius, at.y - radius, 2 * radius, 2 * radius});
+}
+
+void ViewHandles::draw(PanelContext& c, const OnScreen& screen) const {
+    for (std::size_t i = 0; i < shape_.handles.size(); ++i) draw_handle(c, screen, i);
+    for (const ViewNote& note : shape_.notes)
+        if (const auto at = screen.place(note.point))
+            draw_plate(c.ui, {at->x() + c.ui.em * 1.1F, at->y()}, note.text);
+    if (!c.place.armed().empty() || c.place.searches_places()) return;
+    const std::optional<Cut>& cut = search_.cut();
+    if (cut && !cut->problem.empty()) return draw_hint(c.ui, screen.rect, cut->problem);
+    if (state_ == State::Idle && !hot_) return;
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (state_ == State::Dragging)
+        draw_hint(c.ui, screen.rect, start_.handle.help + "    Esc: as it was");
+    else if (hot_ && *hot_ < shape_.handles.size())
+        draw_hint(c.ui, screen.rect, shape_.handles[*hot_].help);
+}
+
+}  // namespace vesselbench
