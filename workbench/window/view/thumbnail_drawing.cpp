@@ -8,6 +8,7 @@
 
 #include "gpu/picture.h"
 #include "gpu/render/coarse_surface.h"
+#include "gpu/render/drawn_surface.h"
 
 namespace vesselbench {
 

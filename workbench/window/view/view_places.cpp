@@ -48,6 +48,12 @@ Eigen::Vector2f mouse() {
     return {place.x, place.y};
 }
 
+/// What is armed, unless it is picked in slices only.
+std::optional<PickTarget> target_in_view(const Workplace& place) {
+    const std::optional<PickTarget> target = place.armed_target();
+    return target && !is_in_slices(*target) ? target : std::nullopt;
+}
+
 }  // namespace
 
 ViewPlaces::ViewPlaces(Renderer& renderer, std::function<void()> wake)
@@ -97,8 +103,7 @@ void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
 void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
     const SurfacePlaces& places = c.place.surface_places();
-    std::optional<PickTarget> target = c.place.armed_target();
-    if (target && is_in_slices(*target)) target.reset();
+    const std::optional<PickTarget> target = target_in_view(c.place);
     if (seen.clicked) {
         clicked_ = mouse();
         c.place.forget_role_question();

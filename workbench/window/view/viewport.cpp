@@ -10,7 +10,6 @@
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
 #include "workbench/window/keys.h"
-#include "workbench/window/model/region_lines.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/branch_highlight.h"
@@ -205,10 +204,7 @@ void Viewport::Impl::take_slices(PanelContext& c) {
 /// What the form describes.
 void Viewport::Impl::take_form(PanelContext& c) {
     const auto& form = c.place.form();
-    if (form && model.surface() != nullptr)
-        region.show(handles.lines());
-    else
-        region.show(form && has_content() ? region_lines(*form) : std::vector<RegionLine>());
+    region.show(form && has_content() ? handles.lines() : std::vector<RegionLine>());
     const bool previews = c.place.document.previewed().has_value();
     branch.update(form && !previews ? &*form : nullptr, model.surface(), places.spot());
 }
@@ -397,9 +393,11 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
-    if (has_content()) places.draw(c, {camera, rect});
-    if (model.surface() != nullptr) {
+    if (has_content()) {
+        places.draw(c, {camera, rect});
         handles.draw(c, {camera, rect});
+    }
+    if (model.surface() != nullptr) {
         draw_edit_marks(c, {camera, rect}, over_view && !c.place.form());
     }
     draw_toolbar(c);
@@ -461,11 +459,11 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
                             view.compared.shift_to_model(rect, ImGui::GetIO().MousePos.x) == 0;
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (view.model.surface() != nullptr) {
-        view.handle_brush(c);
+    if (view.model.surface() != nullptr) view.handle_brush(c);
+    if (view.has_content()) {
         view.handles.update(c, {view.camera, view.rect});
+        view.handle_mouse(!c.place.can_paint());
     }
-    if (view.has_content()) view.handle_mouse(!c.place.can_paint());
     view.handle_keys(over);
     view.take_form(c);
     view.follow_handles();
