@@ -262,6 +262,31 @@ SCENARIO("Lines, marks and slices are as large as stated", "[gpu][render]") {
     }
 }
 
+SCENARIO("A slice has holes where it has no value or no label", "[gpu][render]") {
+    const auto test = render_test(kSide);
+    if (!test) return;
+    const auto shown = [&](const std::vector<float>& values, bool labels) {
+        const SliceScalars scalars{.corner = kCentre + Vec3(-5, 0, 5),
+                                   .across = Vec3(10, 0, 0),
+                                   .down = Vec3(0, 0, -10),
+                                   .columns = 2,
+                                   .rows = 2,
+                                   .values = values};
+        const SliceLayer layer{.slice = std::make_shared<DrawnSlice>(scalars),
+                               .level = 10.0,
+                               .smooth = false,
+                               .labels = labels};
+        return test->picture(view_on(kCentre), {.slices = {layer}});
+    };
+    const double quarter = pixels(25.0);
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    CHECK(covered_pixels(shown({0.0F, none, none, none}, false)) == Approx(quarter).epsilon(0.03));
+    const Picture labels = shown({0.0F, 1.0F, 2.0F, 13.0F}, true);
+    CHECK(covered_pixels(labels) == Approx(3.0 * quarter).epsilon(0.03));
+    CHECK(pixels_of(labels, category_colour(1)) == Approx(2.0 * quarter).epsilon(0.03));
+    CHECK(pixels_of(labels, category_colour(2)) == Approx(quarter).epsilon(0.03));
+}
+
 SCENARIO("An endoscopic view shows the wall all round", "[gpu][render]") {
     const auto test = render_test(kSide);
     if (!test) return;

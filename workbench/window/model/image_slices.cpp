@@ -70,7 +70,10 @@ bool ImageSlices::update(const Scene* scene) {
         else if (!same_voxels(image_, *scene->image) || !same_mask(mask_, scene->mask))
             take_image(*scene->image, *scene);
         take_surface(scene->surface);
-        if (!had_image && has_image() && !surface_) row_ = true, space_.fill(true);
+        if (!had_image && has_image() && !surface_) {
+            row_ = true;
+            space_.fill(true);
+        }
     }
     const bool changed = take_made();
     if (!next_.valid()) start();

@@ -42,12 +42,11 @@ constexpr std::array<KeyHelp, 5> kBrushing = {{{"Left drag", "brush on the surfa
                                                {"Shift+left drag", "smooth, whatever the brush"},
                                                {"Ctrl+left drag", "the opposite"}}};
 
-constexpr std::array<KeyHelp, 7> kSlices = {{{"I", "slices of the image"},
+constexpr std::array<KeyHelp, 6> kSlices = {{{"I", "slices of the image"},
                                              {"Shift+I", "its planes in the 3D view"},
                                              {"Left drag", "move the cross"},
                                              {"Right drag", "window and level"},
                                              {"Wheel", "next slice; with Ctrl, zoom"},
-                                             {"Middle or Shift+left drag", "move"},
                                              {"Home", "show all of a slice"}}};
 
 template <std::size_t N>

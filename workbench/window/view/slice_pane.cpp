@@ -216,6 +216,20 @@ void SlicePane::draw_marks(const PanelContext& c, const Ui& ui) const {
     }
 }
 
+/// Whether the plane is shown in the 3D view.
+void SlicePane::draw_switch(PanelContext& c) const {
+    const std::string name = std::string("slice.") + axes_of(plane_).key + ".space";
+    const float side = ImGui::GetFrameHeight(), gap = c.ui.grid(0.5F);
+    const ImVec2 at{rect_.x + rect_.width - side - gap, rect_.y + gap};
+    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                              faded(c.ui.theme.panel, 0.9),
+                                              ImGui::GetStyle().FrameRounding);
+    ImGui::SetCursorScreenPos(at);
+    const bool shown = c.place.slices().in_space(plane_);
+    if (icon_button(c.ui, name, icons::kPreview, "Shown in the 3D view", true, shown))
+        c.place.slices().show_in_space(plane_, !shown);
+}
+
 /// \param rect below the picture
 void SlicePane::draw_slider(PanelContext& c, const ScreenRect& rect) const {
     const std::string name = std::string("slice.") + axes_of(plane_).key + ".slider";
@@ -241,7 +255,7 @@ void SlicePane::draw_slider(PanelContext& c, const ScreenRect& rect) const {
 
 void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect& rect) {
     const std::string key = std::string("slice.") + axes_of(plane_).key;
-    const float slider = c.ui.em * 1.2F, side = ImGui::GetFrameHeight();
+    const float slider = c.ui.em * 1.2F;
     rect_ = {rect.x, rect.y, std::max(1.0F, rect.width), std::max(1.0F, rect.height - slider)};
     begin_frame(c.ui, key, rect, {.back = kBack, .padding = 0, .scrolls = false});
     place_camera(c.place.slices());
@@ -260,13 +274,7 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     draw_cross(overlay, c.place.slices());
     draw_texts(c, overlay);
     draw_marks(c, overlay);
-    ImGui::SetCursorScreenPos(
-        {rect.x + rect.width - side - c.ui.grid(0.5F), rect.y + c.ui.grid(0.5F)});
-    ImGui::PushStyleColor(ImGuiCol_Text, overlay.theme.text);
-    const bool shown = c.place.slices().in_space(plane_);
-    if (icon_button(c.ui, key + ".space", icons::kPreview, "Shown in the 3D view", true, shown))
-        c.place.slices().show_in_space(plane_, !shown);
-    ImGui::PopStyleColor();
+    draw_switch(c);
     draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
     end_frame();
 }

@@ -50,6 +50,7 @@ private:
     void draw_cross(const Ui& ui, const ImageSlices& slices) const;
     void draw_texts(PanelContext& c, const Ui& ui) const;
     void draw_marks(const PanelContext& c, const Ui& ui) const;
+    void draw_switch(PanelContext& c) const;
     void draw_slider(PanelContext& c, const ScreenRect& rect) const;
     [[nodiscard]] Vec3 place_of(const Eigen::Vector2d& ndc) const;
 

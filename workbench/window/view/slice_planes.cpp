@@ -129,7 +129,7 @@ Layers SlicePlanes::alone(SlicePlane plane, double width) const {
     const Drawn& drawn = planes_[static_cast<std::size_t>(plane)];
     if (!drawn.image) return layers;
     add_slices(layers, drawn, plane);
-    add_outline(layers, drawn, 1.5 * width);
+    add_outline(layers, drawn, 2 * width);
     return layers;
 }
 

@@ -32,7 +32,7 @@ std::string pointed_words(const ImageSlices& slices, const Vec3& point) {
     if (!value) return "";
     const auto label = slices.label_at(point);
     std::string words = place_words(point) + ":  ";
-    if (!slices.shows_labels()) words += formatted(*value, "%.6g");
+    if (!slices.shows_labels()) words += formatted(*value, "%.5g");
     if (slices.has_mask() && label) words += ", ";
     if (label) words += "label " + std::to_string(*label);
     if (slices.shows_labels() && !label) words += "no label";
@@ -41,7 +41,6 @@ std::string pointed_words(const ImageSlices& slices, const Vec3& point) {
 
 void toggle(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
             bool& on) {
-    ImGui::SameLine(0, c.ui.grid(0.25F));
     if (icon_button(c.ui, name, icon, help, true, on)) on = !on;
 }
 
@@ -86,9 +85,11 @@ void SliceRow::draw_grey(PanelContext& c) {
 
 void SliceRow::draw_toggles(PanelContext& c) const {
     ImageSlices& slices = c.place.slices();
+    ImGui::SameLine(0, c.ui.grid(2));
     toggle(c, "slices.outline", icons::kVessel, "The surface's outline", slices.outline_shown);
-    if (slices.has_mask())
-        toggle(c, "slices.mask", icons::kPalette, "The mask in colour", slices.mask_shown);
+    if (!slices.has_mask()) return;
+    ImGui::SameLine(0, c.ui.grid(0.25F));
+    toggle(c, "slices.mask", icons::kPalette, "The mask in colour", slices.mask_shown);
 }
 
 /// The place under the cursor, right-aligned.

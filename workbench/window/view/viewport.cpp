@@ -426,14 +426,17 @@ void Viewport::Impl::draw_empty(PanelContext& c) const {
     const std::string words = scene == nullptr || model.pending() ? "Reading the model"
                               : image                             ? "The image has no surface yet"
                                                                   : "The case is empty";
-    const float width = ImGui::CalcTextSize(words.c_str()).x;
-    const float x = rect.x + rect.width / 2;
-    const float y = has_content() ? rect.y + rect.height - c.ui.em * 2 : rect.y + rect.height / 2;
-    ImGui::SetCursorScreenPos({x - width / 2, y - c.ui.em * 2});
-    text(c.ui, words, c.ui.theme.text);
-    if (!image) return;
-    const float wide = c.ui.em * 12;
-    ImGui::SetCursorScreenPos({x - wide / 2, y - c.ui.em * 0.5F});
+    const float width = ImGui::CalcTextSize(words.c_str()).x, wide = c.ui.em * 12;
+    const float x = rect.x + rect.width / 2, y = rect.y + rect.height / 2;
+    if (has_content()) {  // the image's planes; beside them
+        ImGui::SetCursorScreenPos(
+            {rect.x + rect.width - wide - c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)});
+    } else {
+        ImGui::SetCursorScreenPos({x - width / 2, y - c.ui.em * 2});
+        text(c.ui, words, c.ui.theme.text);
+        ImGui::SetCursorScreenPos({x - wide / 2, y - c.ui.em * 0.5F});
+    }
+    if (!image || c.place.form()) return;
     if (button(c.ui, "view.extract", "Extract surface", {.primary = true, .width = wide}))
         c.place.choose("extract-surface");
 }
