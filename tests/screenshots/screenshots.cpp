@@ -216,7 +216,7 @@ void forms(Photographer& p) {
 void places(Photographer& p) {
     p.click("rail.openings");
     p.click("choose.clip-opening");
-    p.click("field.at.pick");
+    p.click("field.tip.pick");
     p.wait();
     p.rest_mouse();
     p.take("picking");
