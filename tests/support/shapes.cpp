@@ -8,8 +8,6 @@
 
 #include <stdlib.h>
 
-#include "tests/support/paths.h"
-#include "tests/support/skip.h"
 #include "tests/support/surface_facts.h"
 
 namespace vesselbench::test {
@@ -218,14 +216,6 @@ Surface sphere_shell(double radius, double thickness, int levels) {
 
 Eigen::Matrix3d skew_rotation() {
     return Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
-}
-
-std::string shared_data(const std::string& name) {
-    const auto path =
-        std::filesystem::path(test::source_folder()).parent_path() / "shared" / "data" / name;
-    if (std::filesystem::exists(path)) return path.string();
-    skip("no ../shared/data/" + name);
-    return {};
 }
 
 std::string temporary_folder() {

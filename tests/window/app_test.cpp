@@ -1,7 +1,6 @@
 #include "workbench/window/app.h"
 
 #include <filesystem>
-#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -203,39 +202,4 @@ SCENARIO("An idle window does not draw its model again", "[window][app]") {
     CHECK(shell->app().drawings() == drawings);
     REQUIRE(shell->click_item("view.edges"));
     CHECK(shell->app().drawings() > drawings);
-}
-
-SCENARIO("Random clicks and keys do no harm", "[window][app]") {
-    const auto shell = test_shell();
-    if (!shell) return;
-    open_and_wait(*shell, tube_file(12));
-    std::mt19937 random(7);  // any seed
-    const auto below = [&](int limit) { return static_cast<int>(random() % unsigned(limit)); };
-    const auto end = std::chrono::steady_clock::now() + 5s;
-    while (std::chrono::steady_clock::now() < end) {
-        const auto x = static_cast<float>(below(1280)), y = static_cast<float>(below(720));
-        switch (below(8)) {
-            case 0:
-                shell->type(std::to_string(below(50)));
-                break;
-            case 1:
-                shell->press_key(below(2) == 0 ? keys::kEscape : keys::kEnter);
-                break;
-            case 2:
-                shell->press_key(keys::letter('Z'), {.control = true, .shift = below(2) == 0});
-                break;
-            case 3:
-                shell->drag(x, y, x + 40, y - 20,
-                            below(2) == 0 ? MouseButton::Left : MouseButton::Middle);
-                break;
-            case 4:
-                shell->move_mouse(x, y);
-                shell->wheel(below(2) == 0 ? 1.0F : -1.0F);
-                break;
-            default:
-                shell->click(x, y);
-        }
-    }
-    shell->app().place().document.cancel();
-    CHECK(wait_until_idle(*shell));
 }

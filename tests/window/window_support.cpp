@@ -32,7 +32,9 @@ std::string tube_file(int around) {
 
 std::unique_ptr<OffscreenShell> test_shell() {
     try {
-        return std::make_unique<OffscreenShell>(app_options(), 1280, 720);
+        return std::make_unique<OffscreenShell>(
+            app_options(), 1280, 720,
+            [](const std::string& text) { FAIL_CHECK("OpenGL reported: " << text); });
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return nullptr;

@@ -17,7 +17,8 @@ namespace vesselbench::test {
 /// \param around vertices around it, a multiple of 6
 [[nodiscard]] std::string tube_file(int around = 24);
 
-/// A shell of 1280 x 720; null where there is no OpenGL: the scenario counts as skipped.
+/// A shell of 1280 x 720, whose OpenGL errors fail the test; null where there is no OpenGL: the
+/// scenario counts as skipped.
 [[nodiscard]] std::unique_ptr<OffscreenShell> test_shell();
 
 /// Opens a file and waits for it.

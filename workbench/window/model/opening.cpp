@@ -120,13 +120,15 @@ Opened open_case(const OpenRequest& request, const SessionOptions& options,
 Opening::Opening(OpenRequest request, SessionOptions options, std::function<void()> notify)
     : request_(std::move(request)) {
     thread_ = std::thread([this, options = std::move(options), notify = std::move(notify)] {
-        std::exception_ptr error;
-        if (job_->begin()) try {
+        if (job_->begin()) {
+            std::exception_ptr error;
+            try {
                 result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
             } catch (...) {
                 error = std::current_exception();
             }
-        job_->end(error);
+            job_->end(error);
+        }
         if (notify) notify();
     });
 }

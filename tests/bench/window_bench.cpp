@@ -1,0 +1,211 @@
+// Times the window without a display, and prints a row each: start-up, frames while a surface of
+// 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight.
+//   bench_window PROGRAM                        all of these
+//   bench_window PROGRAM --clicks SECONDS [SEEDS]   longest frames under random input instead
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/stopwatch.h"
+#include "tests/support/shapes.h"
+#include "tests/window/random_user.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/shell/offscreen_shell.h"
+#include "workbench/window/view/screen_places.h"
+
+namespace vesselbench::bench {
+
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+constexpr int kAround = 252;        // vertices around the tube: about 200,000 triangles
+constexpr double kLongest = 250.0;  // of a frame under random input [ms]
+
+/// A shell whose files are all in one temporary folder.
+struct Bench {
+    fs::path program;
+    fs::path home = test::temporary_folder();
+
+    [[nodiscard]] AppOptions options() const {
+        AppOptions options{.settings = home, .documents = home};
+        options.session.find = find_operation;
+        options.session.worker.command = {program.string(), "--worker"};
+        return options;
+    }
+
+    [[nodiscard]] fs::path tube(int around) const {
+        const fs::path file = home / ("tube-" + std::to_string(around) + ".vtp");
+        if (!fs::exists(file)) write_surface(test::fine_tube(4.0, 30.0, around), file.string());
+        return file;
+    }
+};
+
+void report_error(const std::string& text) {
+    std::printf("  OpenGL reported: %s\n", text.c_str());
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values.at(values.size() / 2);
+}
+
+void print(const char* what, double milliseconds, const char* goal) {
+    std::printf("  %-56s %8.1f ms   %s\n", what, milliseconds, goal);
+    std::fflush(stdout);
+}
+
+void time_start(const Bench& bench) {
+    const Stopwatch whole;
+    OffscreenShell shell(bench.options(), 1280, 720, report_error);
+    const double made = whole.seconds();
+    shell.frame();
+    const double drawn = whole.seconds();
+    glFinish();
+    print("context and window", 1e3 * made, "");
+    print("first frame, its CPU work", 1e3 * (drawn - made), "");
+    print("first frame seen", 1e3 * whole.seconds(), "goal < 500");
+}
+
+bool open(OffscreenShell& shell, const fs::path& file) {
+    shell.app().open(file);
+    const Document& document = shell.app().place().document;
+    return shell.run_until([&] { return !document.activity(); }, 2min) && document.is_open() &&
+           shell.settle(1min);
+}
+
+void time_turning(OffscreenShell& shell) {
+    const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+    const float x = view.middle_x(), y = view.middle_y();
+    shell.move_mouse(x, y);
+    shell.press(MouseButton::Left);
+    std::vector<double> times;
+    for (int i = 1; i <= 20; ++i) {
+        const Stopwatch watch;
+        shell.move_mouse(x + 6.0F * static_cast<float>(i), y);
+        glFinish();
+        times.push_back(1e3 * watch.seconds());
+    }
+    shell.release(MouseButton::Left);
+    print("a frame while it turns, edges on, 1280 x 720", median(times), "goal < 100");
+    shell.move_mouse(0, 0);
+    times.clear();
+    for (int i = 0; i < 20; ++i) {
+        const Stopwatch watch;
+        shell.frame();
+        glFinish();
+        times.push_back(1e3 * watch.seconds());
+    }
+    print("a frame in which the model is still", median(times), "");
+}
+
+bool lights_opening(OffscreenShell& shell) {
+    const auto& items = shell.app().ui().items();
+    const auto found = items.lower_bound("view.opening.");
+    return found != items.end() && found->first.starts_with("view.opening.");
+}
+
+void time_pick(OffscreenShell& shell) {
+    const auto& openings = shell.app().place().surface_places().openings;
+    const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+    for (const PatchMeasures& opening : openings) {
+        const auto at = OnScreen{shell.app().camera(), view}.place(opening.centroid);
+        if (!at) continue;
+        const Stopwatch watch;
+        shell.move_mouse(at->x(), at->y());
+        int frames = 1;
+        while (!lights_opening(shell) && ++frames < 60) shell.frame();
+        if (frames == 60) continue;  // it faces away
+        std::printf("  %-56s %8.1f ms   %d frames\n", "from the cursor's move to the lit opening",
+                    1e3 * watch.seconds(), frames);
+        return;
+    }
+    std::printf("  no opening faces the viewer\n");
+}
+
+void time_case(const Bench& bench) {
+    OffscreenShell shell(bench.options(), 1280, 720, report_error);
+    shell.frame();
+    const Stopwatch watch;
+    if (!open(shell, bench.tube(kAround))) return static_cast<void>(std::printf("  not opened\n"));
+    const Surface& surface = *shell.app().place().document.shown()->surface;
+    std::printf("%zu triangles\n", surface.triangle_count());
+    print("from the file to the settled view", 1e3 * watch.seconds(), "");
+    shell.click_item("view.edges");
+    time_turning(shell);
+    const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+    shell.move_mouse(view.middle_x(), view.middle_y());
+    shell.press_key(keys::k0 + 7);  // from above, onto an opening
+    time_pick(shell);
+}
+
+/// The longest frames, with what had been done just before.
+struct Longest {
+    FrameTime frame;
+    std::string after;
+};
+
+void click_around(const Bench& bench, unsigned seed, double seconds) {
+    const fs::path tube = bench.tube(12), broken = bench.home / "broken.stl";
+    OffscreenShell shell(bench.options(), 1280, 720, report_error);
+    shell.frame();
+    if (seed % 4 != 0) open(shell, tube);
+    test::RandomUser user(shell, seed, {tube, broken});
+    Longest longest;
+    int frames = 0;
+    shell.watch_frames([&](const FrameTime& time) {
+        ++frames;
+        if (time.clock <= longest.frame.clock) return;
+        longest = {time, user.latest()};
+    });
+    const Stopwatch watch;
+    while (watch.seconds() < seconds) user.act();
+    std::printf("  seed %2u: %5d frames, longest %6.1f ms, its work %6.1f ms\n", seed, frames,
+                1e3 * longest.frame.clock, 1e3 * longest.frame.work);
+    if (1e3 * longest.frame.clock > kLongest) std::printf("%s", longest.after.c_str());
+    std::fflush(stdout);
+}
+
+void run(int count, char** words) {
+    const Bench bench{.program = words[1]};
+    test::live_in(bench.home);
+    if (count > 3 && std::string(words[2]) == "--clicks") {
+        const unsigned seeds = count > 4 ? static_cast<unsigned>(std::atoi(words[4])) : 20;
+        std::printf("random input for %s s each, goal: no frame over %.0f ms\n", words[3],
+                    kLongest);
+        for (unsigned seed = 1; seed <= seeds; ++seed)
+            click_around(bench, seed, std::atof(words[3]));
+        return;
+    }
+    std::printf("the window\n");
+    time_start(bench);
+    time_case(bench);
+}
+
+}  // namespace
+
+}  // namespace vesselbench::bench
+
+int main(int count, char** words) {
+    if (count < 2) {
+        std::fprintf(stderr, "usage: bench_window PROGRAM [--clicks SECONDS [SEEDS]]\n");
+        return 2;
+    }
+    try {
+        vesselbench::bench::run(count, words);
+    } catch (const vesselbench::GpuUnavailable& error) {
+        std::printf("window rows skipped: %s\n", error.what());
+    }
+    return 0;
+}

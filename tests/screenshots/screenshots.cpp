@@ -1,0 +1,290 @@
+// Draws every screen of the window in both themes, at 1280 x 720 and at 3840 x 2160, through the
+// window without a display: FOLDER/<screen>-<theme>-<width>.png. What is shown is made by clicks.
+//   window_screenshots PROGRAM FOLDER [WORD]...   only the screens whose names contain a word
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+#include "gpu/png.h"
+#include "tests/window/random_user.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/shell/offscreen_shell.h"
+#include "workbench/window/view/screen_places.h"
+
+namespace vesselbench::screenshots {
+
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+struct Size {
+    int width, height;
+    double scale;
+};
+
+constexpr Size kUsual{1280, 720, 1.0}, kLarge{3840, 2160, 2.0};
+
+/// The home of the person who uses the window in the pictures; removed at the end.
+class Home {
+public:
+    Home() : folder_(fs::temp_directory_path() / "ada") {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_ / "Documents");
+        test::live_in(folder_);
+        ::setenv("XDG_DOCUMENTS_DIR", (folder_ / "Documents").c_str(), 1);
+    }
+
+    ~Home() {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+
+    Home(const Home&) = delete;
+    Home& operator=(const Home&) = delete;
+
+    [[nodiscard]] fs::path documents() const { return folder_ / "Documents"; }
+
+private:
+    fs::path folder_;
+};
+
+AppOptions options(const fs::path& program) {
+    AppOptions options;
+    options.session = {.author = "Ada", .find = find_operation};
+    options.session.worker.command = {program.string(), "--worker"};
+    return options;
+}
+
+class Photographer {
+public:
+    Photographer(const fs::path& program, fs::path folder, std::vector<std::string> words)
+        : shell(options(program), kUsual.width, kUsual.height),
+          folder_(std::move(folder)),
+          words_(std::move(words)) {
+        fs::create_directories(folder_);
+        shell.frame();
+    }
+
+    /// All pictures of what is shown.
+    void take(const std::string& screen) {
+        const auto asked = [&](const std::string& word) {
+            return screen.find(word) != screen.npos;
+        };
+        if (!words_.empty() && std::ranges::none_of(words_, asked)) return;
+        for (const Size& size : {kUsual, kLarge})
+            for (const bool dark : {true, false}) take(screen, size, dark);
+        show(kUsual, true);
+    }
+
+    /// Clicks an item that must be there.
+    void click(const std::string& item) {
+        if (!shell.click_item(item)) throw AlgorithmFailure("nothing to click: " + item);
+        shell.frame();
+    }
+
+    void fill(const std::string& item, const std::string& text) {
+        if (!shell.fill_item(item, text)) throw AlgorithmFailure("no field: " + item);
+    }
+
+    /// Waits for what the last click started.
+    void wait() {
+        const Document& document = shell.app().place().document;
+        if (!shell.run_until([&] { return !document.activity(); }, 10min) || !shell.settle(2min))
+            throw AlgorithmFailure("the window did not come to rest");
+    }
+
+    /// Puts the cursor on a point of the model.
+    void point_at(const Vec3& point) {
+        const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+        if (const auto at = OnScreen{shell.app().camera(), view}.place(point))
+            shell.move_mouse(at->x(), at->y());
+        shell.settle(10s);
+    }
+
+    void rest_mouse() { shell.move_mouse(-1e4F, -1e4F); }
+
+    OffscreenShell shell;
+
+private:
+    void show(const Size& size, bool dark) {
+        shell.app().place().settings.dark = dark;
+        shell.app().set_display_scale(size.scale);
+        shell.resize(size.width, size.height);
+        shell.frame();
+        shell.settle(1min);
+    }
+
+    void take(const std::string& screen, const Size& size, bool dark) {
+        show(size, dark);
+        const fs::path file = folder_ / (screen + (dark ? "-dark-" : "-light-") +
+                                         std::to_string(size.width) + ".png");
+        write_file(file, png(shell.picture()));
+        std::printf("%s\n", file.c_str());
+        std::fflush(stdout);
+    }
+
+    fs::path folder_;
+    std::vector<std::string> words_;
+};
+
+void start_screens(Photographer& p) {
+    p.take("start");
+    p.shell.press_key(keys::kF1);
+    p.take("help");
+    p.shell.press_key(keys::kEscape);
+    p.click("start.open");
+    p.take("file-dialog");
+    p.click("file.cancel");
+}
+
+void failures(Photographer& p, const Home& home) {
+    write_file(home.documents() / "broken.stl", std::string("solid nothing\nfacet normal"));
+    p.shell.app().open(home.documents() / "broken.stl");
+    p.wait();
+    p.take("broken-file");
+    p.click("start.dismiss");
+}
+
+void new_case(Photographer& p) {
+    p.click("case.aneurysm");
+    p.shell.frame();
+    p.wait();
+    p.rest_mouse();
+    p.take("image");
+    p.click("tool.prepare");
+    p.rest_mouse();
+    p.take("prepare-dialog");
+    p.click("prepare.run");
+    p.shell.run_until([&] { return p.shell.app().place().document.snapshot()->log.size() > 4; },
+                      10min);
+    p.shell.frame();
+    p.rest_mouse();
+    p.take("preparing");
+    p.wait();
+    p.take("prepared");
+}
+
+void looks(Photographer& p) {
+    p.click("view.edges");
+    p.click("view.deviation");
+    p.wait();
+    p.rest_mouse();
+    p.take("deviation-edges");
+    p.click("view.edges");
+    p.click("view.deviation");
+    p.click("view.transparent");
+    p.rest_mouse();
+    p.take("transparent");
+    p.click("view.transparent");
+    p.click("tab.messages");
+    p.rest_mouse();
+    p.take("messages");
+    p.click("tab.history");
+}
+
+void forms(Photographer& p) {
+    p.click("rail.smoothing");
+    p.rest_mouse();
+    p.take("operations");
+    p.click("choose.smooth");
+    p.fill("field.iterations", "30");
+    p.rest_mouse();
+    p.take("form");
+    p.click("operation.preview");
+    p.wait();
+    p.rest_mouse();
+    p.take("preview");
+    p.fill("field.iterations", "-3");
+    p.rest_mouse();
+    p.take("wrong-value");
+    p.click("operation.back");
+    p.click("rail.local-repair");
+    p.click("choose.brush-inflate");
+    p.point_at(Vec3(0, 0, 20));
+    p.take("brush");
+}
+
+void places(Photographer& p) {
+    p.click("rail.openings");
+    p.click("choose.clip-opening");
+    p.click("field.tip.pick");
+    p.wait();
+    p.rest_mouse();
+    p.take("picking");
+    p.shell.press_key(keys::kEscape);
+    p.click("rail.branches");
+    p.click("choose.remove-branch");
+    p.fill("field.tip", "500,500,500");
+    p.click("operation.apply");
+    p.wait();
+    p.rest_mouse();
+    p.take("failure");
+    p.click("operation.back");
+}
+
+void history(Photographer& p) {
+    for (int i = 0; i < 2; ++i) {
+        p.click("tool.undo");
+        p.wait();
+    }
+    p.click("rail.smoothing");
+    p.click("choose.smooth");
+    p.fill("field.iterations", "2");
+    p.click("operation.apply");
+    p.wait();
+    p.rest_mouse();
+    p.take("branches");
+    p.click("rail.edit.4");
+    p.rest_mouse();
+    p.take("edit");
+    p.click("operation.remove");
+    p.wait();
+    p.rest_mouse();
+    p.take("pending");
+    p.click("tool.export");
+    p.rest_mouse();
+    p.take("export-dialog");
+    p.click("file.cancel");
+    p.click("tool.home");
+    p.rest_mouse();
+    p.take("start-again");
+}
+
+int run(const std::vector<std::string>& words) {
+    const Home home;
+    Photographer photographer(words[0], words[1], {words.begin() + 2, words.end()});
+    start_screens(photographer);
+    failures(photographer, home);
+    new_case(photographer);
+    looks(photographer);
+    forms(photographer);
+    places(photographer);
+    history(photographer);
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace vesselbench::screenshots
+
+int main(int count, char** words) {
+    if (count < 3) {
+        std::fprintf(stderr, "usage: window_screenshots PROGRAM FOLDER [WORD]...\n");
+        return 2;
+    }
+    try {
+        return vesselbench::screenshots::run({words + 1, words + count});
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

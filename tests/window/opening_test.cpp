@@ -1,0 +1,91 @@
+#include "workbench/window/model/opening.h"
+
+#include <filesystem>
+#include <thread>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/session/stored_recipes.h"
+#include "workbench/window/model/document.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder with a tube and this recipe for every purpose.
+fs::path case_with_recipe(const std::string& recipe) {
+    const fs::path folder = fs::path(temporary_folder()) / "tube";
+    fs::create_directory(folder);
+    fs::copy_file(tube_file(), folder / "tube.stl");
+    write_text(
+        folder / "case.json",
+        R"({"name": "tube", "surface": "tube.stl", "units": "mm", "recipe": )" + recipe + "}");
+    return folder;
+}
+
+void open_and_wait(Document& document, const fs::path& path) {
+    document.open({.path = path});
+    while (document.busy()) {
+        document.poll();
+        std::this_thread::sleep_for(5ms);
+    }
+}
+
+std::vector<std::string> operations(const Recipe& recipe) {
+    std::vector<std::string> names;
+    for (const RecipeEntry& entry : recipe) names.push_back(entry.given.operation().name);
+    return names;
+}
+
+}  // namespace
+
+SCENARIO("A reopened project still has the recipe of its case", "[window][opening]") {
+    const std::vector<std::string> own = {"decimate", "smooth"};
+    const fs::path folder =
+        case_with_recipe(R"([{"operation": "decimate"}, {"operation": "smooth"}])");
+    Document document({.session = session_options(), .documents = temporary_folder()});
+    open_and_wait(document, folder);
+    REQUIRE(document.is_open());
+    CHECK(operations(document.recipe("cfd")) == own);
+    const fs::path project = document.project();
+    document.close();
+    open_and_wait(document, project);
+    REQUIRE(document.is_open());
+    CHECK(operations(document.recipe("cfd")) == own);
+    CHECK(operations(document.recipe("rp")) == own);
+    WHEN("what the project keeps cannot be used any more") {
+        document.close();
+        store_recipes(project, R"([{"operation": "vanished"}])");
+        open_and_wait(document, project);
+        REQUIRE(document.is_open());
+        CHECK(operations(document.recipe("cfd")).size() > 2);
+        CHECK_THAT(document.messages().back().text, Contains("vanished"));
+    }
+}
+
+SCENARIO("A case with a wrong recipe is not opened", "[window][opening]") {
+    Document document({.session = session_options(), .documents = temporary_folder()});
+    const fs::path folder = case_with_recipe(R"([{"operation": "vanished"}])");
+    open_and_wait(document, folder);
+    CHECK_FALSE(document.is_open());
+    REQUIRE(document.failure());
+    CHECK_THAT(document.failure()->text, Contains("vanished"));
+    CHECK(names_in(folder.parent_path()) == std::vector<std::string>{"tube"});
+}
+
+SCENARIO("An opening that is cancelled at once has no result", "[window][opening]") {
+    const fs::path missing = fs::path(temporary_folder()) / "none.stl";
+    for (int i = 0; i < 100; ++i) {  // before or after its thread has begun
+        Opening opening({.path = missing}, session_options(), {});
+        opening.cancel();
+        CHECK_THROWS(opening.take());
+    }
+}
