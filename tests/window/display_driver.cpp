@@ -21,6 +21,9 @@ namespace vesselbench::test {
 namespace {
 
 constexpr const char* kServer = "/usr/bin/Xvfb";
+/// It reports the first free number, and complains of those in use.
+constexpr const char* kOptions =
+    " -displayfd 1 -screen 0 2000x1400x24 -dpi 96 -nolisten tcp -noreset 2>/dev/null";
 
 /// Sends events as if they came from the display's mouse and keyboard.
 void send(const std::vector<std::string>& words) {
@@ -133,9 +136,7 @@ private:
 /// The server of this program, and its name in the environment.
 class VirtualDisplay {
 public:
-    VirtualDisplay()
-        : server_(kServer, {"-displayfd", "1", "-screen", "0", "2000x1400x24", "-dpi", "96",
-                            "-nolisten", "tcp", "-noreset"}) {
+    VirtualDisplay() : server_("/bin/sh", {"-c", std::string("exec ") + kServer + kOptions}) {
         const std::string number = server_.line();
         running_ = !number.empty();
         if (running_) ::setenv("DISPLAY", (":" + number).c_str(), 1);

@@ -54,6 +54,29 @@ void write_whole(const std::filesystem::path& path,
     files.commit(Existing::Keep);
 }
 
+/// Lets a read-only connection write a copy, which SQLite's query_only refuses as well.
+class CopyingAllowed {
+public:
+    CopyingAllowed(const Database& database, bool read_only)
+        : database_(database), read_only_(read_only) {
+        if (read_only_) database_.run("PRAGMA query_only = OFF");
+    }
+
+    ~CopyingAllowed() {
+        if (read_only_) try {
+                database_.run("PRAGMA query_only = ON");
+            } catch (const std::exception&) {  // the caller reports what broke the connection
+            }
+    }
+
+    CopyingAllowed(const CopyingAllowed&) = delete;
+    CopyingAllowed& operator=(const CopyingAllowed&) = delete;
+
+private:
+    const Database& database_;
+    bool read_only_;
+};
+
 }  // namespace
 
 struct ProjectFile::Parts {
@@ -233,6 +256,7 @@ std::vector<std::string> ProjectFile::damages(ResultId id, const Progress& progr
 void ProjectFile::save_as(const std::filesystem::path& path, const Progress& progress) const {
     write_whole(path, [&](const std::filesystem::path& unfinished) {
         progress.check_cancelled();
+        const CopyingAllowed allowed(parts_->database, !parts_->read_only_reason.empty());
         const Interruptible copying(parts_->database, progress);
         Statement copy = parts_->database.prepare("VACUUM INTO ?");
         const std::string name = unfinished.string();
