@@ -17,6 +17,7 @@
 #include "workbench/window/panels/start_screen.h"
 #include "workbench/window/panels/status_line.h"
 #include "workbench/window/panels/tool_bar.h"
+#include "workbench/window/panels/view_panel.h"
 #include "workbench/window/view/viewport.h"
 
 namespace vesselbench {
@@ -90,6 +91,7 @@ void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
     draw_operation_panel(context, layout.operation);
     draw_bottom_panel(context, layout.bottom);
     draw_banners(context, layout.view);
+    draw_view_panel(context, layout.view);
 }
 
 void App::draw() {
@@ -119,7 +121,8 @@ void App::draw() {
 
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->viewport.pending();
+           impl_->place.view_data().pending() || impl_->viewport.pending() ||
+           impl_->place.wants_picture();
 }
 
 bool App::is_settled() const {

@@ -8,7 +8,10 @@
 namespace vesselbench {
 
 Workplace::Workplace(DocumentOptions options, Settings remembered)
-    : document(options), settings(std::move(remembered)), search_(std::move(options.wake)) {}
+    : document(options),
+      settings(std::move(remembered)),
+      search_(options.wake),
+      view_data_(options.wake) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -16,6 +19,7 @@ bool Workplace::update() {
         settings.remember(document.project());
         settings.save();
         choose_step(Step::Source);
+        view = {};
     }
     was_opening_ = document.is_opening();
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
@@ -24,7 +28,8 @@ bool Workplace::update() {
         form_.reset();
         disarm();
     }
-    return update_places() || changed;
+    const bool places = update_places();
+    return view_data_.update(document, view, settings.layers) || places || changed;
 }
 
 bool Workplace::update_places() {
@@ -72,6 +77,8 @@ void Workplace::open_phantom(const std::string& name) {
 
 void Workplace::close() {
     leave_form();
+    view = {};
+    picture_file_.clear();
     document.close();
     settings.refresh();
     renew_lists();
@@ -159,7 +166,7 @@ void Workplace::apply() {
 
 bool Workplace::can_paint() const {
     return form_ && !form_->edit() && is_brush(form_->operation()) && form_->valid() &&
-           document.can_paint();
+           view.tool == MeasureTool::None && document.can_paint();
 }
 
 BrushTip Workplace::tip() const {
@@ -218,6 +225,9 @@ void Workplace::answer(const std::filesystem::path& file) {
             return document.export_to(file);
         case FileQuestion::Parameter:
             return form_ ? set_field(asked_parameter_, file.string()) : void();
+        case FileQuestion::Picture:
+            picture_file_ = file;
+            return;
         case FileQuestion::None:
             return;
     }

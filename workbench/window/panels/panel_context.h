@@ -17,6 +17,8 @@ struct Shown {
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
+    bool view = false;                      ///< the view's options
+    std::string least, most;                ///< typed ends of the colours' range
     bool compact = false;                   ///< little room: tool buttons without labels
 };
 

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "workbench/window/keys.h"
+#include "workbench/window/panels/view_panel.h"
 
 namespace vesselbench {
 
@@ -21,6 +22,8 @@ void handle_escape(PanelContext& c) {
         c.place.document.drop_stroke();
     } else if (!c.place.armed().empty()) {
         c.place.disarm();
+    } else if (leave_view_mode(c)) {
+        return;
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
     } else if (!ImGui::GetIO().WantTextInput) {
@@ -53,6 +56,7 @@ void handle_shortcuts(PanelContext& c) {
     if (pressed(keys::kEscape)) handle_escape(c);
     const bool dialog = c.shown.help || c.shown.prepare || c.place.question() != FileQuestion::None;
     if (ImGui::GetIO().KeyCtrl && !dialog) handle_control(c);
+    if (!ImGui::GetIO().KeyCtrl && !dialog && !ImGui::GetIO().WantTextInput) handle_view_keys(c);
 }
 
 }  // namespace vesselbench

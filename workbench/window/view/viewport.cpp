@@ -1,8 +1,10 @@
 #include "workbench/window/view/viewport.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <imgui.h>
 
@@ -13,19 +15,27 @@
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/brush_pointer.h"
+#include "workbench/window/view/clip_section.h"
+#include "workbench/window/view/endoscope.h"
+#include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/model_drawing.h"
+#include "workbench/window/view/overlay_layers.h"
 #include "workbench/window/view/region_drawing.h"
 #include "workbench/window/view/view_overlays.h"
+#include "workbench/window/view/view_picture.h"
 #include "workbench/window/view/view_places.h"
+#include "workbench/window/view/view_strips.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns by this [rad]
-constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
-constexpr double kMargin = 0.12;        ///< around a framed model [-]
+constexpr double kTurnPerHeight = 3.5;   ///< a drag over the view's height turns by this [rad]
+constexpr double kZoomPerNotch = 1.15;   ///< of the wheel
+constexpr double kClipPerNotch = 0.02;   ///< of the way through the model [-]
+constexpr double kFlightPerNotch = 0.5;  ///< [local radii]
+constexpr double kMargin = 0.12;         ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
@@ -36,6 +46,19 @@ Colour linear(Paint colour) {
     return {part(0), part(8), part(16)};
 }
 
+bool draw_tool(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
+               bool on) {
+    ImGui::SameLine(0, c.ui.grid(0.25F));
+    return icon_button(c.ui, name, icon, help, true, on);
+}
+
+ViewLook look_of(const Workplace& place) {
+    return {.edges = place.settings.layers.edges,
+            .flat = place.settings.layers.flat,
+            .transparent = place.view.transparent,
+            .deviation = place.view.colouring == ColouringKind::Deviation};
+}
+
 /// All that the picture depends on besides the model.
 struct DrawnAs {
     ViewCamera camera;
@@ -44,6 +67,10 @@ struct DrawnAs {
     bool dark = false;
     std::optional<std::uint32_t> lit_patch;
     int region = 0;  ///< version of the typed region's lines
+    ValueRange range;
+    int clip = 0;      ///< version of the clip plane and its section
+    int overlays = 0;  ///< version of theirs
+    bool inside = false;
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -52,7 +79,14 @@ struct DrawnAs {
 
 struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
-        : model(wake), picker(renderer), brush(renderer), places(renderer, wake) {}
+        : model(wake),
+          picker(renderer),
+          brush(renderer),
+          places(renderer, wake),
+          measuring(renderer, wake),
+          clip(wake),
+          overlays(wake),
+          picture(wake) {}
 
     void take_scene(PanelContext& c);
     void take_form(PanelContext& c);
@@ -61,13 +95,17 @@ struct Viewport::Impl {
     void follow_model();
     void draw_model(const Ui& ui);
     void handle_brush(PanelContext& c);
-    void handle_mouse(bool sets_centre);
-    void handle_keys(bool over_view);
+    void fly(const PanelContext& c);
+    void take_choices(PanelContext& c);
+    void handle_mouse(PanelContext& c);
+    void handle_drag(const Eigen::Vector2d& moved);
+    void handle_wheel(PanelContext& c, float notches);
+    void handle_keys(const PanelContext& c, bool over_view);
     void set_centre();
     void draw_toolbar(PanelContext& c);
-    void draw_toggle(PanelContext& c, const std::string& name, const char* icon,
-                     const std::string& help, bool& on);
+    void draw_legend(const PanelContext& c) const;
     void draw_overlays(PanelContext& c);
+    void draw_controls(PanelContext& c);
     void draw_empty(PanelContext& c) const;
     [[nodiscard]] SceneView scene_view(const Ui& ui) const;
     [[nodiscard]] Layers layers(const Ui& ui) const;
@@ -80,6 +118,11 @@ struct Viewport::Impl {
     Picker picker;
     BrushPointer brush;
     ViewPlaces places;
+    MeasuringTool measuring;
+    ClipSection clip;
+    OverlayLayers overlays;
+    Endoscope endoscope;
+    ViewPicture picture;
     RegionDrawing region;
     std::optional<RenderTarget> target;
     unsigned texture = 0;
@@ -87,6 +130,7 @@ struct Viewport::Impl {
     ViewLook look;
     ScreenRect rect;
     std::optional<DrawnAs> drawn;
+    std::optional<ViewCamera> outside;        ///< the camera before a flight through the lumen
     std::filesystem::path framed_project;     ///< whose model the camera was set for
     std::optional<ViewCamera> framed_camera;  ///< as it was set; another one is the user's
     int seen_scenes = -1;
@@ -100,7 +144,10 @@ Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wa
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending() || impl_->brush.pending() || impl_->places.pending();
+    const Impl& view = *impl_;
+    return view.model.pending() || view.brush.pending() || view.places.pending() ||
+           view.measuring.pending() || view.clip.pending() || view.overlays.pending() ||
+           view.endoscope.moves() || view.picture.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -122,8 +169,13 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     for (const SceneMove& move : document.take_moves()) model.move(move);
     const auto& form = c.place.form();
     model.set_painted(form ? painted_attribute(*form) : "");
+    look = look_of(c.place);
     document.want_deviation(look.deviation);
     model.set_deviation(document.deviation());
+    const auto& colours = c.place.view_data().colours();
+    const bool on_model = colours && colours->kind != ColouringKind::TetrahedraQuality;
+    model.set_colouring(on_model ? colours : nullptr);
+    model.set_range(c.place.view.range);
     if (!model.update()) return;
     drawn.reset();
     ++models;
@@ -149,17 +201,39 @@ void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    places.update(c, {.view = scene_view(c.ui),
-                      .layers = layers(c.ui),
-                      .rect = rect,
-                      .surface = model.surface(),
-                      .version = models,
-                      .over = over && !ImGui::IsAnyMouseDown(),
-                      .clicked = over && released && still && !io.KeyShift});
+    const SeenModel seen{.view = scene_view(c.ui),
+                         .layers = layers(c.ui),
+                         .rect = rect,
+                         .surface = model.surface(),
+                         .version = models,
+                         .over = over && !ImGui::IsAnyMouseDown(),
+                         .clicked = over && released && still && !io.KeyShift};
+    places.update(c, seen);
+    measuring.update(c, seen);
+}
+
+/// Puts the camera into the lumen, and back to where it was before.
+void Viewport::Impl::fly(const PanelContext& c) {
+    endoscope.update(c, ImGui::GetIO().DeltaTime);
+    const auto inside = endoscope.camera();
+    if (inside && !outside) outside = camera;
+    if (inside)
+        camera = *inside;
+    else if (outside)
+        camera = *std::exchange(outside, std::nullopt);
+}
+
+/// What is chosen to be seen, before it is drawn.
+void Viewport::Impl::take_choices(PanelContext& c) {
+    take_form(c);
+    fly(c);
+    clip.update(c, model.surface(), camera);
+    overlays.update(c);
 }
 
 void Viewport::Impl::frame_model() {
     if (model.surface() == nullptr) return;
+    outside.reset();
     camera = framed(camera, model.surface()->points(), aspect(), kMargin);
     framed_camera = camera;
 }
@@ -176,7 +250,12 @@ void Viewport::Impl::follow_model() {
 Layers Viewport::Impl::layers(const Ui& ui) const {
     const double line = std::max(1.0, ui.em / 15.0);
     Layers layers = model.layers(look, line);
-    for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
+    for (SurfaceLayer& layer : layers.surfaces) {
+        layer.highlighted_patch = places.lit_patch();
+        layer.back_as_front = outside.has_value();
+    }
+    clip.add_to(layers, line);
+    overlays.add_to(layers, line, ui.theme.dark);
     region.add_to(layers, 2 * line);
     return layers;
 }
@@ -184,14 +263,24 @@ Layers Viewport::Impl::layers(const Ui& ui) const {
 SceneView Viewport::Impl::scene_view(const Ui& ui) const {
     return {.camera = camera,
             .rectangle = target->rectangle(),
+            .clip = clip.plane(),
             .background = Background{linear(ui.theme.view_above), linear(ui.theme.view_below)}};
 }
 
 void Viewport::Impl::draw_model(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(rect.width));
     const int height = std::max(1, static_cast<int>(rect.height));
-    const DrawnAs now{camera,          look, width, height, ui.theme.dark, places.lit_patch(),
-                      region.version()};
+    const DrawnAs now{.camera = camera,
+                      .look = look,
+                      .width = width,
+                      .height = height,
+                      .dark = ui.theme.dark,
+                      .lit_patch = places.lit_patch(),
+                      .region = region.version(),
+                      .range = model.colour_range(),
+                      .clip = clip.version(),
+                      .overlays = overlays.version(),
+                      .inside = outside.has_value()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
@@ -215,24 +304,41 @@ void Viewport::Impl::handle_brush(PanelContext& c) {
     brush.update(c, {view, shown, *model.surface(), rect});
 }
 
-void Viewport::Impl::handle_mouse(bool sets_centre) {
+/// \param moved by the mouse [ndc]
+void Viewport::Impl::handle_drag(const Eigen::Vector2d& moved) {
     const ImGuiIO& io = ImGui::GetIO();
+    const double turn = kTurnPerHeight / rect.height;
     const Eigen::Vector2d now = mouse_ndc();
+    if (outside)
+        endoscope.look_round(-turn * io.MouseDelta.x / 2, turn * io.MouseDelta.y / 2);
+    else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift)
+        camera = panned(camera, aspect(), now - moved, now);
+    else
+        camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
+}
+
+void Viewport::Impl::handle_wheel(PanelContext& c, float notches) {
+    ClipChoice& plane = c.place.view.clip;
+    if (plane.on && ImGui::GetIO().KeyCtrl)
+        plane.place = std::clamp(plane.place + kClipPerNotch * notches, 0.0, 1.0);
+    else if (outside)
+        endoscope.advance(kFlightPerNotch * notches);
+    else
+        camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, notches), mouse_ndc());
+}
+
+void Viewport::Impl::handle_mouse(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
     const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
                                 -2.0 * io.MouseDelta.y / rect.height);
     const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !brush.holds_left())) {
-        const bool pans = middle || io.KeyShift;
-        const double turn = kTurnPerHeight / rect.height;
-        if (pans)
-            camera = panned(camera, aspect(), now - moved, now);
-        else
-            camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
-    }
+    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !brush.holds_left()))
+        handle_drag(moved);
     if (!ImGui::IsItemHovered()) return;
-    if (io.MouseWheel != 0)
-        camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (sets_centre && !places.took_click() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+    if (io.MouseWheel != 0) handle_wheel(c, io.MouseWheel);
+    const bool busy =
+        c.place.can_paint() || c.place.view.tool != MeasureTool::None || outside.has_value();
+    if (!busy && !places.took_click() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
         set_centre();
 }
 
@@ -246,9 +352,10 @@ void Viewport::Impl::set_centre() {
     if (picked.layer != 0) camera.centre = picked.point;
 }
 
-void Viewport::Impl::handle_keys(bool over_view) {
+void Viewport::Impl::handle_keys(const PanelContext& c, bool over_view) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || !over_view) return;
+    if (c.place.view.flies) return endoscope.handle_keys();
     const auto pressed = [](int digit) {
         return ImGui::IsKeyPressed(keys::k0 + digit, false) ||
                ImGui::IsKeyPressed(keys::kPad0 + digit, false);
@@ -262,41 +369,77 @@ void Viewport::Impl::handle_keys(bool over_view) {
     if (ImGui::IsKeyPressed(keys::kHome, false)) frame_model();
 }
 
-void Viewport::Impl::draw_toggle(PanelContext& c, const std::string& name, const char* icon,
-                                 const std::string& help, bool& on) {
-    ImGui::SameLine(0, c.ui.grid(0.25F));
-    if (icon_button(c.ui, name, icon, help, true, on)) on = !on;
-}
-
 void Viewport::Impl::draw_toolbar(PanelContext& c) {
+    ViewChoice& choice = c.place.view;
+    ShownLayers& layers = c.place.settings.layers;
     const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
     const ImVec2 at{rect.x + c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)};
-    const float width = 6 * side + 5 * c.ui.grid(0.25F) + 2 * pad;
+    const float width = 7 * side + 6 * c.ui.grid(0.25F) + 2 * pad;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 to{at.x + width, at.y + side + 2 * pad};
     draw.AddRectFilled(at, to, faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
     ImGui::SetCursorScreenPos({at.x + pad, at.y + pad});
     if (icon_button(c.ui, "view.fit", icons::kFit, "Show everything  Home")) frame_model();
-    draw_toggle(c, "view.edges", icons::kGrid, "Triangles' edges", look.edges);
-    draw_toggle(c, "view.flat", icons::kFlat, "Flat shading", look.flat);
-    draw_toggle(c, "view.transparent", icons::kTransparent, "Transparent", look.transparent);
-    draw_toggle(c, "view.deviation", icons::kPalette,
-                "Colours show the distance from the source, or of a preview from before it",
-                look.deviation);
-    draw_toggle(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective);
+    const ShownLayers before = layers;
+    if (draw_tool(c, "view.edges", icons::kGrid, "Triangles' edges", layers.edges))
+        layers.edges = !layers.edges;
+    if (draw_tool(c, "view.flat", icons::kFlat, "Flat shading", layers.flat))
+        layers.flat = !layers.flat;
+    if (layers != before) c.place.settings.save();
+    if (draw_tool(c, "view.transparent", icons::kTransparent, "Transparent", choice.transparent))
+        choice.transparent = !choice.transparent;
+    const bool coloured = choice.colouring != ColouringKind::Patches;
+    if (draw_tool(c, "view.deviation", icons::kPalette,
+                  std::string("Colours: ") + colouring_info(choice.last_colouring).label, coloured))
+        choice.choose(coloured ? ColouringKind::Patches : choice.last_colouring);
+    if (draw_tool(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective))
+        camera.perspective = !camera.perspective;
+    if (draw_tool(c, "view.options", icons::kLayers, "Colours, sections, overlays and measures  V",
+                  c.shown.view))
+        c.shown.view = !c.shown.view;
+}
+
+/// What the colours mean.
+void Viewport::Impl::draw_legend(const PanelContext& c) const {
+    const bool cells = clip.shows_tetrahedra();
+    const ValueRange range = cells ? clip.range() : model.colour_range();
+    if (cells || model.shows_colouring()) {
+        const ColouringInfo& info = colouring_info(c.place.view.colouring);
+        draw_colour_legend(c.ui, rect,
+                           {ColourMap::Ordered, range.least, range.most,
+                            std::string(info.label) + " [" + info.unit + "]"});
+    } else if (model.shows_deviation(look)) {
+        const bool preview = c.place.document.previewed().has_value();
+        draw_colour_legend(
+            c.ui, rect,
+            {ColourMap::Diverging, range.least, range.most,
+             preview ? "Distance from before [mm]" : "Distance from the source [mm]"});
+    }
+}
+
+void Viewport::Impl::draw_controls(PanelContext& c) {
+    draw_toolbar(c);
+    if (model.surface() == nullptr) return draw_empty(c);
+    ViewStrips strips(rect);
+    clip.draw_strip(c, strips);
+    endoscope.draw_strip(c, strips);
+    measuring.draw_strip(c, strips);
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c) {
-    if (model.surface() != nullptr) places.draw(c, {camera, rect});
-    draw_toolbar(c);
-    if (model.surface() == nullptr) return draw_empty(c);
+    const OnScreen screen{camera, rect};
+    const bool saved = picture.update(c, rect);
+    if (model.surface() != nullptr) {
+        overlays.draw_marks(c, screen);
+        places.draw(c, screen);
+        measuring.draw(c, screen);
+    }
+    if (!saved) draw_controls(c);
+    if (model.surface() == nullptr) return;
     brush.draw(c, camera, rect);
-    draw_scale_bar(c.ui, rect, camera);
+    if (!outside) draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
-    if (model.shows_deviation(look))
-        draw_deviation_legend(c.ui, rect, model.deviation()->full,
-                              c.place.document.previewed() ? "Distance from before [mm]"
-                                                           : "Distance from the source [mm]");
+    draw_legend(c);
 }
 
 /// What to do while there is no surface.
@@ -332,10 +475,10 @@ void Viewport::draw(PanelContext& c, const ScreenRect& rect) {
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
     if (view.model.surface() != nullptr) {
         view.handle_brush(c);
-        view.handle_mouse(!c.place.can_paint());
+        view.handle_mouse(c);
     }
-    view.handle_keys(over);
-    view.take_form(c);
+    view.handle_keys(c, over);
+    view.take_choices(c);
     view.pick_places(c, over, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
