@@ -18,6 +18,7 @@
 #include "workbench/window/panels/start_screen.h"
 #include "workbench/window/panels/status_line.h"
 #include "workbench/window/panels/tool_bar.h"
+#include "workbench/window/panels/view_panel.h"
 #include "workbench/window/view/thumbnails.h"
 #include "workbench/window/view/viewport.h"
 
@@ -98,6 +99,7 @@ void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
     draw_operation_panel(context, layout.operation);
     draw_bottom_panel(context, layout.bottom);
     draw_banners(context, layout.view);
+    draw_view_panel(context, layout.view);
 }
 
 void App::draw() {
@@ -134,7 +136,8 @@ void App::draw() {
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
            impl_->place.slices().pending() || impl_->place.is_comparing() ||
-           impl_->viewport.pending() || impl_->thumbnails.pending();
+           impl_->place.view_data().pending() || impl_->viewport.pending() ||
+           impl_->place.wants_picture() || impl_->thumbnails.pending();
 }
 
 std::optional<double> App::next_change() const {

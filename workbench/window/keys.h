@@ -23,6 +23,7 @@ inline constexpr int kPageDown = 267;
 inline constexpr int kHome = 268;
 inline constexpr int kEnd = 269;
 inline constexpr int kF1 = 290;
+inline constexpr int kF12 = 301;
 inline constexpr int kPad0 = 320;
 inline constexpr int kPadEnter = 335;
 

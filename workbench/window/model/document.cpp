@@ -240,6 +240,7 @@ void Document::scene_changed() {
     ++scene_changes_;
     deviation_.reset();
     if (wants_deviation_ && !is_painting()) request_deviation();
+    if (wants_source_ && !is_painting()) request_source();
 }
 
 void Document::want_deviation(bool wanted) {
@@ -264,6 +265,26 @@ void Document::request_deviation() {
         "deviation");
     watch(job, "measuring", {}, true,
           [this](const std::shared_ptr<const DeviationMap>& map) { deviation_ = map; });
+}
+
+void Document::want_source(bool wanted) {
+    if (wanted == wants_source_) return;
+    wants_source_ = wanted;
+    source_.reset();
+    if (wanted) request_source();
+}
+
+void Document::request_source() {
+    if (!runner_) return source_.reset();
+    const auto source = source_edit(*snapshot_, variant_);
+    if (!source) return source_.reset();
+    const auto job = runner_->submit(
+        [id = *source](Session& session, const Progress& progress) {
+            return session.scene_after(id, progress);
+        },
+        "source");
+    watch(job, "reading the source", {}, true,
+          [this](const Scene& scene) { source_ = scene.surface; });
 }
 
 void Document::request_scene() {

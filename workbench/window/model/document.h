@@ -96,6 +96,13 @@ public:
         return deviation_;
     }
 
+    /// Whether the source's surface is wanted.
+    void want_source(bool wanted);
+
+    /// The surface as the source's step left it; none while it is not wanted, not known yet, or is
+    /// the shown one.
+    [[nodiscard]] const std::optional<Surface>& source() const { return source_; }
+
     // --- requests
 
     void apply(const std::string& operation, Arguments given);
@@ -188,6 +195,7 @@ private:
     void request_scene();
     void request_figures();
     void request_deviation();
+    void request_source();
     void scene_changed();
     void cancel_background();
     void prepare_next();
@@ -210,6 +218,8 @@ private:
     ShownFigures figures_;
     bool wants_deviation_ = false;
     std::shared_ptr<const DeviationMap> deviation_;
+    bool wants_source_ = false;
+    std::optional<Surface> source_;
     std::deque<Message> messages_;
     std::optional<Message> failure_;
     int snapshot_changes_ = 0, scene_changes_ = 0, entered_ = 0;

@@ -1,7 +1,9 @@
 #include "workbench/window/model/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <ctime>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,15 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "settings.json";
+/// The layers by their names in the file.
+constexpr std::array<std::pair<const char*, bool ShownLayers::*>, 6> kLayers = {
+    {{"edges", &ShownLayers::edges},
+     {"flat", &ShownLayers::flat},
+     {"source", &ShownLayers::source},
+     {"centerlines", &ShownLayers::centerlines},
+     {"names", &ShownLayers::names},
+     {"anchors", &ShownLayers::anchors}}};
+
 constexpr double kSmallestScale = 0.75, kLargestScale = 3.0;
 
 std::string now_text() {
@@ -48,6 +59,9 @@ void Settings::read() {
     const Json json = Json::parse(file_content(folder_ / kFile));
     dark = json.value("theme", "dark") != "light";
     scale = std::clamp(json.value("scale", 1.0), kSmallestScale, kLargestScale);
+    for (const Json& shown : json.value("layers", Json::array()))
+        for (const auto& [name, layer] : kLayers)
+            if (shown == name) layers.*layer = true;
     for (const Json& entry : json.value("recent", Json::array()))
         recent_.push_back(
             {entry.at("file").get<std::string>(), entry.value("opened", std::string())});
@@ -74,7 +88,11 @@ bool Settings::save() const {
     Json list = Json::array();
     for (const RecentProject& entry : recent_)
         list.push_back({{"file", entry.file.string()}, {"opened", entry.opened}});
-    const Json json = {{"theme", dark ? "dark" : "light"}, {"scale", scale}, {"recent", list}};
+    Json shown = Json::array();
+    for (const auto& [name, layer] : kLayers)
+        if (layers.*layer) shown.push_back(name);
+    const Json json = {
+        {"theme", dark ? "dark" : "light"}, {"scale", scale}, {"layers", shown}, {"recent", list}};
     try {
         fs::create_directories(folder_);
         write_file(folder_ / kFile, json.dump(2) + "\n");

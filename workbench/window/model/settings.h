@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "workbench/window/model/view_choice.h"
+
 namespace vesselbench {
 
 /// A project that was open before.
@@ -23,6 +25,7 @@ public:
 
     bool dark = true;
     double scale = 1.0;  ///< of all sizes, on top of the display's
+    ShownLayers layers;  ///< of the view
 
     [[nodiscard]] const std::vector<RecentProject>& recent() const { return recent_; }
 

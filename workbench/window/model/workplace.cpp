@@ -12,6 +12,7 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
     : document(options),
       settings(std::move(remembered)),
       search_(options.wake),
+      view_data_(options.wake),
       slices_(std::move(options.wake)) {}
 
 bool Workplace::update() {
@@ -23,6 +24,7 @@ bool Workplace::update() {
         slices_.clear();
         choose_step(Step::Source);
         comparison_.reset();
+        view = {};
     }
     was_opening_ = document.is_opening();
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
@@ -34,7 +36,9 @@ bool Workplace::update() {
     }
     const bool new_slices = slices_.update(document.shown());
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
-    return update_places() || new_slices || compared || changed;
+    const bool places = update_places();
+    const bool view_data = view_data_.update(document, view, settings.layers);
+    return view_data || places || new_slices || compared || changed;
 }
 
 bool Workplace::update_places() {
@@ -84,6 +88,8 @@ void Workplace::open_phantom(const std::string& name) {
 void Workplace::close() {
     leave_form();
     stop_comparing();
+    view = {};
+    picture_file_.clear();
     document.close();
     slices_.clear();
     settings.refresh();
@@ -174,7 +180,7 @@ void Workplace::apply() {
 
 bool Workplace::can_paint() const {
     return form_ && armed_.empty() && !form_->edit() && is_brush(form_->operation()) &&
-           form_->valid() && document.can_paint();
+           form_->valid() && view.tool == MeasureTool::None && document.can_paint();
 }
 
 BrushTip Workplace::tip() const {
@@ -290,6 +296,9 @@ void Workplace::answer(const std::filesystem::path& file) {
             return document.export_to(file);
         case FileQuestion::Parameter:
             return form_ ? set_field(asked_parameter_, file.string()) : void();
+        case FileQuestion::Picture:
+            picture_file_ = file;
+            return;
         case FileQuestion::None:
             return;
     }

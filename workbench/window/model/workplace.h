@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "workbench/window/model/brush_form.h"
@@ -16,11 +17,12 @@
 #include "workbench/window/model/place_search.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
+#include "workbench/window/model/view_data.h"
 
 namespace vesselbench {
 
 /// What a file is asked for.
-enum class FileQuestion { None, Open, SaveCopy, Export, Parameter };
+enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture };
 
 /// Everything the window is about, without drawing: the document, what the user has chosen and
 /// typed, and the lists that panels show.
@@ -33,6 +35,7 @@ public:
 
     Document document;
     Settings settings;
+    ViewChoice view;
 
     // --- cases
 
@@ -175,6 +178,18 @@ public:
 
     void forget_role_question() { opening_.reset(); }
 
+    // --- the view
+
+    /// What the view shows besides the surface, as far as it is chosen and known.
+    [[nodiscard]] const ViewData& view_data() const { return view_data_; }
+
+    /// The file that a picture of the view was asked to be saved as; once.
+    [[nodiscard]] std::filesystem::path take_picture_file() {
+        return std::exchange(picture_file_, {});
+    }
+
+    [[nodiscard]] bool wants_picture() const { return !picture_file_.empty(); }
+
     // --- questions for a file
 
     [[nodiscard]] FileQuestion question() const { return question_; }
@@ -202,6 +217,8 @@ private:
     std::string asked_parameter_;
     std::string armed_;
     PlaceSearch search_;
+    ViewData view_data_;
+    std::filesystem::path picture_file_;
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
     ImageSlices slices_;

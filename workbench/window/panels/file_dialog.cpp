@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> suffixes_for(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return {".vbench"};
+    if (question == FileQuestion::Picture) return {".png"};
     if (question == FileQuestion::Open) return openable_suffixes();
     if (question == FileQuestion::Parameter) {
         std::vector<std::string> suffixes = openable_suffixes();
@@ -41,6 +42,8 @@ const char* title_of(FileQuestion question) {
             return "Export the model";
         case FileQuestion::Parameter:
             return "Choose a file";
+        case FileQuestion::Picture:
+            return "Save a picture of the view";
         case FileQuestion::None:
             break;
     }
@@ -54,6 +57,22 @@ bool can_have_volume(const Document& document) {
            (scene != nullptr && scene->volume_mesh);
 }
 
+/// What the name of a new file adds to the project's.
+const char* ending_for(FileQuestion question) {
+    if (question == FileQuestion::Picture) return ".png";
+    return question == FileQuestion::Export ? ".stl" : " copy.vbench";
+}
+
+/// A name that no file of a folder has: "a.png", "a 2.png".
+std::string free_name(const fs::path& folder, const std::string& name) {
+    const fs::path file(name);
+    std::string free = name;
+    std::error_code error;
+    for (int i = 2; fs::exists(folder / free, error); ++i)
+        free = file.stem().string() + " " + std::to_string(i) + file.extension().string();
+    return free;
+}
+
 std::string size_text(std::uintmax_t bytes) {
     if (bytes < 1024) return std::to_string(bytes) + " B";
     if (bytes < 1024 * 1024) return std::to_string(bytes / 1024) + " KB";
@@ -63,7 +82,8 @@ std::string size_text(std::uintmax_t bytes) {
 }  // namespace
 
 bool FileDialog::writes() const {
-    return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export;
+    return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export ||
+           question_ == FileQuestion::Picture;
 }
 
 void FileDialog::enter(const fs::path& folder) {
@@ -76,12 +96,11 @@ void FileDialog::begin(PanelContext& c) {
     question_ = c.place.question();
     const fs::path project = c.place.document.project();
     const fs::path near = project.parent_path();
+    enter(!near.empty() ? near : !listing_.folder.empty() ? listing_.folder : documents_folder());
     name_.clear();
     replaced_.clear();
     if (writes())
-        name_ =
-            project.stem().string() + (question_ == FileQuestion::Export ? ".stl" : " copy.vbench");
-    enter(!near.empty() ? near : !listing_.folder.empty() ? listing_.folder : documents_folder());
+        name_ = free_name(listing_.folder, project.stem().string() + ending_for(question_));
 }
 
 void FileDialog::draw_folder_line(PanelContext& c) {
@@ -196,9 +215,7 @@ void FileDialog::draw_name_line(PanelContext& c) {
         return c.place.ask(FileQuestion::None);
     }
     ImGui::SameLine(0, c.ui.grid(1));
-    const char* label = question_ == FileQuestion::Export     ? "Export"
-                        : question_ == FileQuestion::SaveCopy ? "Save"
-                                                              : "Open";
+    const char* label = question_ == FileQuestion::Export ? "Export" : writes() ? "Save" : "Open";
     if (button(c.ui, "file.accept", label,
                {.primary = true, .enabled = can_finish(), .width = width}))
         finish(c);

@@ -36,6 +36,17 @@ constexpr std::array<KeyHelp, 8> kViewing = {{{"Left drag", "turn"},
                                               {"Home", "show everything"},
                                               {"5", "perspective or parallel"}}};
 
+constexpr std::array<KeyHelp, 9> kModes = {
+    {{"V", "colours, sections, overlays, measures"},
+     {"C", "clip plane; Ctrl+wheel moves it"},
+     {"E", "into the vessel, and out"},
+     {"Space, wheel, Up, Down", "in the vessel: fly, forward, back"},
+     {"M, D", "measure a distance, a diameter"},
+     {"W, L", "source as wireframe, centerlines"},
+     {"N, A", "names of openings, places of edits"},
+     {"F12", "save a picture of the view"},
+     {"Esc", "leave these"}}};
+
 constexpr std::array<KeyHelp, 5> kBrushing = {{{"Left drag", "brush on the surface"},
                                                {"[ and ], or F", "size, by keys or by the mouse"},
                                                {"With Shift", "the same for the strength"},
@@ -85,13 +96,15 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     ImGui::BeginChild("editing", {half, 0});
     draw_keys(ui, "Editing", kEditing, ui.em * 12);
     space(ui, 2);
+    draw_keys(ui, "Brushes", kBrushing, ui.em * 12);
+    space(ui, 2);
     draw_keys(ui, "Slices", kSlices, ui.em * 12);
     ImGui::EndChild();
     ImGui::SameLine(0, 0);
     ImGui::BeginChild("viewing");
     draw_keys(ui, "View", kViewing, ui.em * 12);
     space(ui, 2);
-    draw_keys(ui, "Brushes", kBrushing, ui.em * 12);
+    draw_keys(ui, "Ways of viewing", kModes, ui.em * 12);
     ImGui::EndChild();
     ImGui::EndChild();
     end_frame();

@@ -27,6 +27,8 @@ struct Shown {
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
     std::optional<NoteInProgress> note;     ///< the dialog for it
+    bool view = false;                      ///< the view's options
+    std::string least, most;                ///< typed ends of the colours' range
     bool compact = false;                   ///< little room: tool buttons without labels
 };
 

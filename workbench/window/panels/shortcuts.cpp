@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "workbench/window/keys.h"
+#include "workbench/window/panels/view_panel.h"
 
 namespace vesselbench {
 
@@ -26,6 +27,8 @@ void handle_escape(PanelContext& c) {
         c.place.forget_role_question();
     } else if (!c.place.armed().empty()) {
         c.place.disarm();
+    } else if (leave_view_mode(c)) {
+        return;
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
     } else if (c.place.comparison() && !ImGui::GetIO().WantTextInput) {
@@ -73,7 +76,9 @@ void handle_shortcuts(PanelContext& c) {
         c.shown.help || c.shown.prepare || c.shown.note || c.place.question() != FileQuestion::None;
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl && !dialog) handle_control(c);
-    if (!io.KeyCtrl && !dialog && !io.WantTextInput) handle_image(c);
+    if (io.KeyCtrl || dialog || io.WantTextInput) return;
+    handle_image(c);
+    handle_view_keys(c);
 }
 
 }  // namespace vesselbench

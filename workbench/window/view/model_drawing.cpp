@@ -128,6 +128,8 @@ ModelDrawing::Values ModelDrawing::painted_values() const {
 
 ModelDrawing::Values ModelDrawing::wanted_values() const {
     if (!painted_.empty()) return painted_values();
+    if (colours_ && colours_->values.size() == shown_.vertex_count())
+        return {colours_, &colours_->values};
     return deviation_ ? Values(deviation_, &deviation_->values) : nullptr;
 }
 
@@ -153,6 +155,27 @@ bool ModelDrawing::shows_deviation(const ViewLook& look) const {
            uploaded_.get() == &deviation_->values;
 }
 
+bool ModelDrawing::shows_colouring() const {
+    return colours_ && drawn_ && drawn_->has_values() && uploaded_.get() == &colours_->values;
+}
+
+ValueRange ModelDrawing::colour_range() const {
+    if (typed_range_) return *typed_range_;
+    if (shows_colouring()) return colours_->range;
+    return deviation_ ? ValueRange{-deviation_->full, deviation_->full} : ValueRange{};
+}
+
+void ModelDrawing::colour(SurfaceLayer& layer, const ViewLook& look) const {
+    if (shows_weight()) {
+        layer.colouring = Colouring::Values;
+    } else if (shows_deviation(look) || shows_colouring()) {
+        layer.colouring = Colouring::Values;
+        layer.map = shows_colouring() ? ColourMap::Ordered : ColourMap::Diverging;
+        layer.least = colour_range().least;
+        layer.most = colour_range().most;
+    }
+}
+
 Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     Layers layers;
     if (!drawn_) return layers;
@@ -162,13 +185,7 @@ Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     layer.opacity = look.transparent ? kTransparent : 1.0;
     layer.edges = look.edges ? Edges::Over : Edges::Off;
     layer.edge_width = edge_width;
-    if (shows_deviation(look)) {
-        layer.colouring = Colouring::Values;
-        layer.map = ColourMap::Diverging;
-        layer.least = -deviation_->full;
-        layer.most = deviation_->full;
-    }
-    if (shows_weight()) layer.colouring = Colouring::Values;
+    colour(layer, look);
     layers.surfaces.push_back(std::move(layer));
     return layers;
 }

@@ -11,6 +11,7 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
+#include "workbench/window/model/colourings.h"
 #include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/live_stroke.h"
 
@@ -49,6 +50,14 @@ public:
     /// Values for colours; null: none.
     void set_deviation(std::shared_ptr<const DeviationMap> deviation);
 
+    /// Values for colours instead of the deviation; null, or not #V: none.
+    void set_colouring(std::shared_ptr<const ColourValues> colours) {
+        colours_ = std::move(colours);
+    }
+
+    /// Typed ends of the colours' range; none: that of the values.
+    void set_range(std::optional<ValueRange> range) { typed_range_ = range; }
+
     /// Uploads what is ready. \return true if the drawing has changed
     bool update();
 
@@ -67,6 +76,12 @@ public:
 
     [[nodiscard]] const DeviationMap* deviation() const { return deviation_.get(); }
 
+    /// True if the colours show the values of set_colouring.
+    [[nodiscard]] bool shows_colouring() const;
+
+    /// The values at the ends of the colours.
+    [[nodiscard]] ValueRange colour_range() const;
+
 private:
     using Values = std::shared_ptr<const std::vector<double>>;
 
@@ -77,6 +92,7 @@ private:
     [[nodiscard]] Values painted_values() const;
     [[nodiscard]] Values wanted_values() const;
     [[nodiscard]] bool upload_values();
+    void colour(SurfaceLayer& layer, const ViewLook& look) const;
 
     std::function<void()> wake_;
     std::shared_ptr<DrawnSurface> drawn_;
@@ -87,6 +103,8 @@ private:
     bool moved_ = false;             ///< since the last update
     std::string painted_;
     std::shared_ptr<const DeviationMap> deviation_;
+    std::shared_ptr<const ColourValues> colours_;
+    std::optional<ValueRange> typed_range_;
     Values uploaded_;
 };
 

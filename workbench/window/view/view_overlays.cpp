@@ -7,7 +7,6 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "gpu/colours.h"
 
 namespace vesselbench {
 
@@ -110,24 +109,27 @@ std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
     return clicked;
 }
 
-void draw_deviation_legend(const Ui& ui, const ScreenRect& view, double full,
-                           const std::string& title) {
+void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend) {
     constexpr int kSteps = 64;
     const float wide = ui.em * 14, high = ui.em * 0.8F;
     const float left = view.x + view.width - wide - ui.grid(3), top = view.y + ui.grid(7.5F);
     const float step = wide / kSteps;
     for (int i = 0; i < kSteps; ++i) {
-        const PixelColour rgb = pixel_colour(colour_at(ColourMap::Diverging, (i + 0.5) / kSteps));
+        const PixelColour rgb = pixel_colour(colour_at(legend.map, (i + 0.5) / kSteps));
         const float x = left + static_cast<float>(i) * step;
         draw_list().AddRectFilled({x, top}, {x + step + 1, top + high},
                                   IM_COL32(rgb[0], rgb[1], rgb[2], 255));
     }
     draw_list().AddRect({left, top}, {left + wide + 1, top + high}, faded(ui.theme.text, 0.5));
-    centred_text(ui.fonts.small, {left + wide / 2, top - ui.em * 0.7F}, ui.theme.text, title);
+    centred_text(ui.fonts.small, {left + wide / 2, top - ui.em * 0.7F}, ui.theme.text,
+                 legend.title);
     const float low = top + high + ui.em * 0.75F;
-    centred_text(ui.fonts.small, {left, low}, ui.theme.text, formatted(-full));
-    centred_text(ui.fonts.small, {left + wide / 2, low}, ui.theme.text, "0");
-    centred_text(ui.fonts.small, {left + wide, low}, ui.theme.text, formatted(full));
+    for (const double share : {0.0, 0.5, 1.0}) {
+        const double value = legend.least + share * (legend.most - legend.least);
+        const bool zero = std::abs(value) < 1e-9 * (legend.most - legend.least);
+        centred_text(ui.fonts.small, {left + wide * static_cast<float>(share), low}, ui.theme.text,
+                     zero ? "0" : formatted(value));
+    }
 }
 
 }  // namespace vesselbench

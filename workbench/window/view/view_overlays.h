@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "gpu/colours.h"
 #include "gpu/render/view_camera.h"
 #include "workbench/window/widgets/ui.h"
 
@@ -25,8 +26,14 @@ void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& came
 [[nodiscard]] std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
                                                            const ViewCamera& camera);
 
-/// The colours of deviations from -full to full [mm], in the upper right corner.
-void draw_deviation_legend(const Ui& ui, const ScreenRect& view, double full,
-                           const std::string& title);
+/// The meaning of a colour map.
+struct ColourLegend {
+    ColourMap map = ColourMap::Ordered;
+    double least = 0.0, most = 1.0;  ///< values at its ends
+    std::string title;               ///< with the unit
+};
+
+/// The colours with their values, in the upper right corner.
+void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend);
 
 }  // namespace vesselbench

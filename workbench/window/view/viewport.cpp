@@ -1,8 +1,10 @@
 #include "workbench/window/view/viewport.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <imgui.h>
 
@@ -14,31 +16,52 @@
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/branch_highlight.h"
 #include "workbench/window/view/brush_pointer.h"
+#include "workbench/window/view/clip_section.h"
 #include "workbench/window/view/comparison_view.h"
 #include "workbench/window/view/edit_marks.h"
+#include "workbench/window/view/endoscope.h"
+#include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/model_drawing.h"
+#include "workbench/window/view/overlay_layers.h"
 #include "workbench/window/view/region_drawing.h"
 #include "workbench/window/view/role_card.h"
 #include "workbench/window/view/slice_planes.h"
 #include "workbench/window/view/slice_row.h"
 #include "workbench/window/view/view_handles.h"
 #include "workbench/window/view/view_overlays.h"
+#include "workbench/window/view/view_picture.h"
 #include "workbench/window/view/view_places.h"
+#include "workbench/window/view/view_strips.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr double kTurnPerHeight = 3.5;  ///< a drag over the view's height turns by this [rad]
-constexpr double kZoomPerNotch = 1.15;  ///< of the wheel
-constexpr double kMargin = 0.12;        ///< around a framed model [-]
+constexpr double kTurnPerHeight = 3.5;   ///< a drag over the view's height turns by this [rad]
+constexpr double kZoomPerNotch = 1.15;   ///< of the wheel
+constexpr double kClipPerNotch = 0.02;   ///< of the way through the model [-]
+constexpr double kFlightPerNotch = 0.5;  ///< [local radii]
+constexpr double kMargin = 0.12;         ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 constexpr double kLinePull = 0.01;   ///< of lines on the surface, by half the view's height [-]
 constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
 
 /// From the front, somewhat from the left and above: all three planes of an image are seen.
 const ViewCamera kObliqueView = {.view = {-0.45, 0.75, -0.4}, .up = {0, 0, 1}};
+
+bool draw_tool(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
+               bool on) {
+    ImGui::SameLine(0, c.ui.grid(0.25F));
+    return icon_button(c.ui, name, icon, help, true, on);
+}
+
+ViewLook look_of(const Workplace& place) {
+    return {.edges = place.settings.layers.edges,
+            .flat = place.settings.layers.flat,
+            .transparent = place.view.transparent,
+            .deviation = place.view.colouring == ColouringKind::Deviation};
+}
 
 /// All that the picture depends on besides the model.
 struct DrawnAs {
@@ -51,6 +74,10 @@ struct DrawnAs {
     int branch = 0;    ///< version of the highlight
     int slices = 0;    ///< version of the image's planes
     int compared = 0;  ///< version of the comparison's reference
+    ValueRange range;
+    int clip = 0;      ///< version of the clip plane and its section
+    int overlays = 0;  ///< version of theirs
+    bool inside = false;
 
     bool operator==(const DrawnAs&) const = default;
 };
@@ -65,7 +92,11 @@ struct Viewport::Impl {
           brush(renderer),
           places(renderer, wake),
           handles(wake),
-          branch(wake) {}
+          branch(wake),
+          measuring(renderer, wake),
+          clip(wake),
+          overlays(wake),
+          picture(wake) {}
 
     void take_scene(PanelContext& c);
     void take_comparison(PanelContext& c);
@@ -77,13 +108,17 @@ struct Viewport::Impl {
     void follow_handles();
     void draw_model(const Ui& ui);
     void handle_brush(PanelContext& c);
-    void handle_mouse(bool sets_centre);
-    void handle_keys(bool over_view);
+    void fly(const PanelContext& c);
+    void take_choices(PanelContext& c);
+    void handle_mouse(PanelContext& c);
+    void handle_drag(const Eigen::Vector2d& moved);
+    void handle_wheel(PanelContext& c, float notches);
+    void handle_keys(const PanelContext& c, bool over_view);
     void set_centre();
     void draw_toolbar(PanelContext& c);
-    void draw_toggle(PanelContext& c, const std::string& name, const char* icon,
-                     const std::string& help, bool& on);
+    void draw_legend(const PanelContext& c) const;
     void draw_overlays(PanelContext& c, bool over_view);
+    void draw_controls(PanelContext& c);
     void draw_empty(PanelContext& c) const;
     [[nodiscard]] SceneView scene_view(const Ui& ui) const;
     [[nodiscard]] ViewLook model_look() const;
@@ -105,6 +140,11 @@ struct Viewport::Impl {
     ViewPlaces places;
     ViewHandles handles;
     BranchHighlight branch;
+    MeasuringTool measuring;
+    ClipSection clip;
+    OverlayLayers overlays;
+    Endoscope endoscope;
+    ViewPicture picture;
     RegionDrawing region;
     SlicePlanes planes;
     SliceRow slice_row;
@@ -116,6 +156,7 @@ struct Viewport::Impl {
     ScreenRect area;  ///< all of the view
     ScreenRect rect;  ///< the part of it that shows the model
     std::optional<DrawnAs> drawn;
+    std::optional<ViewCamera> outside;        ///< the camera before a flight through the lumen
     std::filesystem::path framed_project;     ///< whose model the camera was set for
     std::optional<ViewCamera> framed_camera;  ///< as it was set; another one is the user's
     int seen_scenes = -1;
@@ -130,8 +171,11 @@ Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wa
 Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
-    return impl_->model.pending() || impl_->compared.pending() || impl_->brush.pending() ||
-           impl_->places.pending() || impl_->handles.pending() || impl_->branch.pending();
+    const Impl& view = *impl_;
+    return view.model.pending() || view.compared.pending() || view.brush.pending() ||
+           view.places.pending() || view.handles.pending() || view.branch.pending() ||
+           view.measuring.pending() || view.clip.pending() || view.overlays.pending() ||
+           view.endoscope.moves() || view.picture.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -157,8 +201,14 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     for (const SceneMove& move : document.take_moves()) model.move(move);
     const auto& form = c.place.form();
     model.set_painted(form ? painted_attribute(*form) : "");
+    look = look_of(c.place);
     document.want_deviation(look.deviation);
     model.set_deviation(compared.colours_model() ? compared.difference() : document.deviation());
+    const auto& colours = c.place.view_data().colours();
+    const bool on_model =
+        colours && !compared.colours_model() && colours->kind != ColouringKind::TetrahedraQuality;
+    model.set_colouring(on_model ? colours : nullptr);
+    model.set_range(c.place.view.range);
     if (!model.update()) return;
     drawn.reset();
     ++models;
@@ -216,17 +266,40 @@ void Viewport::Impl::pick_places(PanelContext& c, bool over, bool released) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    places.update(c,
-                  {.view = scene_view(c.ui),
-                   .layers = layers(c.ui),
-                   .rect = rect,
-                   .surface = model.surface(),
-                   .version = models,
-                   .over = over && !ImGui::IsAnyMouseDown() && !handles.has_cursor(),
-                   .clicked = over && released && still && !io.KeyShift && !handles.has_cursor()});
+    const SeenModel seen{
+        .view = scene_view(c.ui),
+        .layers = layers(c.ui),
+        .rect = rect,
+        .surface = model.surface(),
+        .version = models,
+        .over = over && !ImGui::IsAnyMouseDown() && !handles.has_cursor(),
+        .clicked = over && released && still && !io.KeyShift && !handles.has_cursor()};
+    places.update(c, seen);
+    measuring.update(c, seen);
+}
+
+/// Puts the camera into the lumen, and back to where it was before.
+void Viewport::Impl::fly(const PanelContext& c) {
+    endoscope.update(c, ImGui::GetIO().DeltaTime);
+    const auto inside = endoscope.camera();
+    if (inside && !outside) outside = camera;
+    if (inside)
+        camera = *inside;
+    else if (outside)
+        camera = *std::exchange(outside, std::nullopt);
+}
+
+/// What is chosen to be seen, before it is drawn.
+void Viewport::Impl::take_choices(PanelContext& c) {
+    take_form(c);
+    follow_handles();
+    fly(c);
+    clip.update(c, model.surface(), camera);
+    overlays.update(c);
 }
 
 void Viewport::Impl::frame_model() {
+    outside.reset();
     if (model.surface() != nullptr)
         camera = framed(camera, model.surface()->points(), aspect(), kMargin);
     else if (image_box)
@@ -257,8 +330,13 @@ void Viewport::Impl::follow_handles() {
 Layers Viewport::Impl::layers(const Ui& ui) const {
     const double line = std::max(1.0, ui.em / 15.0);
     Layers layers = model.layers(model_look(), line);
-    for (SurfaceLayer& layer : layers.surfaces) layer.highlighted_patch = places.lit_patch();
+    for (SurfaceLayer& layer : layers.surfaces) {
+        layer.highlighted_patch = places.lit_patch();
+        layer.back_as_front = outside.has_value();
+    }
     planes.add_to(layers, line);
+    clip.add_to(layers, line);
+    overlays.add_to(layers, line, ui.theme.dark);
     const double pull = kLinePull * camera.half_height;
     branch.add_to(layers, pull / 2);
     region.add_to(layers, 2 * line, pull);
@@ -269,22 +347,27 @@ SceneView Viewport::Impl::scene_view(const Ui& ui) const {
     return {.camera = camera,
             .rectangle = {0, 0, std::max(1, static_cast<int>(rect.width)),
                           std::max(1, static_cast<int>(rect.height))},
+            .clip = clip.plane(),
             .background = Background{linear(ui.theme.view_above), linear(ui.theme.view_below)}};
 }
 
 void Viewport::Impl::draw_model(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(area.width));
     const int height = std::max(1, static_cast<int>(area.height));
-    const DrawnAs now{camera,
-                      look,
-                      width,
-                      height,
-                      ui.theme.dark,
-                      places.lit_patch(),
-                      region.version(),
-                      branch.version(),
-                      planes.space_version(),
-                      compared.version()};
+    const DrawnAs now{.camera = camera,
+                      .look = look,
+                      .width = width,
+                      .height = height,
+                      .dark = ui.theme.dark,
+                      .lit_patch = places.lit_patch(),
+                      .region = region.version(),
+                      .branch = branch.version(),
+                      .slices = planes.space_version(),
+                      .compared = compared.version(),
+                      .range = model.colour_range(),
+                      .clip = clip.version(),
+                      .overlays = overlays.version(),
+                      .inside = outside.has_value()};
     if (drawn == now) return;
     if (!target) target.emplace(width, height);
     target->resize(width, height);
@@ -311,27 +394,41 @@ void Viewport::Impl::handle_brush(PanelContext& c) {
     brush.update(c, {view, shown, *model.surface(), rect});
 }
 
-void Viewport::Impl::handle_mouse(bool sets_centre) {
+/// \param moved by the mouse [ndc]
+void Viewport::Impl::handle_drag(const Eigen::Vector2d& moved) {
     const ImGuiIO& io = ImGui::GetIO();
+    const double turn = kTurnPerHeight / rect.height;
     const Eigen::Vector2d now = mouse_ndc();
+    if (outside)
+        endoscope.look_round(-turn * io.MouseDelta.x / 2, turn * io.MouseDelta.y / 2);
+    else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift)
+        camera = panned(camera, aspect(), now - moved, now);
+    else
+        camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
+}
+
+void Viewport::Impl::handle_wheel(PanelContext& c, float notches) {
+    ClipChoice& plane = c.place.view.clip;
+    if (plane.on && ImGui::GetIO().KeyCtrl)
+        plane.place = std::clamp(plane.place + kClipPerNotch * notches, 0.0, 1.0);
+    else if (outside)
+        endoscope.advance(kFlightPerNotch * notches);
+    else
+        camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, notches), mouse_ndc());
+}
+
+void Viewport::Impl::handle_mouse(PanelContext& c) {
+    const ImGuiIO& io = ImGui::GetIO();
     const Eigen::Vector2d moved(2.0 * io.MouseDelta.x / rect.width,
                                 -2.0 * io.MouseDelta.y / rect.height);
     const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    if (ImGui::IsItemActive() && moved.norm() > 0 &&
-        (middle || !(brush.holds_left() || handles.holds_left()))) {
-        const bool pans = middle || io.KeyShift;
-        const double turn = kTurnPerHeight / rect.height;
-        if (pans)
-            camera = panned(camera, aspect(), now - moved, now);
-        else
-            camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
-    }
+    const bool held = brush.holds_left() || handles.holds_left();
+    if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !held)) handle_drag(moved);
     if (!ImGui::IsItemHovered()) return;
-    if (io.MouseWheel != 0)
-        camera = zoomed(camera, aspect(), std::pow(kZoomPerNotch, io.MouseWheel), now);
-    if (sets_centre && !places.took_click() && !handles.has_cursor() &&
-        ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        set_centre();
+    if (io.MouseWheel != 0) handle_wheel(c, io.MouseWheel);
+    const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
+                      outside.has_value() || places.took_click() || handles.has_cursor();
+    if (!busy && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
 }
 
 void Viewport::Impl::set_centre() {
@@ -345,9 +442,10 @@ void Viewport::Impl::set_centre() {
     if (picked.layer != 0) camera.centre = picked.point;
 }
 
-void Viewport::Impl::handle_keys(bool over_view) {
+void Viewport::Impl::handle_keys(const PanelContext& c, bool over_view) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || !over_view) return;
+    if (c.place.view.flies) return endoscope.handle_keys();
     const auto pressed = [](int digit) {
         return ImGui::IsKeyPressed(keys::k0 + digit, false) ||
                ImGui::IsKeyPressed(keys::kPad0 + digit, false);
@@ -361,16 +459,12 @@ void Viewport::Impl::handle_keys(bool over_view) {
     if (ImGui::IsKeyPressed(keys::kHome, false)) frame_model();
 }
 
-void Viewport::Impl::draw_toggle(PanelContext& c, const std::string& name, const char* icon,
-                                 const std::string& help, bool& on) {
-    ImGui::SameLine(0, c.ui.grid(0.25F));
-    if (icon_button(c.ui, name, icon, help, true, on)) on = !on;
-}
-
 void Viewport::Impl::draw_toolbar(PanelContext& c) {
+    ViewChoice& choice = c.place.view;
+    ShownLayers& layers = c.place.settings.layers;
     const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
     const bool has_image = c.place.slices().has_image();
-    const auto count = has_image ? 7.0F : 6.0F;
+    const auto count = has_image ? 8.0F : 7.0F;
     const float width = count * side + (count - 1) * c.ui.grid(0.25F) + 2 * pad;
     const ImVec2 at{area.x + c.ui.grid(1.5F), area.y + c.ui.grid(1.5F)};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -378,45 +472,83 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
     draw.AddRectFilled(at, to, faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
     ImGui::SetCursorScreenPos({at.x + pad, at.y + pad});
     if (icon_button(c.ui, "view.fit", icons::kFit, "Show everything  Home")) frame_model();
-    draw_toggle(c, "view.edges", icons::kGrid, "Triangles' edges", look.edges);
-    draw_toggle(c, "view.flat", icons::kFlat, "Flat shading", look.flat);
-    draw_toggle(c, "view.transparent", icons::kTransparent, "Transparent", look.transparent);
-    draw_toggle(c, "view.deviation", icons::kPalette,
-                "Colours show the distance from the source, or of a preview from before it",
-                look.deviation);
-    draw_toggle(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective);
-    if (!has_image) return;
-    bool planes_shown = c.place.slices().any_in_space();
-    draw_toggle(c, "view.slices", icons::kImage, "Planes of the image  Shift+I", planes_shown);
-    if (planes_shown != c.place.slices().any_in_space())
-        c.place.slices().show_in_space(planes_shown);
+    const ShownLayers before = layers;
+    if (draw_tool(c, "view.edges", icons::kGrid, "Triangles' edges", layers.edges))
+        layers.edges = !layers.edges;
+    if (draw_tool(c, "view.flat", icons::kFlat, "Flat shading", layers.flat))
+        layers.flat = !layers.flat;
+    if (layers != before) c.place.settings.save();
+    if (draw_tool(c, "view.transparent", icons::kTransparent, "Transparent", choice.transparent))
+        choice.transparent = !choice.transparent;
+    const bool coloured = choice.colouring != ColouringKind::Patches;
+    if (draw_tool(c, "view.deviation", icons::kPalette,
+                  std::string("Colours: ") + colouring_info(choice.last_colouring).label, coloured))
+        choice.choose(coloured ? ColouringKind::Patches : choice.last_colouring);
+    if (draw_tool(c, "view.perspective", icons::kPerspective, "Perspective  5", camera.perspective))
+        camera.perspective = !camera.perspective;
+    if (draw_tool(c, "view.options", icons::kLayers, "Colours, sections, overlays and measures  V",
+                  c.shown.view))
+        c.shown.view = !c.shown.view;
+    ImageSlices& slices = c.place.slices();
+    if (has_image && draw_tool(c, "view.slices", icons::kImage, "Planes of the image  Shift+I",
+                               slices.any_in_space()))
+        slices.show_in_space(!slices.any_in_space());
+}
+
+/// What the colours mean.
+void Viewport::Impl::draw_legend(const PanelContext& c) const {
+    if (compared.hides_model()) return;
+    ScreenRect place = rect;
+    if (compared.colours_model()) place.y += c.ui.em * 1.5F;  // below the comparison's banner
+    const bool cells = clip.shows_tetrahedra();
+    const ValueRange range = cells ? clip.range() : model.colour_range();
+    if (cells || model.shows_colouring()) {
+        const ColouringInfo& info = colouring_info(c.place.view.colouring);
+        draw_colour_legend(c.ui, place,
+                           {ColourMap::Ordered, range.least, range.most,
+                            std::string(info.label) + " [" + info.unit + "]"});
+    } else if (model.shows_deviation(model_look())) {
+        const bool preview = c.place.document.previewed().has_value();
+        draw_colour_legend(c.ui, place,
+                           {ColourMap::Diverging, range.least, range.most,
+                            compared.colours_model() ? "Distance from the reference [mm]"
+                            : preview                ? "Distance from before [mm]"
+                                                     : "Distance from the source [mm]"});
+    }
+}
+
+void Viewport::Impl::draw_controls(PanelContext& c) {
+    draw_toolbar(c);
+    if (model.surface() == nullptr) return draw_empty(c);
+    ViewStrips strips(rect);
+    clip.draw_strip(c, strips);
+    endoscope.draw_strip(c, strips);
+    measuring.draw_strip(c, strips);
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
+    const OnScreen screen{camera, rect};
+    const bool saved = picture.update(c, rect);
+    const bool has_model = model.surface() != nullptr;
+    if (has_model) overlays.draw_marks(c, screen);
     if (has_content()) {
-        places.draw(c, {camera, rect});
-        handles.draw(c, {camera, rect});
+        places.draw(c, screen);
+        handles.draw(c, screen);
     }
-    if (model.surface() != nullptr) {
-        draw_edit_marks(c, {camera, rect}, over_view && !c.place.form());
+    if (has_model) {
+        measuring.draw(c, screen);
+        draw_edit_marks(c, screen, over_view && !c.place.form());
     }
-    draw_toolbar(c);
-    if (model.surface() == nullptr) draw_empty(c);
+    if (!saved) draw_controls(c);
     if (!has_content()) return;
-    if (model.surface() != nullptr) {
+    if (has_model) {
         brush.draw(c, camera, rect);
-        draw_role_card(c, {camera, rect});
+        draw_role_card(c, screen);
     }
-    draw_scale_bar(c.ui, rect, camera);
+    if (!outside) draw_scale_bar(c.ui, rect, camera);
     if (const auto side = draw_orientation(c.ui, rect, camera)) camera = facing(camera, *side);
     compared.draw_labels(c.ui, area);
-    ScreenRect legend = rect;
-    if (compared.colours_model()) legend.y += c.ui.em * 1.5F;  // below the comparison's banner
-    if (model.shows_deviation(model_look()) && !compared.hides_model())
-        draw_deviation_legend(c.ui, legend, model.deviation()->full,
-                              compared.colours_model()       ? "Distance from the reference [mm]"
-                              : c.place.document.previewed() ? "Distance from before [mm]"
-                                                             : "Distance from the source [mm]");
+    draw_legend(c);
 }
 
 /// What to do while there is no surface.
@@ -465,11 +597,10 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     if (view.model.surface() != nullptr) view.handle_brush(c);
     if (view.has_content()) {
         view.handles.update(c, {view.camera, view.rect});
-        view.handle_mouse(!c.place.can_paint());
+        view.handle_mouse(c);
     }
-    view.handle_keys(over);
-    view.take_form(c);
-    view.follow_handles();
+    view.handle_keys(c, over);
+    view.take_choices(c);
     view.pick_places(c, over_model, released);
     view.draw_model(c.ui);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};

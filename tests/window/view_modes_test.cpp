@@ -1,0 +1,274 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/whole_file.h"
+#include "gpu/render/view_camera.h"
+#include "tests/support/paths.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/view/screen_places.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::string capped_tube_file() {
+    const std::string file = temporary_folder() + "/tube.vtp";
+    write_surface(fine_tube(4.0, 30.0, 24), file);
+    return file;
+}
+
+/// A window with the tube, and its settings.
+struct Seen {
+    Seen() : shell(test_shell()) {
+        if (shell) open_and_wait(*shell, capped_tube_file());
+    }
+
+    Workplace& place() { return shell->app().place(); }
+
+    ScreenRect view() {
+        REQUIRE(shell->has("view.area"));
+        return shell->app().ui().items().at("view.area").rect;
+    }
+
+    void key(char letter) {
+        shell->press_key(keys::letter(letter));
+        REQUIRE(shell->settle(60s));
+    }
+
+    /// Where a point is seen in the window.
+    Eigen::Vector2f at(const Vec3& point) {
+        const auto place = OnScreen{shell->app().camera(), view()}.place(point);
+        REQUIRE(place);
+        return *place;
+    }
+
+    void click(const Vec3& point) {
+        const Eigen::Vector2f where = at(point);
+        shell->click(where.x(), where.y());
+        REQUIRE(shell->settle(30s));
+    }
+
+    /// The view's pixels around its middle, where no control is.
+    std::vector<std::uint8_t> pixels() {
+        const ScreenRect rect = view();
+        const Picture picture = shell->picture();
+        std::vector<std::uint8_t> found;
+        for (int y = static_cast<int>(rect.middle_y()) - 40; y < rect.middle_y() + 40; ++y)
+            for (int x = static_cast<int>(rect.middle_x()) - 60; x < rect.middle_x() + 60; ++x)
+                for (int part = 0; part < 3; ++part)
+                    found.push_back(
+                        picture.rgb[static_cast<std::size_t>((y * picture.width + x) * 3 + part)]);
+        return found;
+    }
+
+    std::unique_ptr<OffscreenShell> shell;
+};
+
+}  // namespace
+
+SCENARIO("Colours are chosen in the view's options", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto plain = seen.pixels();
+    REQUIRE(seen.shell->click_item("view.options"));
+    REQUIRE(seen.shell->click_item("view.colours"));
+    REQUIRE(seen.shell->click_item("view.colours=Mean curvature"));
+    REQUIRE(seen.shell->settle(60s));
+    seen.key('V');
+    CHECK_FALSE(seen.shell->has("view.colours"));
+    REQUIRE(seen.place().view_data().colours());
+    const auto coloured = seen.pixels();
+    CHECK(coloured != plain);
+    WHEN("a range is typed") {
+        seen.key('V');
+        REQUIRE(seen.shell->fill_item("view.least", "0"));
+        REQUIRE(seen.shell->fill_item("view.most", "1"));
+        CHECK(seen.place().view.range == ValueRange{0, 1});
+        seen.shell->press_key(keys::kEscape);
+        seen.shell->press_key(keys::kEscape);
+        CHECK(seen.pixels() != coloured);
+    }
+    WHEN("the colours are switched off and on") {
+        REQUIRE(seen.shell->click_item("view.deviation"));
+        REQUIRE(seen.shell->settle(60s));
+        CHECK(seen.place().view.colouring == ColouringKind::Patches);
+        CHECK(seen.pixels() == plain);
+        REQUIRE(seen.shell->click_item("view.deviation"));
+        CHECK(seen.place().view.colouring == ColouringKind::MeanCurvature);
+    }
+}
+
+SCENARIO("A colouring that needs something else says what", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    seen.place().view.choose(ColouringKind::NeighbourDistance);
+    REQUIRE(seen.shell->settle(60s));
+    CHECK_FALSE(seen.place().view_data().colours());
+    CHECK_FALSE(seen.place().view_data().colours_problem().empty());
+}
+
+SCENARIO("A clip plane cuts the model and is dragged", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto whole = seen.pixels();
+    seen.key('C');
+    REQUIRE(seen.shell->has("clip.place"));
+    const auto cut = seen.pixels();
+    CHECK(cut != whole);
+    WHEN("its slider is dragged") {
+        const ScreenRect slider = seen.shell->app().ui().items().at("clip.place").rect;
+        const float y = slider.middle_y();
+        seen.shell->drag(slider.middle_x(), y, slider.x + 0.9F * slider.width, y);
+        CHECK(seen.place().view.clip.place > 0.8);
+        CHECK(seen.pixels() != cut);
+    }
+    WHEN("the other half is shown") {
+        REQUIRE(seen.shell->click_item("clip.flip"));
+        CHECK(seen.place().view.clip.flipped);
+        CHECK(seen.pixels() != cut);
+    }
+    WHEN("it faces the camera") {
+        REQUIRE(seen.shell->click_item("clip.axis"));
+        REQUIRE(seen.shell->click_item("clip.axis=Camera"));
+        CHECK(seen.place().view.clip.axis == ClipAxis::Camera);
+        CHECK(seen.pixels() != cut);
+    }
+    REQUIRE(seen.shell->click_item("clip.close"));
+    seen.shell->frame();
+    CHECK(seen.pixels() == whole);
+}
+
+SCENARIO("Overlays are switched by keys", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto plain = seen.pixels();
+    seen.key('L');
+    CHECK(seen.place().view_data().centerlines());
+    CHECK(seen.pixels() != plain);
+    seen.key('N');
+    CHECK(seen.shell->has("view.name.inlet"));
+    CHECK(seen.shell->has("view.name.outlet_1"));
+    seen.key('L');
+    CHECK(seen.pixels() == plain);
+    CHECK(seen.place().settings.layers.names);
+}
+
+SCENARIO("What the view shows is remembered", "[window][view]") {
+    const std::string folder = temporary_folder();
+    Settings settings(folder);
+    CHECK(settings.layers == ShownLayers{});
+    settings.layers = {.flat = true, .anchors = true};
+    REQUIRE(settings.save());
+    CHECK(Settings(folder).layers == settings.layers);
+}
+
+SCENARIO("The source's wireframe and the places of edits are shown", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    Document& document = seen.place().document;
+    document.apply("brush-inflate", {{"at", Value(Vec3(0, -4, 15))}, {"radius", Value(3.0)}});
+    REQUIRE(wait_until_idle(*seen.shell));
+    REQUIRE_FALSE(document.failure());
+    REQUIRE(seen.shell->settle(60s));
+    seen.key('A');
+    CHECK(seen.shell->has("view.anchor.0"));
+    const auto plain = seen.pixels();
+    seen.key('W');
+    REQUIRE(document.source());
+    CHECK(document.source()->points() != document.shown()->surface->points());
+    CHECK(seen.pixels() != plain);
+}
+
+SCENARIO("The camera flies through the vessel and comes back", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const ViewCamera outside = seen.shell->app().camera();
+    seen.key('E');
+    const auto eye = [&] { return eye_of(seen.shell->app().camera()); };
+    REQUIRE(seen.shell->has("flight.place"));
+    CHECK(seen.shell->app().camera().perspective);
+    CHECK(seen.shell->app().camera().field_of_view_deg > 80);
+    CHECK(eye().head<2>().norm() < 1);
+    CHECK(eye().z() < 3);
+    WHEN("the wheel is turned") {
+        const ScreenRect view = seen.view();
+        seen.shell->move_mouse(view.middle_x(), view.middle_y());
+        seen.shell->wheel(4);
+        seen.shell->frame();
+        CHECK(eye().z() > 5);
+        CHECK(eye().head<2>().norm() < 1);
+        THEN("dragging looks round without moving") {
+            const Vec3 before = eye();
+            const Vec3 view_before = seen.shell->app().camera().view;
+            seen.shell->drag(view.middle_x(), view.middle_y(), view.middle_x() + 80,
+                             view.middle_y());
+            CHECK((eye() - before).norm() < 1e-6);
+            CHECK(seen.shell->app().camera().view.dot(view_before) < 0.999);
+        }
+    }
+    WHEN("it is played") {
+        REQUIRE(seen.shell->click_item("flight.play"));
+        REQUIRE(seen.shell->run_until([&] { return eye().z() > 6; }, 60s));
+        REQUIRE(seen.shell->click_item("flight.play"));
+        const double stopped = eye().z();
+        for (int i = 0; i < 5; ++i) seen.shell->frame();
+        CHECK(eye().z() == stopped);
+    }
+    seen.shell->press_key(keys::kEscape);
+    CHECK_FALSE(seen.shell->has("flight.place"));
+    CHECK(seen.shell->app().camera() == outside);
+}
+
+SCENARIO("Two clicks measure a distance", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const ViewCamera before = seen.shell->app().camera();
+    seen.key('M');
+    REQUIRE(seen.shell->has("measure.close"));
+    const auto plain = seen.pixels();
+    seen.click({0, -4, 10});
+    seen.click({0, -4, 20});
+    CHECK(seen.pixels() != plain);
+    CHECK(seen.shell->app().camera() == before);
+    CHECK(seen.place().view.tool == MeasureTool::Distance);
+    REQUIRE(seen.shell->click_item("measure.clear"));
+    seen.shell->frame();
+    CHECK(seen.pixels() == plain);
+    seen.shell->press_key(keys::kEscape);
+    CHECK(seen.place().view.tool == MeasureTool::None);
+}
+
+SCENARIO("A click measures a vessel's diameter", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    seen.key('D');
+    const auto plain = seen.pixels();
+    seen.click({0, -4, 15});
+    CHECK(seen.pixels() != plain);
+}
+
+SCENARIO("A picture of the view is saved", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    seen.shell->press_key(keys::kF12);
+    CHECK(seen.place().question() == FileQuestion::Picture);
+    REQUIRE(seen.shell->click_item("file.accept"));
+    REQUIRE(seen.shell->settle(30s));
+    const auto file = seen.place().document.project().parent_path() / "tube.png";
+    REQUIRE(std::filesystem::exists(file));
+    CHECK(file_content(file).starts_with("\x89PNG"));
+    CHECK(std::filesystem::file_size(file) > 5000);
+    THEN("the next one gets another name") {
+        seen.shell->press_key(keys::kF12);
+        REQUIRE(seen.shell->click_item("file.accept"));
+        REQUIRE(seen.shell->settle(30s));
+        CHECK(std::filesystem::exists(file.parent_path() / "tube 2.png"));
+    }
+}

@@ -1,0 +1,228 @@
+#include "workbench/window/panels/view_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/keys.h"
+#include "workbench/window/model/readable.h"
+#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+struct LayerToggle {
+    const char* name;
+    const char* label;
+    char key;  ///< 0: none
+    bool ShownLayers::*layer;
+};
+
+constexpr std::array<LayerToggle, 6> kLayers = {
+    {{"edges", "Triangles' edges", 0, &ShownLayers::edges},
+     {"flat", "Flat shading", 0, &ShownLayers::flat},
+     {"source", "Source as wireframe", 'W', &ShownLayers::source},
+     {"centerlines", "Centerlines with radii", 'L', &ShownLayers::centerlines},
+     {"names", "Names of openings", 'N', &ShownLayers::names},
+     {"anchors", "Places of edits", 'A', &ShownLayers::anchors}}};
+
+bool pressed(int key) {
+    return ImGui::IsKeyPressed(key, false);
+}
+
+/// The automatic range of the chosen colouring, as far as it is known.
+std::optional<ValueRange> automatic_range(const PanelContext& c) {
+    if (const auto& colours = c.place.view_data().colours()) return colours->range;
+    const auto& deviation = c.place.document.deviation();
+    if (c.place.view.colouring == ColouringKind::Deviation && deviation)
+        return ValueRange{-deviation->full, deviation->full};
+    return std::nullopt;
+}
+
+std::optional<double> number_in(const std::string& text) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+/// The range that the fields say; none: automatic, as is an empty field.
+std::optional<ValueRange> typed_range(const PanelContext& c) {
+    const auto automatic = automatic_range(c);
+    const auto end = [&](const std::string& text, bool least) {
+        if (!text.empty() || !automatic) return number_in(text);
+        return std::optional(least ? automatic->least : automatic->most);
+    };
+    if (c.shown.least.empty() && c.shown.most.empty()) return std::nullopt;
+    const auto least = end(c.shown.least, true), most = end(c.shown.most, false);
+    if (!least || !most || !(*least < *most)) return std::nullopt;
+    return ValueRange{*least, *most};
+}
+
+void choose_colours(PanelContext& c, ColouringKind kind) {
+    c.place.view.choose(kind);
+    c.shown.least.clear();
+    c.shown.most.clear();
+}
+
+void draw_colour_choice(PanelContext& c) {
+    std::vector<std::string> labels;
+    for (const ColouringInfo& info : colourings()) labels.emplace_back(info.label);
+    const ColouringInfo& now = colouring_info(c.place.view.colouring);
+    std::string chosen = now.label;
+    if (choice(c.ui, "view.colours", labels, chosen))
+        choose_colours(c, std::ranges::find(colourings(), chosen, &ColouringInfo::label)->kind);
+    help_on_hover(c.ui, now.help);
+}
+
+void draw_range(PanelContext& c) {
+    const auto automatic = automatic_range(c);
+    const float gap = c.ui.grid(0.75F), side = ImGui::GetFrameHeight();
+    const float width = (ImGui::GetContentRegionAvail().x - side - 2 * gap) / 2;
+    const bool empty = c.shown.least.empty() && c.shown.most.empty();
+    const bool wrong = !empty && automatic && !typed_range(c);
+    const auto field = [&](const char* name, std::string& words, double value) {
+        text_field(c.ui, name, words,
+                   {.hint = automatic ? formatted(value) : "", .wrong = wrong, .width = width});
+        ImGui::SameLine(0, gap);
+    };
+    field("view.least", c.shown.least, automatic ? automatic->least : 0.0);
+    field("view.most", c.shown.most, automatic ? automatic->most : 0.0);
+    if (icon_button(c.ui, "view.automatic", icons::kRefresh,
+                    "Automatic range: from the 2nd to the 98th percentile", !empty)) {
+        c.shown.least.clear();
+        c.shown.most.clear();
+    }
+    c.place.view.range = typed_range(c);
+}
+
+/// What is the matter with the colours, or what they show.
+void draw_colour_remark(PanelContext& c) {
+    const ViewData& data = c.place.view_data();
+    const ColouringInfo& now = colouring_info(c.place.view.colouring);
+    const Scene* scene = c.place.document.shown();
+    const std::string missing = scene != nullptr ? why_no_colours(now.kind, *scene) : "";
+    if (!missing.empty())
+        wrapped(c.ui, readable_sentence(missing), c.ui.theme.warning);
+    else if (data.finds_colours())
+        wrapped(c.ui, "Computing", c.ui.theme.muted);
+    else if (!data.colours_problem().empty())
+        wrapped(c.ui, readable_sentence(data.colours_problem()), c.ui.theme.warning);
+    else if (now.kind == ColouringKind::Deviation && !automatic_range(c) &&
+             !c.place.document.busy())
+        wrapped(c.ui, "The model is the source: nothing deviates", c.ui.theme.muted);
+    else
+        wrapped(c.ui, now.help, c.ui.theme.muted);
+}
+
+void draw_colours(PanelContext& c) {
+    group_heading(c.ui, "Colours");
+    space(c.ui, 0.5F);
+    draw_colour_choice(c);
+    if (c.place.view.colouring != ColouringKind::Patches) draw_range(c);
+    draw_colour_remark(c);
+}
+
+void draw_key(const Ui& ui, const std::string& key, float row) {
+    const float wide = ImGui::CalcTextSize(key.c_str()).x;
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - wide);
+    ImGui::SetCursorPosY(row + ImGui::GetStyle().FramePadding.y);
+    text(ui, key, ui.theme.muted);
+}
+
+/// A row with a mode of the view that is on or off.
+bool draw_mode(PanelContext& c, const std::string& name, const std::string& label, bool on,
+               const std::string& key) {
+    const float row = ImGui::GetCursorPosY();
+    const bool switched = checkbox(c.ui, name, label, on);
+    draw_key(c.ui, key, row);
+    return switched;
+}
+
+void toggle(MeasureTool& tool, MeasureTool which) {
+    tool = tool == which ? MeasureTool::None : which;
+}
+
+void draw_modes(PanelContext& c) {
+    ViewChoice& view = c.place.view;
+    group_heading(c.ui, "Look and measure");
+    space(c.ui, 0.5F);
+    if (draw_mode(c, "view.clip", "Clip plane", view.clip.on, "C")) view.clip.on = !view.clip.on;
+    if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, "E")) view.flies = !view.flies;
+    if (draw_mode(c, "view.distance", "Distance", view.tool == MeasureTool::Distance, "M"))
+        toggle(view.tool, MeasureTool::Distance);
+    if (draw_mode(c, "view.diameter", "Diameter", view.tool == MeasureTool::Diameter, "D"))
+        toggle(view.tool, MeasureTool::Diameter);
+    space(c.ui, 1);
+    if (button(c.ui, "view.picture", "Save picture",
+               {.icon = icons::kCamera,
+                .width = ImGui::GetContentRegionAvail().x,
+                .help = "Save the view as a PNG file  F12"}))
+        c.place.ask(FileQuestion::Picture);
+}
+
+void draw_layers(PanelContext& c) {
+    group_heading(c.ui, "Show");
+    space(c.ui, 0.5F);
+    for (const LayerToggle& toggle : kLayers) {
+        const float row = ImGui::GetCursorPosY();
+        if (checkbox(c.ui, std::string("view.show.") + toggle.name, toggle.label,
+                     c.place.settings.layers.*toggle.layer))
+            c.place.settings.save();
+        if (toggle.key != 0) draw_key(c.ui, std::string(1, toggle.key), row);
+    }
+}
+
+}  // namespace
+
+void draw_view_panel(PanelContext& c, const ScreenRect& view) {
+    if (!c.shown.view) return;
+    const Ui& ui = c.ui;
+    const float top = view.y + ui.grid(3.5F) + ImGui::GetFrameHeight();
+    const float high = std::min(ui.em * 36, view.y + view.height - top - ui.grid(1.5F));
+    const ScreenRect rect{view.x + ui.grid(1.5F), top, ui.em * 17, high};
+    begin_frame(ui, "view options", rect, {.floats = true, .bordered = true});
+    draw_colours(c);
+    space(ui, 2);
+    draw_modes(c);
+    space(ui, 2);
+    draw_layers(c);
+    end_frame();
+}
+
+void handle_view_keys(PanelContext& c) {
+    if (!c.place.document.is_open()) return;
+    if (pressed(keys::letter('V'))) c.shown.view = !c.shown.view;
+    for (const LayerToggle& toggle : kLayers) {
+        if (toggle.key == 0 || !pressed(keys::letter(toggle.key))) continue;
+        c.place.settings.layers.*toggle.layer = !(c.place.settings.layers.*toggle.layer);
+        c.place.settings.save();
+    }
+    ViewChoice& view = c.place.view;
+    if (pressed(keys::letter('C'))) view.clip.on = !view.clip.on;
+    if (pressed(keys::letter('E'))) view.flies = !view.flies;
+    if (pressed(keys::letter('M'))) toggle(view.tool, MeasureTool::Distance);
+    if (pressed(keys::letter('D'))) toggle(view.tool, MeasureTool::Diameter);
+    if (pressed(keys::kF12)) c.place.ask(FileQuestion::Picture);
+}
+
+bool leave_view_mode(PanelContext& c) {
+    ViewChoice& view = c.place.view;
+    if (view.tool != MeasureTool::None)
+        view.tool = MeasureTool::None;
+    else if (view.flies)
+        view.flies = false;
+    else if (c.shown.view)
+        c.shown.view = false;
+    else
+        return false;
+    return true;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gpu/render/view_camera.h"
+#include "workbench/window/model/flight_path.h"
+#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/view_strips.h"
+
+namespace vesselbench {
+
+/// The endoscopic view (thesis Figs. 3.11, 5.17): a wide-angle camera on the centerline, which is
+/// moved by a slider, the wheel and the arrow keys, or flies by itself; dragging looks round.
+class Endoscope {
+public:
+    /// Once a frame. Takes the centerlines when they are known; flies on.
+    /// \param seconds since the last frame
+    void update(const PanelContext& context, double seconds);
+
+    /// The camera in the lumen; none while it does not fly or the way is not known.
+    [[nodiscard]] std::optional<ViewCamera> camera() const;
+
+    /// True while it flies by itself, so that every frame is another one.
+    [[nodiscard]] bool moves() const { return plays_ && path() != nullptr; }
+
+    /// Turns the gaze [rad], as looked_round.
+    void look_round(double right, double up);
+
+    /// Back to the direction of the vessel.
+    void look_ahead() { right_ = up_ = 0.0; }
+
+    /// Moves by so many local radii.
+    void advance(double radii);
+
+    /// Keys, while the view is flown through and no text is typed.
+    void handle_keys();
+
+    void draw_strip(PanelContext& context, ViewStrips& strips);
+
+private:
+    [[nodiscard]] const FlightPath* path() const;
+    void toggle_play();
+    void draw_destination(PanelContext& context, float width);
+
+    std::shared_ptr<const CenterlineGraph> graph_;  ///< whose paths these are
+    std::vector<FlightPath> paths_;
+    std::size_t chosen_ = 0;
+    bool flies_ = false;
+    bool plays_ = false;
+    double abscissa_ = 0.0;          ///< [mm]
+    double right_ = 0.0, up_ = 0.0;  ///< of the gaze [rad]
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,143 @@
+#include "workbench/window/view/measuring_tool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/view/model_drawing.h"
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+VesselDiameter diameter_or_throw(const Surface& surface, const CenterlineGraph& graph,
+                                 const Vec3& point) {
+    const auto found = vessel_diameter(surface, graph, point);
+    if (!found) throw AlgorithmFailure("there is no centerline to measure at");
+    return *found;
+}
+
+std::string diameter_text(const VesselDiameter& diameter) {
+    std::string text = formatted(diameter.inscribed, "\u00F8 %.2f mm inscribed");
+    if (!diameter.outline.empty())
+        text += formatted(diameter.equivalent, ", \u00F8 %.2f mm by area") +
+                formatted(diameter.area, " (%.1f mm\u00B2)");
+    return text;
+}
+
+/// The points that are before the eye, as a line of the window.
+std::vector<ImVec2> line_of(const OnScreen& screen, const Positions& points) {
+    std::vector<ImVec2> line;
+    for (const Vec3& point : points)
+        if (const auto at = screen.place(point)) line.emplace_back(at->x(), at->y());
+    return line;
+}
+
+void draw_line(const Ui& ui, const std::vector<ImVec2>& line, bool closed) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float thick = std::max(1.5F, ui.em / 8);
+    const auto count = static_cast<int>(line.size());
+    const ImDrawFlags flags = closed ? ImDrawFlags_Closed : ImDrawFlags_None;
+    draw.AddPolyline(line.data(), count, paint(0x101418, 160), flags, 2 * thick);
+    draw.AddPolyline(line.data(), count, paint(0xFFFFFF), flags, thick);
+}
+
+}  // namespace
+
+MeasuringTool::MeasuringTool(Renderer& renderer, std::function<void()> wake)
+    : picker_(renderer), wake_(wake), search_(std::move(wake)) {}
+
+void MeasuringTool::clear() {
+    points_.clear();
+    diameters_.clear();
+    search_.forget();
+}
+
+void MeasuringTool::update(const PanelContext& c, const SeenModel& seen) {
+    const Document& document = c.place.document;
+    if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) clear();
+    tool_ = c.place.view.tool;
+    seen_scenes_ = document.scene_changes();
+    if (search_.update() && search_.result()) diameters_.push_back(*search_.result());
+    if (const auto picked = picker_.result()) take(c, *picked);
+    if (tool_ == MeasureTool::None || seen.surface == nullptr || !c.place.armed().empty()) return;
+    if (seen.clicked) {
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        picker_.request(seen.view, seen.layers, static_cast<int>(mouse.x - seen.rect.x),
+                        static_cast<int>(seen.rect.height - 1 - (mouse.y - seen.rect.y)));
+    }
+    if (picker_.pending() && wake_) wake_();
+}
+
+void MeasuringTool::take(const PanelContext& c, const Picked& picked) {
+    if (picked.layer != kModelLayer || tool_ == MeasureTool::None) return;
+    if (tool_ == MeasureTool::Distance) return points_.push_back(picked.point);
+    const auto& lines = c.place.view_data().centerlines();
+    const Scene* scene = c.place.document.shown();
+    if (!lines || scene == nullptr || !scene->surface) return;
+    search_.begin([surface = *scene->surface, lines, point = picked.point](const Progress&) {
+        return diameter_or_throw(surface, *lines, point);
+    });
+}
+
+void MeasuringTool::draw_distance(const Ui& ui, const OnScreen& screen) const {
+    if (points_.empty()) return;
+    draw_line(ui, line_of(screen, points_), false);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        const auto at = screen.place(points_[i]);
+        if (!at) continue;
+        const std::string length =
+            i == 0 ? "" : formatted((points_[i] - points_[i - 1]).norm(), "%.2f mm");
+        draw_mark(ui, *at, MarkLook::Picked, length);
+    }
+}
+
+void MeasuringTool::draw_diameter(const Ui& ui, const OnScreen& screen,
+                                  const VesselDiameter& diameter) const {
+    draw_line(ui, line_of(screen, diameter.outline), true);
+    if (const auto at = screen.place(diameter.centre))
+        draw_mark(ui, *at, MarkLook::Picked, diameter_text(diameter));
+}
+
+void MeasuringTool::draw(PanelContext& c, const OnScreen& screen) const {
+    draw_distance(c.ui, screen);
+    for (const VesselDiameter& diameter : diameters_) draw_diameter(c.ui, screen, diameter);
+}
+
+std::string MeasuringTool::words(const PanelContext& c) const {
+    const ViewData& data = c.place.view_data();
+    if (tool_ == MeasureTool::Diameter) {
+        if (data.finds_centerlines()) return "Finding the centerlines";
+        if (!data.centerlines_problem().empty()) return data.centerlines_problem();
+        if (!search_.problem().empty()) return search_.problem();
+        return "Diameter: click a vessel";
+    }
+    if (points_.size() < 2)
+        return points_.empty() ? "Distance: click a point" : "Click another one";
+    return formatted(path_length(points_), "%.2f mm") +
+           (points_.size() > 2 ? " along " + counted(points_.size() - 1, "line") : "");
+}
+
+void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
+    if (tool_ == MeasureTool::None) return;
+    const Ui& ui = c.ui;
+    const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F);
+    const float wide = strips.begin(ui, "measure", ui.em * 22);
+    const float left = ImGui::GetCursorPosX();
+    ImGui::AlignTextToFramePadding();
+    clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 2 * gap);
+    ImGui::SameLine(left + wide - 2 * side - gap);
+    const bool any = !points_.empty() || !diameters_.empty();
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Forget what was measured", any))
+        clear();
+    ViewStrips::next(ui);
+    if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
+        c.place.view.tool = MeasureTool::None;
+}
+
+}  // namespace vesselbench

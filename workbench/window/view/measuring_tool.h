@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "gpu/render/pick.h"
+#include "workbench/window/model/background_search.h"
+#include "workbench/window/model/measuring.h"
+#include "workbench/window/view/view_places.h"
+#include "workbench/window/view/view_strips.h"
+
+namespace vesselbench {
+
+/// Measures by clicks on the surface: distances from click to click, and diameters of vessels.
+class MeasuringTool {
+public:
+    /// \param renderer must outlive it \param wake as Viewport's
+    MeasuringTool(Renderer& renderer, std::function<void()> wake);
+
+    /// Once a frame, before the model is drawn.
+    void update(const PanelContext& context, const SeenModel& seen);
+
+    /// True while a search runs.
+    [[nodiscard]] bool pending() const { return picker_.pending() || search_.pending(); }
+
+    /// Lines and figures in ImGui's current window.
+    void draw(PanelContext& context, const OnScreen& screen) const;
+
+    void draw_strip(PanelContext& context, ViewStrips& strips);
+
+    /// What was clicked for distances, in the order of the clicks [mm].
+    [[nodiscard]] const Positions& points() const { return points_; }
+
+    [[nodiscard]] const std::vector<VesselDiameter>& diameters() const { return diameters_; }
+
+private:
+    void clear();
+    void take(const PanelContext& context, const Picked& picked);
+    void draw_distance(const Ui& ui, const OnScreen& screen) const;
+    void draw_diameter(const Ui& ui, const OnScreen& screen, const VesselDiameter& diameter) const;
+    [[nodiscard]] std::string words(const PanelContext& context) const;
+
+    Picker picker_;
+    std::function<void()> wake_;
+    BackgroundSearch<VesselDiameter> search_;
+    MeasureTool tool_ = MeasureTool::None;
+    int seen_scenes_ = -1;
+    Positions points_;
+    std::vector<VesselDiameter> diameters_;
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,86 @@
+#include "workbench/window/view/view_picture.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include "geometry/kernel/whole_file.h"
+#include "gpu/png.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pixels of the bound framebuffer. \param rect from the upper left corner
+Picture read_pixels(const ScreenRect& rect, float window_height) {
+    Picture picture{.width = static_cast<int>(rect.width), .height = static_cast<int>(rect.height)};
+    const auto row = static_cast<std::size_t>(picture.width) * 3;
+    const auto rows = static_cast<std::size_t>(picture.height);
+    picture.rgb.resize(row * rows);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(static_cast<int>(rect.x), static_cast<int>(window_height - rect.y - rect.height),
+                 picture.width, picture.height, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
+    for (std::size_t i = 0; i < rows / 2; ++i)
+        std::swap_ranges(picture.rgb.begin() + static_cast<std::ptrdiff_t>(i * row),
+                         picture.rgb.begin() + static_cast<std::ptrdiff_t>((i + 1) * row),
+                         picture.rgb.begin() + static_cast<std::ptrdiff_t>((rows - 1 - i) * row));
+    return picture;
+}
+
+}  // namespace
+
+struct ViewPicture::Impl {
+    explicit Impl(std::function<void()> wake) : saving(std::move(wake)) {}
+
+    /// Called while the frame is drawn, after everything of the view.
+    static void read(const ImDrawList*, const ImDrawCmd* command) {
+        auto& own = *static_cast<Impl*>(command->UserCallbackData);
+        const Picture picture = read_pixels(own.rect, own.window_height);
+        own.saving.begin([picture, file = own.file](const Progress&) {
+            write_file(file, png(picture));
+            return file;
+        });
+    }
+
+    BackgroundSearch<fs::path> saving;
+    fs::path file;
+    ScreenRect rect;
+    float window_height = 0;
+};
+
+ViewPicture::ViewPicture(std::function<void()> wake)
+    : impl_(std::make_unique<Impl>(std::move(wake))) {}
+
+ViewPicture::~ViewPicture() = default;
+
+bool ViewPicture::pending() const {
+    return impl_->saving.pending();
+}
+
+bool ViewPicture::update(PanelContext& c, const ScreenRect& view) {
+    Impl& own = *impl_;
+    Document& document = c.place.document;
+    if (own.saving.update()) {
+        if (own.saving.result())
+            document.tell(
+                make_message(MessageKind::Success, "picture " + own.saving.result()->string()));
+        else
+            document.tell(make_message(MessageKind::Error, own.saving.problem()));
+    }
+    if (own.saving.pending()) return false;
+    const fs::path file = c.place.take_picture_file();
+    if (file.empty()) return false;
+    own.file = file;
+    own.rect = view;
+    own.window_height = ImGui::GetIO().DisplaySize.y;
+    c.shown.view = false;
+    ImGui::GetForegroundDrawList()->AddCallback(Impl::read, &own);
+    return true;
+}
+
+}  // namespace vesselbench
