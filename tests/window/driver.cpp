@@ -1,5 +1,6 @@
 #include "tests/window/driver.h"
 
+#include <algorithm>
 #include <thread>
 
 #include "geometry/kernel/errors.h"
@@ -14,9 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kWidth = 1280, kHeight = 800;  ///< as the window opens
-constexpr auto kPause = 10ms;                ///< between the frames of a wait
-constexpr int kMostNotches = 60;             ///< to scroll through the longest list
+constexpr int kWidth = 1280, kHeight = 800;        ///< as the window opens
+constexpr auto kShortest = 5ms, kLongest = 100ms;  ///< between the frames of a wait
+constexpr int kMostNotches = 60;                   ///< to scroll through the longest list
 
 class OffscreenDriver : public Driver {
 public:
@@ -115,9 +116,11 @@ bool Driver::fill_item(const std::string& item, const std::string& text) {
 
 bool Driver::run_until(const std::function<bool()>& condition, std::chrono::milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;
+    auto pause = kShortest;
     for (frame(); !condition(); frame()) {
         if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for(kPause);
+        std::this_thread::sleep_for(pause);
+        pause = std::min(2 * pause, kLongest);
     }
     return true;
 }
