@@ -14,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kCells = 128;       ///< of the rough copy: no more than two pixels a cell
+constexpr int kCells = 64;        ///< of the rough copy: four pixels a cell
 constexpr double kMargin = 0.08;  ///< around the model [-]
 
 /// Colours come multiplied by alpha, which is the covered part of a pixel. Pixels without any get
