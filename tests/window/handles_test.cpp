@@ -68,6 +68,8 @@ SCENARIO("Handles follow the cursor as far as their paths allow", "[window][hand
         THEN("it stays if the line is seen from its end") {
             handle.direction = Vec3::UnitY();
             CHECK(near(dragged_point(handle, kFront, {220, 80}), {0, 3, 0}));
+            CHECK_FALSE(can_be_dragged(handle, kFront));
+            CHECK_FALSE(nearest_handle({handle}, kFront, {200, 100}, 8));
         }
         THEN("it is under the cursor in perspective, too") {
             PixelView view = kFront;

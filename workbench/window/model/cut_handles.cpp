@@ -142,7 +142,7 @@ FormShape cut_shape(const OperationForm& form, const Cut& cut) {
     shape.lines.push_back({.points = cut.branch->track, .faint = true});
     if (!cut.ring.empty()) {
         shape.lines.push_back({.points = cut.ring, .closed = true, .in_front = true});
-        shape.notes.push_back({cut.plane.point, cut_text(cut)});
+        shape.notes.push_back({.point = cut.plane.point, .text = cut_text(cut), .below = true});
     }
     const double distance = shown_distance(form, cut);
     shape.handles.push_back({.name = "cut.slide",

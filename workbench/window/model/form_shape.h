@@ -13,6 +13,7 @@ namespace vesselbench {
 struct ViewNote {
     Vec3 point = Vec3::Zero();  ///< [mm]
     std::string text;
+    bool below = false;  ///< a little lower than beside it, where other marks are near
 };
 
 /// What a form shows in the view, and what can be dragged there.

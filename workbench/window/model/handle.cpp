@@ -80,12 +80,20 @@ double PixelView::pixel_at(const Vec3& point) const {
     return pixel_size(camera, static_cast<int>(height), point);
 }
 
+bool can_be_dragged(const Handle& handle, const PixelView& view) {
+    if (handle.path != HandlePath::Line) return true;
+    const auto at = view.place(handle.point);
+    if (!at) return false;
+    const double cosine = handle.direction.dot(view.ray(*at).direction);
+    return 1.0 - cosine * cosine >= kLeastSine * kLeastSine;
+}
+
 std::optional<std::size_t> nearest_handle(const std::vector<Handle>& handles, const PixelView& view,
                                           const ViewPixel& cursor, double reach) {
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < handles.size(); ++i) {
         const auto at = view.place(handles[i].point);
-        if (!at) continue;
+        if (!at || !can_be_dragged(handles[i], view)) continue;
         const double distance = (*at - cursor).norm();
         if (distance > reach || (nearest && distance >= reach)) continue;
         reach = distance;

@@ -52,14 +52,17 @@ struct Handle {
     std::string help;  ///< what dragging it does
 };
 
-/// The handle that is nearest to the cursor on the screen; of equal distances the first. None if
-/// all are farther than `reach` [pixels].
+/// False for a handle on a line that is seen from its end.
+[[nodiscard]] bool can_be_dragged(const Handle& handle, const PixelView& view);
+
+/// The handle that can be dragged and is nearest to the cursor on the screen; of equal distances
+/// the first. None if all are farther than `reach` [pixels].
 [[nodiscard]] std::optional<std::size_t> nearest_handle(const std::vector<Handle>& handles,
                                                         const PixelView& view,
                                                         const ViewPixel& cursor, double reach);
 
-/// Where a handle goes that is seen at a pixel, as far as its path allows [mm]. It stays where the
-/// view cannot tell: a line that is seen from its end.
+/// Where a handle goes that is seen at a pixel, as far as its path allows [mm]. It stays if it
+/// cannot be dragged.
 [[nodiscard]] Vec3 dragged_point(const Handle& handle, const PixelView& view,
                                  const ViewPixel& pixel);
 

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kWidth = 19.0F;  ///< [em]
+constexpr float kWidth = 23.0F;  ///< [em]
 constexpr float kBeside = 1.5F;  ///< distance from the opening's middle [em]
 
 /// Beside a place, and within the view.

@@ -141,7 +141,7 @@ Positions ViewHandles::beyond(const OnScreen& screen) const {
 void ViewHandles::draw_handle(PanelContext& c, const OnScreen& screen, std::size_t index) const {
     const Handle& handle = shape_.handles[index];
     const auto place = screen.place(handle.point);
-    if (!place) return;
+    if (!place || !can_be_dragged(handle, pixels_of(screen))) return;
     const bool lit = state_ == State::Dragging ? start_.index == index : hot_ == index;
     const float radius = c.ui.em * (lit ? 0.48F : 0.38F);
     const ImVec2 at{place->x(), place->y()};
@@ -158,7 +158,9 @@ void ViewHandles::draw(PanelContext& c, const OnScreen& screen) const {
     for (std::size_t i = 0; i < shape_.handles.size(); ++i) draw_handle(c, screen, i);
     for (const ViewNote& note : shape_.notes)
         if (const auto at = screen.place(note.point))
-            draw_plate(c.ui, {at->x() + c.ui.em * 1.1F, at->y()}, note.text);
+            draw_plate(c.ui,
+                       {at->x() + c.ui.em * 1.1F, at->y() + c.ui.em * (note.below ? 1.8F : 0.0F)},
+                       note.text);
     if (!c.place.armed().empty() || c.place.searches_places()) return;
     const std::optional<Cut>& cut = search_.cut();
     if (cut && !cut->problem.empty()) return draw_hint(c.ui, screen.rect, cut->problem);
