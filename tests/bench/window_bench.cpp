@@ -122,6 +122,8 @@ void time_pick(OffscreenShell& shell) {
     for (const PatchMeasures& opening : openings) {
         const auto at = OnScreen{shell.app().camera(), view}.place(opening.centroid);
         if (!at) continue;
+        shell.move_mouse(view.x + 1, view.y + 1);  // off every opening
+        shell.frame();
         const Stopwatch watch;
         shell.move_mouse(at->x(), at->y());
         int frames = 1;
