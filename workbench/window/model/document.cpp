@@ -165,17 +165,34 @@ bool Document::poll() {
 
 // --- the case
 
+/// Lets a runner or an opening end on a thread of its own: it may have to wait for an operation.
+template <class Owner>
+void Document::retire(std::unique_ptr<Owner> owner) {
+    if (!owner) return;
+    retired_ =
+        std::async(std::launch::async, [owner = std::move(owner), before = retired_]() mutable {
+            owner.reset();
+            if (before.valid()) before.wait();
+        }).share();
+}
+
 void Document::open(OpenRequest request) {
     request.documents = options_.documents;
     failure_.reset();
-    opening_ = std::make_unique<Opening>(std::move(request), options_.session, options_.wake);
+    std::error_code ignored;
+    if (runner_ && std::filesystem::equivalent(request.path, project_, ignored))
+        return tell(make_message(MessageKind::Remark, request.name() + " is open already"));
+    if (opening_) opening_->cancel();
+    retire(std::move(opening_));
+    opening_ =
+        std::make_unique<Opening>(std::move(request), options_.session, options_.wake, retired_);
 }
 
 void Document::close() {
     jobs_.clear();
     strokes_.clear();
     preparation_.reset();
-    runner_.reset();
+    retire(std::move(runner_));
     snapshot_.reset();
     preview_.reset();
     input_.reset();
@@ -350,15 +367,15 @@ void Document::show_preview(const Preview& preview) {
                                                change_text(preview.result().change)));
 }
 
-void Document::apply(const std::string& operation, Arguments given) {
+void Document::apply(const std::string& operation, Arguments given, Step step) {
     if (!begin_request()) return;
-    watch(runner_->apply(operation, std::move(given), {.variant = variant_}), operation, operation,
-          false, [this](const LogEntry& entry) { enter(entry); });
+    watch(runner_->apply(operation, std::move(given), {.step = step, .variant = variant_}),
+          operation, operation, false, [this](const LogEntry& entry) { enter(entry); });
 }
 
-void Document::preview(const std::string& operation, Arguments given) {
+void Document::preview(const std::string& operation, Arguments given, Step step) {
     if (!begin_request()) return;
-    watch(runner_->preview(operation, std::move(given), {.variant = variant_}),
+    watch(runner_->preview(operation, std::move(given), {.step = step, .variant = variant_}),
           "preview of " + operation, operation, false,
           [this](const Preview& preview) { show_preview(preview); });
 }

@@ -3,6 +3,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,8 +106,8 @@ public:
 
     // --- requests
 
-    void apply(const std::string& operation, Arguments given);
-    void preview(const std::string& operation, Arguments given);
+    void apply(const std::string& operation, Arguments given, Step step);
+    void preview(const std::string& operation, Arguments given, Step step);
     void change(EditId edit, Arguments given);
     void preview_change(EditId edit, Arguments given);
     void commit_preview();
@@ -174,6 +175,9 @@ public:
 private:
     struct Watched;
 
+    template <class Owner>
+    void retire(std::unique_ptr<Owner> owner);
+
     struct Preparation {
         Recipe recipe;
         std::string purpose;
@@ -204,6 +208,7 @@ private:
     void set_scene(std::optional<Scene> scene);
 
     DocumentOptions options_;
+    std::shared_future<void> retired_;  ///< ends when every closed case has ended
     std::unique_ptr<Opening> opening_;
     std::unique_ptr<SessionRunner> runner_;
     std::vector<std::unique_ptr<Watched>> jobs_;

@@ -117,20 +117,23 @@ Opened open_case(const OpenRequest& request, const SessionOptions& options,
                       options, progress);
 }
 
-Opening::Opening(OpenRequest request, SessionOptions options, std::function<void()> notify)
+Opening::Opening(OpenRequest request, SessionOptions options, std::function<void()> notify,
+                 std::shared_future<void> after)
     : request_(std::move(request)) {
-    thread_ = std::thread([this, options = std::move(options), notify = std::move(notify)] {
-        if (job_->begin()) {
-            std::exception_ptr error;
-            try {
-                result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
-            } catch (...) {
-                error = std::current_exception();
+    thread_ = std::thread(
+        [this, options = std::move(options), notify = std::move(notify), after = std::move(after)] {
+            if (after.valid()) after.wait();
+            if (job_->begin()) {
+                std::exception_ptr error;
+                try {
+                    result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
+                } catch (...) {
+                    error = std::current_exception();
+                }
+                job_->end(error);
             }
-            job_->end(error);
-        }
-        if (notify) notify();
-    });
+            if (notify) notify();
+        });
 }
 
 Opening::~Opening() {

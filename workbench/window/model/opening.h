@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,7 +44,10 @@ struct Opened {
 class Opening {
 public:
     /// \param notify called by the thread when it has ended
-    Opening(OpenRequest request, SessionOptions options, std::function<void()> notify);
+    /// \param after it waits for the end of this first: a case that is being closed holds its
+    /// project
+    Opening(OpenRequest request, SessionOptions options, std::function<void()> notify,
+            std::shared_future<void> after = {});
     ~Opening();
 
     Opening(const Opening&) = delete;

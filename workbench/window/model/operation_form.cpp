@@ -114,15 +114,18 @@ Arguments OperationForm::arguments() const {
     return arguments;
 }
 
-std::string OperationForm::as_command(const std::string& project,
-                                      const std::string& variant) const {
+std::string OperationForm::as_command(const std::string& project, const std::string& variant,
+                                      std::optional<Step> step) const {
+    const Step usual = operation_->usual_step, used = step.value_or(usual);
     std::string command =
         edit_ ? "vesselbench change " + shell_quoted(project) + " " + std::to_string(*edit_)
               : "vesselbench apply " + shell_quoted(project) + " " + operation_->name;
     for (const FormField& field : fields_)
         if (field.active && !field.text.empty())
             command += " " + shell_quoted(field.parameter->name + "=" + field.text);
-    if (!edit_ && belongs_to_variant(operation_->usual_step) && variant != kDefaultVariant)
+    if (edit_) return command;
+    if (used != usual) command += " --step " + to_string(used);
+    if (belongs_to_variant(used) && variant != kDefaultVariant)
         command += " --variant " + shell_quoted(variant);
     return command;
 }

@@ -55,8 +55,9 @@ public:
 
     /// The command that does the same, quoted for a shell: "vesselbench apply case.vbench smooth
     /// lambda=0.3".
-    [[nodiscard]] std::string as_command(const std::string& project,
-                                         const std::string& variant) const;
+    /// \param step of a new edit; none: the operation's usual one
+    [[nodiscard]] std::string as_command(const std::string& project, const std::string& variant,
+                                         std::optional<Step> step = {}) const;
 
     /// Counts changes of the fields, to notice that a preview is outdated.
     [[nodiscard]] int changes() const { return changes_; }

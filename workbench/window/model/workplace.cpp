@@ -1,5 +1,6 @@
 #include "workbench/window/model/workplace.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "workbench/operations/table.h"
@@ -103,10 +104,12 @@ void Workplace::choose_step(Step step) {
     step_ = step;
 }
 
-void Workplace::choose(const std::string& operation) {
+void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     leave_form();
     form_.emplace(find_operation(operation));
-    step_ = form_->operation().usual_step;
+    const std::vector<Step>& allowed = form_->operation().allowed;
+    const bool fits = step && std::ranges::count(allowed, *step) > 0;
+    step_ = fits ? *step : form_->operation().usual_step;
     if (is_brush(form_->operation()) && tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
 }
 
@@ -164,7 +167,7 @@ void Workplace::preview() {
     if (form_->edit())
         document.preview_change(*form_->edit(), form_->arguments());
     else
-        document.preview(form_->operation().name, form_->arguments());
+        document.preview(form_->operation().name, form_->arguments(), step_);
 }
 
 void Workplace::apply() {
@@ -173,7 +176,7 @@ void Workplace::apply() {
     if (form_->edit())
         document.change(*form_->edit(), form_->arguments());
     else
-        document.apply(form_->operation().name, form_->arguments());
+        document.apply(form_->operation().name, form_->arguments(), step_);
 }
 
 // --- the brush
@@ -198,7 +201,7 @@ void Workplace::begin_stroke(StrokeKeys keys) {
 
 std::string Workplace::command() const {
     const std::filesystem::path& project = document.project();
-    return form_ ? form_->as_command(project.string(), document.variant()) : "";
+    return form_ ? form_->as_command(project.string(), document.variant(), step_) : "";
 }
 
 // --- picking in the view

@@ -68,8 +68,9 @@ public:
     /// Shows the operations of a step.
     void choose_step(Step step);
 
-    /// Shows the form of an operation. \throw UsageError if there is none of this name
-    void choose(const std::string& operation);
+    /// Shows the form of an operation. Its edit will belong to the given step if the operation is
+    /// allowed there, else to its usual step. \throw UsageError if there is none of this name
+    void choose(const std::string& operation, std::optional<Step> step = {});
 
     /// Shows the form of an edit of the current state.
     void choose_edit(EditId edit);

@@ -24,7 +24,7 @@ void draw_operation_row(PanelContext& c, const Operation& operation) {
              .detail = readable_sentence(operation.summary),
              .enabled = c.place.document.is_open(),
              .help = readable_sentence(operation.summary)}))
-        c.place.choose(operation.name);
+        c.place.choose(operation.name, c.place.step());
 }
 
 void draw_group(PanelContext& c, const std::string& title, Step step, bool usual) {
