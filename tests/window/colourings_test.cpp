@@ -167,13 +167,17 @@ SCENARIO("A section through tetrahedra has their values", "[window][colours]") {
 SCENARIO("The clip plane goes through the model", "[window][colours]") {
     const Bounds box{{0, 0, 0}, {10, 20, 40}};
     CHECK_FALSE(clip_plane({}, box, Vec3::UnitY()));
-    const auto axial = clip_plane({.on = true, .place = 0.25}, box, Vec3::UnitY());
+    const auto axial =
+        clip_plane({.on = true, .axis = ClipAxis::Axial, .place = 0.25}, box, Vec3::UnitY());
     REQUIRE(axial);
     CHECK(axial->point == Vec3(5, 10, 10));
     CHECK(axial->normal == Vec3(0, 0, 1));
     const auto other =
         clip_plane({.on = true, .axis = ClipAxis::Sagittal, .flipped = true}, box, Vec3::UnitY());
     CHECK(other->normal == Vec3(-1, 0, 0));
+    CHECK(hides_section(ClipAxis::Coronal, Vec3::UnitY()));
+    CHECK_FALSE(hides_section(ClipAxis::Coronal, -Vec3::UnitY()));
+    CHECK_FALSE(hides_section(ClipAxis::Camera, Vec3::UnitY()));
     const auto facing = clip_plane({.on = true, .axis = ClipAxis::Camera}, box, Vec3(0, 2, 0));
     CHECK(facing->point == box.centre());
     CHECK(facing->normal == Vec3(0, -1, 0));

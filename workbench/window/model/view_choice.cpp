@@ -31,6 +31,10 @@ std::optional<Plane> clip_plane(const ClipChoice& choice, const Bounds& box, con
     return Plane{middle + along * direction, choice.flipped ? Vec3(-direction) : direction};
 }
 
+bool hides_section(ClipAxis axis, const Vec3& view) {
+    return direction_of(axis, view).dot(view) > 1e-9 * view.norm();
+}
+
 void ViewChoice::choose(ColouringKind kind) {
     colouring = kind;
     range.reset();

@@ -25,7 +25,7 @@ enum class ClipAxis { Sagittal, Coronal, Axial, Camera };
 
 struct ClipChoice {
     bool on = false;
-    ClipAxis axis = ClipAxis::Axial;
+    ClipAxis axis = ClipAxis::Coronal;
     double place = 0.5;  ///< of the way through the model, in [0, 1] [-]
     bool flipped = false;
 
@@ -36,6 +36,10 @@ struct ClipChoice {
 /// \param view direction from the eye, for planes that face the camera
 [[nodiscard]] std::optional<Plane> clip_plane(const ClipChoice& choice, const Bounds& box,
                                               const Vec3& view);
+
+/// Whether the plane is to be flipped so that the half before the section is removed.
+/// \param view direction from the eye
+[[nodiscard]] bool hides_section(ClipAxis axis, const Vec3& view);
 
 /// What clicks in the view measure.
 enum class MeasureTool { None, Distance, Diameter };

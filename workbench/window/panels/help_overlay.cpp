@@ -36,16 +36,15 @@ constexpr std::array<KeyHelp, 8> kViewing = {{{"Left drag", "turn"},
                                               {"Home", "show everything"},
                                               {"5", "perspective or parallel"}}};
 
-constexpr std::array<KeyHelp, 9> kModes = {
-    {{"V", "colours, sections, overlays, measures"},
+constexpr std::array<KeyHelp, 8> kModes = {
+    {{"V", "options of the view"},
      {"C", "clip plane; Ctrl+wheel moves it"},
      {"E", "into the vessel, and out"},
      {"Space, wheel, Up, Down", "in the vessel: fly, forward, back"},
      {"M, D", "measure a distance, a diameter"},
      {"W, L", "source as wireframe, centerlines"},
      {"N, A", "names of openings, places of edits"},
-     {"F12", "save a picture of the view"},
-     {"Esc", "leave these"}}};
+     {"F12", "save a picture of the view"}}};
 
 constexpr std::array<KeyHelp, 5> kBrushing = {{{"Left drag", "brush on the surface"},
                                                {"[ and ], or F", "size, by keys or by the mouse"},
@@ -84,7 +83,7 @@ constexpr const char* kFirstSteps =
 
 void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
-    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 39);
+    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 44);
     heading(ui, "Help");
     ImGui::SameLine(rect.width - ui.grid(2.5F) - ImGui::GetFrameHeight());
     if (icon_button(c.ui, "help.close", icons::kClose, "Close  Esc")) c.shown.help = false;

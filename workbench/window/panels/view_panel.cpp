@@ -132,7 +132,7 @@ void draw_colours(PanelContext& c) {
 void draw_key(const Ui& ui, const std::string& key, float row) {
     const float wide = ImGui::CalcTextSize(key.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - wide);
-    ImGui::SetCursorPosY(row + ImGui::GetStyle().FramePadding.y);
+    ImGui::SetCursorPosY(row + ImGui::GetStyle().FramePadding.y - ui.grid(0.4F));
     text(ui, key, ui.theme.muted);
 }
 
@@ -185,14 +185,19 @@ void draw_view_panel(PanelContext& c, const ScreenRect& view) {
     if (!c.shown.view) return;
     const Ui& ui = c.ui;
     const float top = view.y + ui.grid(3.5F) + ImGui::GetFrameHeight();
-    const float high = std::min(ui.em * 36, view.y + view.height - top - ui.grid(1.5F));
-    const ScreenRect rect{view.x + ui.grid(1.5F), top, ui.em * 17, high};
+    const float high = std::min(ui.em * 28, view.y + view.height - top - ui.grid(1.5F));
+    const float wide = ui.em * 33, column = ui.em * 15.5F;
+    const ScreenRect rect{view.x + ui.grid(1.5F), top, wide, high};
     begin_frame(ui, "view options", rect, {.floats = true, .bordered = true});
+    ImGui::BeginChild("colours and modes", {column, 0});
     draw_colours(c);
     space(ui, 2);
     draw_modes(c);
-    space(ui, 2);
+    ImGui::EndChild();
+    ImGui::SameLine(0, ui.grid(1.5F));
+    ImGui::BeginChild("layers", {column, 0});
     draw_layers(c);
+    ImGui::EndChild();
     end_frame();
 }
 

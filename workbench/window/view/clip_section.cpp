@@ -42,11 +42,19 @@ const AxisName& name_of(ClipAxis axis) {
 
 ClipSection::ClipSection(std::function<void()> wake) : search_(std::move(wake)) {}
 
+/// A new plane removes the half that hides its section.
+void ClipSection::choose_side(ClipChoice& choice, const ViewCamera& camera) {
+    const auto now = choice.on ? std::optional(choice.axis) : std::nullopt;
+    if (now && now != axis_) choice.flipped = hides_section(*now, camera.view);
+    axis_ = now;
+}
+
 void ClipSection::update(const PanelContext& c, const Surface* surface, const ViewCamera& camera) {
     if (surface != nullptr && surface->positions != measured_) {
         measured_ = surface->positions;
         box_ = bounds(surface->points());
     }
+    choose_side(c.place.view.clip, camera);
     std::optional<ClipPlane> now;
     if (surface != nullptr)
         if (const auto plane = clip_plane(c.place.view.clip, box_, camera.view))

@@ -60,6 +60,7 @@ private:
 
     [[nodiscard]] static Prepared prepared(const VolumeMesh& mesh, const ColourValues& colours,
                                            const Plane& plane);
+    void choose_side(ClipChoice& choice, const ViewCamera& camera);
     void update_cells(const PanelContext& context);
     void take_cells();
     [[nodiscard]] std::string place_text(const ClipChoice& choice) const;
@@ -68,6 +69,7 @@ private:
     std::optional<ClipPlane> plane_;
     std::shared_ptr<const Positions> measured_;  ///< whose box it is
     Bounds box_;
+    std::optional<ClipAxis> axis_;  ///< of the plane whose side was chosen
     Asked asked_;
     std::shared_ptr<DrawnSurface> cells_;
     std::shared_ptr<const DrawnLines> outlines_;

@@ -91,8 +91,8 @@ void Endoscope::draw_destination(PanelContext& c, float width) {
 void Endoscope::draw_strip(PanelContext& c, ViewStrips& strips) {
     if (!c.place.view.flies) return;
     const Ui& ui = c.ui;
-    const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F), ends = ui.em * 8;
-    const float wide = strips.begin(ui, "flight", ui.em * 28);
+    const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F), ends = ui.em * 12.5F;
+    const float wide = strips.begin(ui, "flight", ui.em * 34);
     if (path() == nullptr) {
         const ViewData& data = c.place.view_data();
         const std::string words = data.finds_centerlines() ? "Finding the centerlines"

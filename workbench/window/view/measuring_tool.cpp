@@ -129,8 +129,9 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
     const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F);
     const float wide = strips.begin(ui, "measure", ui.em * 22);
     const float left = ImGui::GetCursorPosX();
+    ImGui::SetCursorPosX(left + gap);
     ImGui::AlignTextToFramePadding();
-    clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 2 * gap);
+    clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 3 * gap);
     ImGui::SameLine(left + wide - 2 * side - gap);
     const bool any = !points_.empty() || !diameters_.empty();
     if (icon_button(c.ui, "measure.clear", icons::kDelete, "Forget what was measured", any))
