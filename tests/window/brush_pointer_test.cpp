@@ -106,6 +106,7 @@ SCENARIO("A stroke over a bump is one edit that replays to the same bits", "[win
     WHEN("its arguments are given to a session") {
         const fs::path project = painting.document().project();
         painting.shell->app().place().close();
+        REQUIRE(painting.shell->run_until([&] { return !painting.document().busy(); }, 30s));
         Session session = Session::open(project, session_options());
         CHECK(session.scene().surface->points() == after);
         session.undo();

@@ -36,7 +36,7 @@ std::unique_ptr<Document> smoothed_tube() {
         return document->busy();
     };
     REQUIRE(wait(busy));
-    document->apply("smooth", kGentle);
+    document->apply("smooth", kGentle, Step::Smoothing);
     REQUIRE(wait(busy));
     REQUIRE(document->snapshot()->history->current() == 2);
     return document;
@@ -72,7 +72,8 @@ std::unique_ptr<OffscreenShell> shell_with_smoothed_tube() {
     auto shell = test_shell();
     if (!shell) return nullptr;
     open_and_wait(*shell, tube_file());
-    shell->app().place().document.apply("smooth", {{"iterations", Value(std::int64_t{60})}});
+    shell->app().place().document.apply("smooth", {{"iterations", Value(std::int64_t{60})}},
+                                        Step::Smoothing);
     REQUIRE(wait_until_idle(*shell));
     REQUIRE(shell->settle(60s));
     return shell;

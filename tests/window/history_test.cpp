@@ -2,6 +2,7 @@
 
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "workbench/operations/table.h"
 #include "workbench/window/model/history_tree.h"
 
 using namespace vesselbench;
@@ -13,7 +14,8 @@ namespace {
 
 /// Applies an operation and waits for it.
 void apply(OffscreenShell& shell, const std::string& operation, Arguments given) {
-    shell.app().place().document.apply(operation, std::move(given));
+    shell.app().place().document.apply(operation, std::move(given),
+                                       find_operation(operation).usual_step);
     REQUIRE(wait_until_idle(shell));
     REQUIRE(shell.settle(60s));
 }

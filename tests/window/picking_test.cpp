@@ -166,6 +166,8 @@ SCENARIO("A brush does not light up openings", "[window][picking]") {
     const auto shell = test_shell();
     if (!shell) return;
     open_and_wait(*shell, capped_tube_file());
+    const Eigen::Vector2f middle = seen_at(*shell, {0, 0, 15});
+    shell->move_mouse(middle.x(), middle.y());
     shell->press_key(keys::k0 + 7);
     const Eigen::Vector2f cap = seen_at(*shell, {0, 0, 30});
     shell->move_mouse(cap.x(), cap.y());

@@ -95,7 +95,7 @@ SCENARIO("An opened case leaves its picture for the start screen", "[window][thu
     REQUIRE(first);
     CHECK(std::ranges::count(first->rgba, 0) > 0);
     WHEN("the model changes") {
-        place.document.apply("smooth", {{"iterations", Value(std::int64_t{60})}});
+        place.document.apply("smooth", {{"iterations", Value(std::int64_t{60})}}, Step::Smoothing);
         REQUIRE(wait_until_idle(*shell));
         REQUIRE(shell->settle(60s));
         THEN("so does its picture") {

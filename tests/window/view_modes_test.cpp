@@ -175,7 +175,8 @@ SCENARIO("The source's wireframe and the places of edits are shown", "[window][v
     Seen seen;
     if (!seen.shell) return;
     Document& document = seen.place().document;
-    document.apply("brush-inflate", {{"at", Value(Vec3(0, -4, 15))}, {"radius", Value(3.0)}});
+    document.apply("brush-inflate", {{"at", Value(Vec3(0, -4, 15))}, {"radius", Value(3.0)}},
+                   Step::LocalRepair);
     REQUIRE(wait_until_idle(*seen.shell));
     REQUIRE_FALSE(document.failure());
     REQUIRE(seen.shell->settle(60s));

@@ -1,6 +1,7 @@
 #include "workbench/window/model/document.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 
 #include <nlohmann/json.hpp>
@@ -176,11 +177,17 @@ void Document::retire(std::unique_ptr<Owner> owner) {
         }).share();
 }
 
+bool Document::is_closing() const {
+    return retired_.valid() &&
+           retired_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
 void Document::open(OpenRequest request) {
     request.documents = options_.documents;
     failure_.reset();
     std::error_code ignored;
-    if (runner_ && std::filesystem::equivalent(request.path, project_, ignored))
+    const bool can_change = runner_ && snapshot_->read_only_reason.empty();
+    if (can_change && std::filesystem::equivalent(request.path, project_, ignored))
         return tell(make_message(MessageKind::Remark, request.name() + " is open already"));
     if (opening_) opening_->cancel();
     retire(std::move(opening_));

@@ -155,8 +155,11 @@ public:
 
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {
-        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty();
+        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty() || is_closing();
     }
+
+    /// True while a closed case still ends, and holds its project.
+    [[nodiscard]] bool is_closing() const;
 
     void cancel();
 
