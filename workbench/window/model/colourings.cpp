@@ -13,7 +13,6 @@
 #include "meshing/tetrahedra/quality.h"
 #include "smoothing/context/context_finder.h"
 #include "smoothing/context/stack_orientation.h"
-#include "workbench/operations/table.h"
 
 namespace vesselbench {
 
@@ -50,10 +49,6 @@ double percentile(std::vector<double>& values, double share) {
     return *at;
 }
 
-double default_of(const char* parameter) {
-    return std::get<double>(*find_parameter(find_operation("smooth"), parameter).default_value);
-}
-
 Vec3 stack_axis(const Scene& scene) {
     if (scene.sampling && scene.sampling->confidence > 0.0) return scene.sampling->axes.col(2);
     const StackOrientation estimate = estimate_stack_orientation(*scene.surface);
@@ -67,9 +62,7 @@ Vec3 stack_axis(const Scene& scene) {
 std::vector<double> staircase_values(const Scene& scene) {
     const auto finder = make_cpu_finder(*scene.surface);
     const auto caps = cap_vertices(finder->caps(), scene.surface->vertex_count());
-    const StaircaseParameters parameters{
-        .tau_theta = default_of("tau_theta"), .tau_max = default_of("tau_max"), .caps = caps};
-    return finder->staircases(stack_axis(scene), parameters).weights;
+    return finder->staircases(stack_axis(scene), {.caps = caps}).weights;
 }
 
 std::vector<double> neighbour_values(const Scene& scene) {
