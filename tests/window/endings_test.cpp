@@ -47,6 +47,14 @@ void check_intact(const std::string& project, std::size_t edits) {
     CHECK(run_program(program_path(), {"replay", project}).exit_code == 0);
 }
 
+/// A child that a killed process was just starting holds its lock until it runs its own program.
+void wait_for_lock(const std::string& project) {
+    for (int i = 0; i < 200; ++i) {
+        if (Session::open(project, session_options()).read_only_reason().empty()) return;
+        std::this_thread::sleep_for(50ms);
+    }
+}
+
 /// The program with its window on the virtual display.
 struct RunningWindow {
     explicit RunningWindow(const std::string& project)
@@ -153,6 +161,7 @@ SCENARIO("The window is killed in the middle of a stroke", "[window][endings]") 
     REQUIRE(line == "painting");
     painter.signal(SIGKILL);
     CHECK(painter.wait() == 128 + SIGKILL);
+    wait_for_lock(project);
     check_intact(project, 2);
     const auto window = window_on(Screen::Display);
     open_file(*window, project);
