@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <span>
@@ -21,6 +22,17 @@ template <class Number>
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return static_cast<double>(*middle);
+}
+
+/// The value below which a share of the others lie, without interpolation. Reorders the values.
+/// \param values not empty \param share from 0 to 1
+template <class Number>
+[[nodiscard]] double percentile(std::vector<Number>& values, double share) {
+    const auto at =
+        values.begin() +
+        static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
 }
 
 }  // namespace vesselbench

@@ -125,22 +125,29 @@ Vec3 tangent_at(const CenterlineBranch& branch, double abscissa, double window) 
     return chord_direction(branch, at);
 }
 
+std::optional<NearestPlace> nearest_place(const CenterlineGraph& graph, std::size_t branch,
+                                          const Vec3& position) {
+    std::optional<NearestPlace> best;
+    const auto& points = graph.branches[branch].points;
+    double s = 0.0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const Vec3 d = points[i + 1] - points[i];
+        const double length = d.norm();
+        const double f =
+            length > 0.0 ? std::clamp((position - points[i]).dot(d) / (length * length), 0.0, 1.0)
+                         : 0.0;
+        const double distance = (position - points[i] - f * d).norm();
+        if (!best || distance < best->distance) best = {{branch, s + f * length}, distance};
+        s += length;
+    }
+    return best;
+}
+
 std::optional<NearestPlace> nearest_place(const CenterlineGraph& graph, const Vec3& position) {
     std::optional<NearestPlace> best;
     for (std::size_t b = 0; b < graph.branches.size(); ++b) {
-        const auto& points = graph.branches[b].points;
-        double s = 0.0;
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            const Vec3 d = points[i + 1] - points[i];
-            const double length = d.norm();
-            const double f =
-                length > 0.0
-                    ? std::clamp((position - points[i]).dot(d) / (length * length), 0.0, 1.0)
-                    : 0.0;
-            const double distance = (position - points[i] - f * d).norm();
-            if (!best || distance < best->distance) best = {{b, s + f * length}, distance};
-            s += length;
-        }
+        const auto nearest = nearest_place(graph, b, position);
+        if (nearest && (!best || nearest->distance < best->distance)) best = nearest;
     }
     return best;
 }

@@ -42,6 +42,10 @@ struct NearestPlace {
 [[nodiscard]] std::optional<NearestPlace> nearest_place(const CenterlineGraph& graph,
                                                         const Vec3& position);
 
+/// The same on one branch.
+[[nodiscard]] std::optional<NearestPlace> nearest_place(const CenterlineGraph& graph,
+                                                        std::size_t branch, const Vec3& position);
+
 /// Indices of the tip nodes, the widest vessel first (tip_radius; ties by node index).
 [[nodiscard]] std::vector<std::size_t> tips_by_radius(const CenterlineGraph& graph);
 

@@ -19,14 +19,6 @@ constexpr double kSectionStep = 0.125;
 constexpr int kSections = 7;
 constexpr double kLargestAreaRatio = 1.6;
 
-double degrees(double radians) {
-    return radians * 180.0 / std::numbers::pi;
-}
-
-double angle_deg(const Vec3& a, const Vec3& b) {
-    return degrees(std::atan2(a.cross(b).norm(), a.dot(b)));
-}
-
 Positions centroids_inward(const Surface& surface, const Plane& plane, double diameter) {
     Positions found;
     double area = std::numbers::pi * diameter * diameter / 4.0;
@@ -73,6 +65,10 @@ double bend(const Positions& centroids, double diameter) {
 }
 
 }  // namespace
+
+double angle_deg(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
+}
 
 std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane,
                                        double diameter) {

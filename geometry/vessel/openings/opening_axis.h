@@ -6,6 +6,9 @@
 
 namespace vesselbench {
 
+/// Angle between two directions [deg], from 0 to 180.
+[[nodiscard]] double angle_deg(const Vec3& a, const Vec3& b);
+
 /// The vessel's direction just inside an opening: the line through the centroids of the sections
 /// parallel to the opening's plane, 0.25 to 1 diameter inward.
 struct OpeningAxis {

@@ -1,76 +1,66 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
-#include <future>
 #include <memory>
-#include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 
-#include "geometry/kernel/progress.h"
+#include "workbench/window/model/latest_task.h"
 
 namespace vesselbench {
 
-/// Finds one value on a thread of its own; a newer request replaces an older one. Used by the
-/// frame's thread; no call blocks but the destructor, which cancels a search and waits for its end.
+/// Finds one value on a thread of its own and keeps it; a newer request replaces an older one. Used
+/// by the frame's thread; no call blocks but the destructor, which cancels a search and waits for
+/// its end.
 template <class Result>
 class BackgroundSearch {
 public:
     using Work = std::function<Result(const Progress&)>;
 
     /// \param wake called by the other thread when update() has something to do
-    explicit BackgroundSearch(std::function<void()> wake) : wake_(std::move(wake)) {}
-
-    ~BackgroundSearch() { stop_.request_stop(); }
-
-    BackgroundSearch(const BackgroundSearch&) = delete;
-    BackgroundSearch& operator=(const BackgroundSearch&) = delete;
+    explicit BackgroundSearch(std::function<void()> wake) : task_(std::move(wake)) {}
 
     /// Forgets the result and begins a search; one that runs is cancelled.
     void begin(Work work) {
         forget();
-        wanted_ = std::move(work);
-        if (!next_.valid()) start();
+        renew(std::move(work));
     }
 
-    /// As begin(), but the last result stays until there is a new one. Only while none is pending.
+    /// As begin(), but the last result stays until there is a new one.
     void renew(Work work) {
-        wanted_ = std::move(work);
-        start();
+        task_.begin([work = std::move(work)](const Progress& progress) {
+            Found found;
+            try {
+                found.result = std::make_shared<const Result>(work(progress));
+            } catch (const Cancelled&) {
+                throw;
+            } catch (const std::exception& error) {
+                found.problem = error.what();
+            }
+            return found;
+        });
     }
 
     /// Forgets the result and cancels the search.
     void forget() {
-        result_.reset();
-        problem_.clear();
-        wanted_ = nullptr;
-        outdated_ = next_.valid();
-        if (outdated_) stop_.request_stop();
+        found_ = {};
+        task_.forget();
     }
 
     /// Takes a result that is ready. \return true if result() or problem() has changed
     bool update() {
-        using namespace std::chrono_literals;
-        if (!next_.valid() || next_.wait_for(0s) != std::future_status::ready) return false;
-        Found found = next_.get();
-        if (std::exchange(outdated_, false)) {
-            if (wanted_) start();
-            return false;
-        }
-        result_ = std::move(found.result);
-        problem_ = std::move(found.problem);
-        return true;
+        auto found = task_.take();
+        if (found) found_ = std::move(*found);
+        return found.has_value();
     }
 
-    [[nodiscard]] bool pending() const { return next_.valid(); }
+    [[nodiscard]] bool pending() const { return task_.pending(); }
 
     /// Null while it is not known.
-    [[nodiscard]] const std::shared_ptr<const Result>& result() const { return result_; }
+    [[nodiscard]] const std::shared_ptr<const Result>& result() const { return found_.result; }
 
     /// Why there is no result; empty: no problem.
-    [[nodiscard]] const std::string& problem() const { return problem_; }
+    [[nodiscard]] const std::string& problem() const { return found_.problem; }
 
 private:
     struct Found {
@@ -78,28 +68,8 @@ private:
         std::string problem;
     };
 
-    void start() {
-        stop_ = {};
-        next_ = std::async(std::launch::async, [work = std::exchange(wanted_, nullptr),
-                                                stop = stop_.get_token(), wake = wake_] {
-            Found found;
-            try {
-                found.result = std::make_shared<const Result>(work(Progress(nullptr, stop)));
-            } catch (const std::exception& error) {
-                found.problem = error.what();
-            }
-            if (wake) wake();
-            return found;
-        });
-    }
-
-    std::function<void()> wake_;
-    std::future<Found> next_;
-    std::stop_source stop_;
-    Work wanted_;  ///< to be done after `next_`
-    bool outdated_ = false;
-    std::shared_ptr<const Result> result_;
-    std::string problem_;
+    LatestTask<Found> task_;
+    Found found_;
 };
 
 }  // namespace vesselbench

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/centerlines/centerlines.h"
@@ -41,13 +42,6 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
 
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]
 constexpr double kLeastSpread = 0.02;              ///< of a range, relative to its values [-]
-
-double percentile(std::vector<double>& values, double share) {
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(std::lround(share * double(values.size() - 1)));
-    std::ranges::nth_element(values, at);
-    return *at;
-}
 
 Vec3 stack_axis(const Scene& scene) {
     if (scene.sampling && scene.sampling->confidence > 0.0) return scene.sampling->axes.col(2);

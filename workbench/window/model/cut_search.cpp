@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -11,6 +9,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/window/model/branch_part.h"
+#include "workbench/window/model/same_surface.h"
 
 namespace vesselbench {
 
@@ -24,11 +23,6 @@ constexpr double kPartReach = 20.0;
 constexpr double kCapReach = 1.5;
 /// A cap that is kept is shown by a section just behind it [diameters].
 constexpr double kBehindCap = 0.01;
-
-bool same_surface(const Surface& a, const Surface& b) {
-    return a.topology == b.topology && a.positions == b.positions &&
-           a.patch_labels == b.patch_labels;
-}
 
 std::optional<Patch> cap_at(const Surface& surface, const Vec3& tip) {
     const auto patch = nearest_opening(surface, tip);
@@ -71,10 +65,6 @@ Plane chosen_plane(const CutBranch& branch, const CutQuestion& question) {
     return plane;
 }
 
-double angle_deg(const Vec3& a, const Vec3& b) {
-    return std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * 180.0 / std::numbers::pi;
-}
-
 Cut measured(Cut cut, const Plane& plane) {
     cut.plane = plane;
     cut.distance = cut.branch->distance_of(plane.point);
@@ -110,21 +100,9 @@ Vec3 CutBranch::outward(double distance) const {
 }
 
 double CutBranch::distance_of(const Vec3& point) const {
-    double along = 0.0, best = 0.0, nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < track.size(); ++i) {
-        const Vec3 edge = track[i + 1] - track[i];
-        const double long_edge = edge.norm();
-        const double share =
-            long_edge > 0.0 ? std::clamp(edge.dot(point - track[i]) / edge.squaredNorm(), 0.0, 1.0)
-                            : 0.0;
-        const double squared = (track[i] + share * edge - point).squaredNorm();
-        if (squared < nearest) {
-            nearest = squared;
-            best = along + share * long_edge;
-        }
-        along += long_edge;
-    }
-    return best;
+    const std::size_t branch = branch_of_tip(*graph, tip);
+    const auto nearest = nearest_place(*graph, branch, point);
+    return nearest ? distance_from_node(*graph, nearest->place, tip) : 0.0;
 }
 
 Cut find_cut(const Surface& surface, const CutQuestion& question,

@@ -7,8 +7,8 @@
 #include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/shortest_paths.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "workbench/window/model/surface_places.h"
 
 namespace vesselbench {
 
@@ -74,7 +74,9 @@ void append(FlightPath& path, const CenterlineBranch& branch, bool backwards) {
     }
 }
 
-double interpolated(const FlightPath& path, const std::vector<double>& values, double abscissa) {
+/// Of values at the points of a path.
+template <class Value>
+Value interpolated(const FlightPath& path, const std::vector<Value>& values, double abscissa) {
     const auto next = std::ranges::upper_bound(path.abscissas, abscissa);
     if (next == path.abscissas.begin()) return values.front();
     if (next == path.abscissas.end()) return values.back();
@@ -84,23 +86,14 @@ double interpolated(const FlightPath& path, const std::vector<double>& values, d
     return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-Vec3 point_on(const FlightPath& path, double abscissa) {
-    const auto next = std::ranges::upper_bound(path.abscissas, abscissa);
-    if (next == path.abscissas.begin()) return path.points.front();
-    if (next == path.abscissas.end()) return path.points.back();
-    const auto i = static_cast<std::size_t>(next - path.abscissas.begin());
-    const double share =
-        (abscissa - path.abscissas[i - 1]) / (path.abscissas[i] - path.abscissas[i - 1]);
-    return path.points[i - 1] + share * (path.points[i] - path.points[i - 1]);
-}
-
 /// Along the vessel, about as far as its radius reaches, so that the view does not shake.
 Vec3 direction_at(const FlightPath& path, double abscissa) {
     const double radius = interpolated(path, path.radii, abscissa);
     const double length = path.length();
     const double ahead = std::min(abscissa + kAhead * radius, length);
     const double behind = std::max(std::min(abscissa, length - radius) - kBehind * radius, 0.0);
-    const Vec3 way = point_on(path, ahead) - point_on(path, behind);
+    const Vec3 way =
+        interpolated(path, path.points, ahead) - interpolated(path, path.points, behind);
     if (way.norm() > 1e-9) return way.normalized();
     return (path.points.back() - path.points.front()).stableNormalized();
 }
@@ -166,9 +159,7 @@ std::vector<FlightPath> flight_paths(const CenterlineGraph& graph,
         auto path = path_to(graph, tip, ways);
         if (!path) continue;
         const PatchMeasures* opening = opening_at(openings, graph, tip);
-        path->name = opening != nullptr
-                         ? opening->name
-                         : "Vessel end, " + formatted(2 * tip_radius(graph, tip), "%.1f mm");
+        path->name = opening != nullptr ? opening->name : tip_name(graph, tip);
         paths.push_back(std::move(*path));
     }
     return paths;
@@ -177,7 +168,7 @@ std::vector<FlightPath> flight_paths(const CenterlineGraph& graph,
 FlightPlace place_on(const FlightPath& path, double abscissa) {
     if (path.points.size() < 2) throw InvalidInput("a flight path needs two points");
     const double at = std::clamp(abscissa, 0.0, path.length());
-    FlightPlace place{.eye = point_on(path, at),
+    FlightPlace place{.eye = interpolated(path, path.points, at),
                       .view = direction_at(path, at),
                       .radius = interpolated(path, path.radii, at)};
     const auto next = std::ranges::lower_bound(path.abscissas, at) - path.abscissas.begin();

@@ -1,9 +1,10 @@
 #include "workbench/window/model/image_slices.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
+
+#include "workbench/window/model/same_surface.h"
 
 namespace vesselbench {
 
@@ -17,10 +18,8 @@ bool same_mask(const std::optional<Image>& a, const std::optional<Image>& b) {
     return a.has_value() == b.has_value() && (!a || same_voxels(*a, *b));
 }
 
-/// The same arrays, so that comparing contents is not needed.
-bool same_shape(const std::optional<Surface>& a, const std::optional<Surface>& b) {
-    return a.has_value() == b.has_value() &&
-           (!a || (a->topology == b->topology && a->positions == b->positions));
+bool same_outline(const std::optional<Surface>& a, const std::optional<Surface>& b) {
+    return a.has_value() == b.has_value() && (!a || same_shape(*a, *b));
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ struct ImageSlices::Task {
     }
 };
 
-ImageSlices::ImageSlices(std::function<void()> wake) : wake_(std::move(wake)) {}
+ImageSlices::ImageSlices(std::function<void()> wake) : task_(std::move(wake)) {}
 
 // --- following the scene
 
@@ -76,7 +75,7 @@ bool ImageSlices::update(const Scene* scene) {
         }
     }
     const bool changed = take_made();
-    if (!next_.valid()) start();
+    if (!task_.pending()) start();
     return changed || had_image != has_image();
 }
 
@@ -101,7 +100,7 @@ void ImageSlices::take_image(const Image& image, const Scene& scene) {
 }
 
 void ImageSlices::take_surface(const std::optional<Surface>& surface) {
-    if (same_shape(surface_, surface)) return;
+    if (same_outline(surface_, surface)) return;
     surface_ = surface && !surface->empty() ? surface : std::nullopt;
     ++surface_version_;
 }
@@ -124,7 +123,7 @@ bool ImageSlices::outdated(SlicePlane plane) const {
 }
 
 bool ImageSlices::pending() const {
-    return next_.valid() ||
+    return task_.pending() ||
            std::ranges::any_of(kSlicePlanes, [this](SlicePlane plane) { return outdated(plane); });
 }
 
@@ -137,15 +136,11 @@ void ImageSlices::start() {
         task.places.emplace_back(plane, position(plane));
     }
     if (task.places.empty()) return;
-    next_ = std::async(std::launch::async, [task = std::move(task), wake = wake_]() mutable {
-        if (!task.figures) task.figures = figures_of(task.image);
-        Made done = made(task);
-        if (wake) wake();
-        return done;
-    });
+    task_.begin([task = std::move(task)](const Progress&) { return made(task); });
 }
 
-ImageSlices::Made ImageSlices::made(const Task& task) {
+ImageSlices::Made ImageSlices::made(Task task) {
+    if (!task.figures) task.figures = figures_of(task.image);
     Made made{.image = task.version, .figures = *task.figures};
     for (const auto& [plane, position] : task.places)
         made.contents.push_back(
@@ -154,12 +149,10 @@ ImageSlices::Made ImageSlices::made(const Task& task) {
 }
 
 bool ImageSlices::take_made() {
-    using namespace std::chrono_literals;
-    if (!next_.valid() || next_.wait_for(0s) != std::future_status::ready) return false;
-    const Made made = next_.get();
-    if (made.image != image_version_) return false;
-    take_figures(made.figures);
-    for (const auto& content : made.contents) contents_[number(content->plane)] = content;
+    const auto made = task_.take();
+    if (!made || made->image != image_version_) return false;
+    take_figures(made->figures);
+    for (const auto& content : made->contents) contents_[number(content->plane)] = content;
     return true;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "workbench/case/scene.h"
+#include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/slices.h"
 
 namespace vesselbench {
@@ -28,9 +28,6 @@ class ImageSlices {
 public:
     /// \param wake called by the other thread when update() has something to do
     explicit ImageSlices(std::function<void()> wake);
-
-    ImageSlices(const ImageSlices&) = delete;
-    ImageSlices& operator=(const ImageSlices&) = delete;
 
     /// Follows the shown scene; once a frame. The image of a case that has just been opened without
     /// a surface is shown.
@@ -138,7 +135,7 @@ private:
         return static_cast<std::size_t>(plane);
     }
 
-    [[nodiscard]] static Made made(const Task& task);
+    [[nodiscard]] static Made made(Task task);
     void take_image(const Image& image, const Scene& scene);
     void take_surface(const std::optional<Surface>& surface);
     void take_figures(const ImageFigures& figures);
@@ -147,7 +144,6 @@ private:
     [[nodiscard]] Wish wish(SlicePlane plane) const;
     [[nodiscard]] bool outdated(SlicePlane plane) const;
 
-    std::function<void()> wake_;
     Image image_;
     std::optional<Image> mask_;
     std::optional<Surface> surface_;
@@ -161,7 +157,7 @@ private:
     Vec3 cross_ = Vec3::Zero();
     GreyWindow grey_;
     bool typed_grey_ = false;  ///< grey_ is the user's
-    std::future<Made> next_;
+    LatestTask<Made> task_;
 };
 
 }  // namespace vesselbench

@@ -53,7 +53,8 @@ public:
         return answer;
     }
 
-    [[nodiscard]] bool pending() const { return running_.valid(); }
+    /// True while an answer is to come.
+    [[nodiscard]] bool pending() const { return waiting_ || (running_.valid() && !dropped_); }
 
 private:
     void start() {

@@ -1,56 +1,30 @@
 #include "workbench/window/model/place_search.h"
 
-#include <chrono>
 #include <utility>
-
-#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 
-PlaceSearch::PlaceSearch(std::function<void()> wake) : wake_(std::move(wake)) {}
-
-PlaceSearch::~PlaceSearch() {
-    stop_.request_stop();
-}
+PlaceSearch::PlaceSearch(std::function<void()> wake) : task_(std::move(wake)) {}
 
 void PlaceSearch::begin(const Surface* surface, bool tips) {
     places_ = {};
-    wanted_.reset();
-    if (surface != nullptr && !surface->empty()) wanted_ = Request{*surface, tips};
-    outdated_ = next_.valid();
-    if (outdated_)
-        stop_.request_stop();
-    else
-        start();
-}
-
-void PlaceSearch::start() {
-    outdated_ = false;
-    if (!wanted_) return;
-    stop_ = {};
-    next_ = std::async(std::launch::async, [request = *std::exchange(wanted_, std::nullopt),
-                                            stop = stop_.get_token(), wake = wake_] {
-        SurfacePlaces places;
+    task_.forget();
+    if (surface == nullptr || surface->empty()) return;
+    task_.begin([surface = *surface, tips](const Progress& progress) {
         try {
-            places = places_of(request.surface, request.tips, Progress(nullptr, stop));
+            return places_of(surface, tips, progress);
+        } catch (const Cancelled&) {
+            throw;
         } catch (const std::exception& error) {
-            places.problem = error.what();
+            return SurfacePlaces{.problem = error.what()};
         }
-        if (wake) wake();
-        return places;
     });
 }
 
 bool PlaceSearch::update() {
-    using namespace std::chrono_literals;
-    if (!next_.valid() || next_.wait_for(0s) != std::future_status::ready) return false;
-    SurfacePlaces places = next_.get();
-    if (outdated_) {
-        start();
-        return false;
-    }
-    places_ = std::move(places);
-    return true;
+    auto places = task_.take();
+    if (places) places_ = std::move(*places);
+    return places.has_value();
 }
 
 }  // namespace vesselbench

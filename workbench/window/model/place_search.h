@@ -1,10 +1,8 @@
 #pragma once
 
 #include <functional>
-#include <future>
-#include <optional>
-#include <stop_token>
 
+#include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/surface_places.h"
 
 namespace vesselbench {
@@ -15,10 +13,6 @@ class PlaceSearch {
 public:
     /// \param wake called by the other thread when update() has something to do
     explicit PlaceSearch(std::function<void()> wake);
-    ~PlaceSearch();
-
-    PlaceSearch(const PlaceSearch&) = delete;
-    PlaceSearch& operator=(const PlaceSearch&) = delete;
 
     /// Begins a search, and forgets the places of the one before.
     /// \param surface null or empty: there are no places
@@ -28,23 +22,12 @@ public:
     /// Takes a result that is ready. \return true if places() has changed
     bool update();
 
-    [[nodiscard]] bool pending() const { return next_.valid(); }
+    [[nodiscard]] bool pending() const { return task_.pending(); }
 
     [[nodiscard]] const SurfacePlaces& places() const { return places_; }
 
 private:
-    struct Request {
-        Surface surface;
-        bool tips = false;
-    };
-
-    void start();
-
-    std::function<void()> wake_;
-    std::future<SurfacePlaces> next_;
-    std::stop_source stop_;
-    std::optional<Request> wanted_;  ///< to be searched after `next_`
-    bool outdated_ = false;          ///< the result of `next_` is of no use
+    LatestTask<SurfacePlaces> task_;
     SurfacePlaces places_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -100,13 +101,6 @@ std::vector<float> sampled(const std::vector<float>& voxels) {
     for (std::size_t i = 0; i < voxels.size(); i += stride)
         if (std::isfinite(voxels[i])) samples.push_back(voxels[i]);
     return samples;
-}
-
-double percentile(std::vector<float>& samples, double fraction) {
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(std::lround(
-                                          fraction * static_cast<double>(samples.size() - 1)));
-    std::ranges::nth_element(samples, at);
-    return *at;
 }
 
 GreyWindow window_between(double black, double white) {

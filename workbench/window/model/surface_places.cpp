@@ -19,10 +19,9 @@ std::vector<NamedPlace> tips_of(const Surface& surface, const Progress& progress
     const auto graph = centerlines_of(surface, {}, progress);
     std::vector<NamedPlace> tips;
     for (const std::size_t tip : tips_by_radius(*graph)) {
-        const double radius = tip_radius(*graph, tip);
         tips.push_back({.point = graph->nodes[tip].position,
-                        .name = "Vessel end, " + formatted(2 * radius, "%.1f mm"),
-                        .reach = kReach * radius});
+                        .name = tip_name(*graph, tip),
+                        .reach = kReach * tip_radius(*graph, tip)});
     }
     return tips;
 }
@@ -32,6 +31,10 @@ double reach_of(const PatchMeasures& opening) {
 }
 
 }  // namespace
+
+std::string tip_name(const CenterlineGraph& graph, std::size_t tip) {
+    return "Vessel end, " + formatted(2 * tip_radius(graph, tip), "%.1f mm");
+}
 
 SurfacePlaces places_of(const Surface& surface, bool tips, const Progress& progress) {
     SurfacePlaces places{.openings = measure_patches(surface)};

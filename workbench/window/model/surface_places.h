@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/progress.h"
+#include "geometry/vessel/centerlines/centerline_graph.h"
 
 namespace vesselbench {
 
@@ -25,6 +26,9 @@ struct SurfacePlaces {
     std::vector<NamedPlace> tips;         ///< vessel ends on the centerlines
     std::string problem;                  ///< why the ends are not known; empty: no problem
 };
+
+/// "Vessel end, 4.5 mm", with the diameter at a tip node.
+[[nodiscard]] std::string tip_name(const CenterlineGraph& graph, std::size_t tip);
 
 /// \param tips whether vessel ends are wanted, whose centerlines may take seconds
 /// \throw Cancelled

@@ -1,8 +1,9 @@
 #include "workbench/window/view/model_drawing.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
+
+#include "workbench/window/model/same_surface.h"
 
 namespace vesselbench {
 
@@ -24,56 +25,39 @@ std::vector<Colour> colours_of_patches(const Surface& surface) {
     return colours;
 }
 
-/// The same arrays, so that comparing contents is not needed.
-bool same_shape(const Surface& a, const Surface& b) {
-    return a.topology == b.topology && a.patch_labels == b.patch_labels &&
-           a.positions == b.positions && a.attributes == b.attributes;
-}
-
 }  // namespace
 
-ModelDrawing::ModelDrawing(std::function<void()> wake) : wake_(std::move(wake)) {}
+ModelDrawing::ModelDrawing(std::function<void()> wake) : task_(std::move(wake)) {}
 
 void ModelDrawing::show(const Scene* scene) {
-    wanted_.reset();
+    task_.forget();
     late_.clear();
     deviation_.reset();
-    if (scene == nullptr || !scene->surface || scene->surface->empty()) {
+    if (scene == nullptr || !scene->surface || scene->surface->empty())
         drawn_.reset();
-        return;
-    }
-    wanted_ = scene->surface;
-    if (!next_.valid()) begin();
+    else
+        lay_out(*scene->surface);
 }
 
-void ModelDrawing::begin() {
-    const Surface surface = *std::exchange(wanted_, std::nullopt);
+void ModelDrawing::lay_out(const Surface& surface) {
     std::optional<DrawingArrays> previous;
     if (drawn_) previous = drawn_->arrays();
-    next_ = std::async(std::launch::async, [surface, previous, wake = wake_] {
-        DrawingArrays arrays = prepare_drawing(surface, previous ? &*previous : nullptr);
-        if (wake) wake();
-        return arrays;
+    task_.begin([surface, previous](const Progress&) {
+        return prepare_drawing(surface, previous ? &*previous : nullptr);
     });
 }
 
 bool ModelDrawing::update() {
-    using namespace std::chrono_literals;
     bool changed = std::exchange(moved_, false);
-    if (next_.valid() && next_.wait_for(0s) == std::future_status::ready) {
-        if (wanted_) {
-            next_.get();
-            begin();
-        } else {
-            take_next();
-            changed = true;
-        }
+    if (auto arrays = task_.take()) {
+        take(std::move(*arrays));
+        changed = true;
     }
     return upload_values() || changed;
 }
 
-void ModelDrawing::take_next() {
-    drawn_ = std::make_shared<DrawnSurface>(next_.get());
+void ModelDrawing::take(DrawingArrays arrays) {
+    drawn_ = std::make_shared<DrawnSurface>(std::move(arrays));
     shown_ = drawn_->surface();
     uploaded_.reset();
     follow_late();
@@ -82,26 +66,23 @@ void ModelDrawing::take_next() {
 // --- dabs
 
 void ModelDrawing::move(const SceneMove& move) {
-    if (next_.valid() || wanted_)
+    if (task_.pending())
         late_.push_back(move);
-    else if (drawn_ && same_shape(shown_, surface_of(move.before)))
+    else if (drawn_ && same_surface(shown_, surface_of(move.before)))
         follow(move);
-    else {
-        wanted_ = surface_of(move.after);
-        begin();
-    }
+    else
+        lay_out(surface_of(move.after));
 }
 
 /// The moves that came while the surface was laid out: those since it.
 void ModelDrawing::follow_late() {
     const std::vector<SceneMove> late = std::exchange(late_, {});
-    if (late.empty() || same_shape(shown_, surface_of(late.back().after))) return;
+    if (late.empty() || same_surface(shown_, surface_of(late.back().after))) return;
     auto next = std::ranges::find_if(
-        late, [&](const SceneMove& move) { return same_shape(shown_, surface_of(move.before)); });
+        late, [&](const SceneMove& move) { return same_surface(shown_, surface_of(move.before)); });
     for (; next != late.end(); ++next) move(*next);
-    if (next_.valid() || same_shape(shown_, surface_of(late.back().after))) return;
-    wanted_ = surface_of(late.back().after);
-    begin();
+    if (!task_.pending() && !same_surface(shown_, surface_of(late.back().after)))
+        lay_out(surface_of(late.back().after));
 }
 
 void ModelDrawing::follow(const SceneMove& move) {
@@ -134,7 +115,7 @@ ModelDrawing::Values ModelDrawing::wanted_values() const {
 }
 
 bool ModelDrawing::upload_values() {
-    if (!drawn_ || next_.valid()) return false;
+    if (!drawn_ || task_.pending()) return false;
     const Values wanted = wanted_values();
     if (wanted == uploaded_ || (wanted && wanted->size() != shown_.vertex_count())) return false;
     uploaded_ = wanted;

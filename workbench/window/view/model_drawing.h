@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "workbench/case/scene.h"
 #include "workbench/window/model/colourings.h"
 #include "workbench/window/model/deviation_map.h"
+#include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/live_stroke.h"
 
 namespace vesselbench {
@@ -61,7 +61,7 @@ public:
     /// Uploads what is ready. \return true if the drawing has changed
     bool update();
 
-    [[nodiscard]] bool pending() const { return next_.valid(); }
+    [[nodiscard]] bool pending() const { return task_.pending(); }
 
     /// The surface that is drawn, with the dabs so far; null: none.
     [[nodiscard]] const Surface* surface() const;
@@ -85,8 +85,8 @@ public:
 private:
     using Values = std::shared_ptr<const std::vector<double>>;
 
-    void begin();
-    void take_next();
+    void lay_out(const Surface& surface);
+    void take(DrawingArrays arrays);
     void follow(const SceneMove& move);
     void follow_late();
     [[nodiscard]] Values painted_values() const;
@@ -94,13 +94,11 @@ private:
     [[nodiscard]] bool upload_values();
     void colour(SurfaceLayer& layer, const ViewLook& look) const;
 
-    std::function<void()> wake_;
     std::shared_ptr<DrawnSurface> drawn_;
     Surface shown_;  ///< as drawn, with all moves
-    std::future<DrawingArrays> next_;
-    std::optional<Surface> wanted_;  ///< to be laid out after `next_`
-    std::vector<SceneMove> late_;    ///< moves since `next_` or `wanted_` was asked for
-    bool moved_ = false;             ///< since the last update
+    LatestTask<DrawingArrays> task_;
+    std::vector<SceneMove> late_;  ///< moves since a layout was asked for
+    bool moved_ = false;           ///< since the last update
     std::string painted_;
     std::shared_ptr<const DeviationMap> deviation_;
     std::shared_ptr<const ColourValues> colours_;

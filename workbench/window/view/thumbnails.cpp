@@ -1,15 +1,13 @@
 #include "workbench/window/view/thumbnails.h"
 
-#include <chrono>
-#include <future>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include <epoxy/gl.h>
 
-#include "geometry/kernel/errors.h"
 #include "workbench/session/known_results.h"
+#include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/thumbnail_files.h"
 #include "workbench/window/view/thumbnail_drawing.h"
 
@@ -40,14 +38,12 @@ struct Made {
     Texture texture;
 };
 
-template <class Value>
-bool is_ready(const std::future<Value>& future) {
-    return future.valid() && future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
 }  // namespace
 
 struct Thumbnails::Impl {
+    Impl(const std::function<void()>& wake, fs::path folder)
+        : cache(std::move(folder)), arrays(wake), writing(wake) {}
+
     void follow(const Document& document);
     void begin(const Document& document);
     void lay_out(const Scene& scene);
@@ -56,9 +52,8 @@ struct Thumbnails::Impl {
     void keep(const Document& document);
     [[nodiscard]] std::optional<ResultId> result_of(StateId state);
 
-    [[nodiscard]] bool making() const { return reading || arrays.valid(); }
+    [[nodiscard]] bool making() const { return reading || arrays.pending(); }
 
-    std::function<void()> wake;
     fs::path cache;
     std::map<fs::path, Texture> projects;  ///< by their files
     bool may_load = true;                  ///< one file a frame
@@ -73,26 +68,23 @@ struct Thumbnails::Impl {
     std::optional<StateId> wanted;
     ResultId making_result = 0;  ///< what is read or laid out
     std::optional<Job<Scene>> reading;
-    std::future<std::optional<DrawingArrays>> arrays;
+    LatestTask<std::optional<DrawingArrays>> arrays;
     ResultId kept = 0;  ///< whose picture is the project's
-    std::future<void> writing;
+    LatestTask<bool> writing;
     std::optional<ThumbnailDrawing> drawing;
 };
 
 Thumbnails::Thumbnails(std::function<void()> wake, fs::path cache)
-    : impl_(std::make_unique<Impl>()) {
-    impl_->wake = std::move(wake);
-    impl_->cache = std::move(cache);
-}
+    : impl_(std::make_unique<Impl>(std::move(wake), std::move(cache))) {}
 
 Thumbnails::~Thumbnails() = default;
 
 bool Thumbnails::pending() const {
-    return impl_->wanted || impl_->making() || impl_->writing.valid() || impl_->loads_later;
+    return impl_->wanted || impl_->making() || impl_->writing.pending() || impl_->loads_later;
 }
 
 void Thumbnails::update(const Document& document, Renderer& renderer) {
-    if (is_ready(impl_->writing)) impl_->writing.get();
+    (void)impl_->writing.take();
     impl_->may_load = true;
     impl_->loads_later = false;
     impl_->follow(document);
@@ -110,6 +102,7 @@ void Thumbnails::Impl::follow(const Document& document) {
         project = document.project();
         made.clear();
         reading.reset();
+        arrays.forget();
         making_result = kept = 0;
     }
     if (now == history && variant == document.variant()) return;
@@ -159,31 +152,28 @@ void Thumbnails::Impl::lay_out(const Scene& scene) {
         made[making_result] = {};
         return;
     }
-    arrays = std::async(std::launch::async, [surface = *scene.surface, wake = wake] {
-        std::optional<DrawingArrays> ready;
+    arrays.begin([surface = *scene.surface](const Progress&) -> std::optional<DrawingArrays> {
         try {
-            ready = thumbnail_arrays(surface);
-        } catch (const std::exception&) {  // no picture
+            return thumbnail_arrays(surface);
+        } catch (const std::exception&) {
+            return std::nullopt;  // no picture
         }
-        if (wake) wake();
-        return ready;
     });
 }
 
 void Thumbnails::Impl::take_arrays(Renderer& renderer) {
-    if (!is_ready(arrays)) return;
-    std::optional<DrawingArrays> ready = arrays.get();
-    if (making_result == 0) return;  // of a case that was closed
-    Made& entry = made[making_result];
+    auto ready = arrays.take();
     if (!ready) return;
+    Made& entry = made[making_result];
+    if (!*ready) return;
     if (!drawing) drawing.emplace();
-    entry.picture = drawing->draw(renderer, std::move(*ready));
+    entry.picture = drawing->draw(renderer, std::move(**ready));
     entry.texture = texture_of(entry.picture);
 }
 
 /// Keeps the current state's picture as the project's, and asks for it if it is missing.
 void Thumbnails::Impl::keep(const Document& document) {
-    if (document.current() == nullptr || writing.valid()) return;
+    if (document.current() == nullptr || writing.pending()) return;
     const ResultId now = result_of(history->current()).value_or(0);
     if (now == 0 || now == kept) return;
     const auto found = made.find(now);
@@ -194,11 +184,11 @@ void Thumbnails::Impl::keep(const Document& document) {
     kept = now;
     if (found->second.picture.rgba.empty()) return;
     projects.erase(thumbnail_file(cache, project));
-    writing = std::async(std::launch::async, [cache = cache, project = project, wake = wake,
-                                              picture = found->second.picture] {
-        save_thumbnail(cache, project, picture);
-        if (wake) wake();
-    });
+    writing.begin(
+        [cache = cache, project = project, picture = found->second.picture](const Progress&) {
+            save_thumbnail(cache, project, picture);
+            return true;
+        });
 }
 
 unsigned Thumbnails::of_state(StateId state) {

@@ -1,0 +1,87 @@
+// One question at a time is answered on another thread; only the last that waits counts.
+
+#include "workbench/window/model/latest_task.h"
+
+#include <future>
+#include <optional>
+
+#include <catch2/catch.hpp>
+
+#include "workbench/window/model/background_search.h"
+
+using namespace vesselbench;
+
+namespace {
+
+/// Work that ends when it is let go.
+class Gate {
+public:
+    [[nodiscard]] LatestTask<int>::Work work(int answer) const {
+        return [answer, opened = opened_](const Progress&) {
+            opened.wait();
+            return answer;
+        };
+    }
+
+    void open() { gate_.set_value(); }
+
+private:
+    std::promise<void> gate_;
+    std::shared_future<void> opened_ = gate_.get_future().share();
+};
+
+int answer_of(LatestTask<int>& task) {
+    std::optional<int> answer;
+    while (task.pending() && !answer) answer = task.take();
+    return answer.value_or(0);
+}
+
+}  // namespace
+
+SCENARIO("The last question is answered", "[window]") {
+    GIVEN("a task that runs, and two questions that wait") {
+        LatestTask<int> task(nullptr);
+        Gate gate;
+        task.begin(gate.work(1));
+        task.begin([](const Progress&) { return 2; });
+        task.begin([](const Progress&) { return 3; });
+        gate.open();
+        THEN("the running one and the last one are answered") {
+            CHECK(answer_of(task) == 1);
+            CHECK(answer_of(task) == 3);
+            CHECK_FALSE(task.pending());
+        }
+    }
+    GIVEN("a task that is forgotten while it runs") {
+        LatestTask<int> task(nullptr);
+        Gate gate;
+        task.begin(gate.work(1));
+        task.forget();
+        THEN("no answer is to come, although nobody asks for it") {
+            CHECK_FALSE(task.pending());
+            gate.open();
+        }
+        THEN("the next question is answered after it") {
+            task.begin([](const Progress&) { return 2; });
+            CHECK(task.pending());
+            gate.open();
+            CHECK(answer_of(task) == 2);
+        }
+    }
+}
+
+SCENARIO("A search tells why it found nothing", "[window]") {
+    GIVEN("a search that fails") {
+        BackgroundSearch<int> search(nullptr);
+        search.begin([](const Progress&) -> int { throw AlgorithmFailure("no vessel here"); });
+        while (!search.update()) CHECK(search.pending());
+        THEN("the problem is told until the next search") {
+            CHECK(search.result() == nullptr);
+            CHECK(search.problem() == "no vessel here");
+            search.begin([](const Progress&) { return 5; });
+            CHECK(search.problem().empty());
+            while (!search.update()) CHECK(search.pending());
+            CHECK(*search.result() == 5);
+        }
+    }
+}
