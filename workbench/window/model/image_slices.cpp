@@ -57,7 +57,7 @@ void ImageSlices::clear() {
     contents_ = {};
     had_ = {};
     ++image_version_;
-    row_ = typed_grey_ = false;
+    row_ = typed_grey_ = was_shown_ = until_surface_ = false;
     space_.fill(false);
 }
 
@@ -69,14 +69,23 @@ bool ImageSlices::update(const Scene* scene) {
         else if (!same_voxels(image_, *scene->image) || !same_mask(mask_, scene->mask))
             take_image(*scene->image, *scene);
         take_surface(scene->surface);
-        if (!had_image && has_image() && !surface_) {
-            row_ = true;
-            space_.fill(true);
-        }
+        show_first_image();
     }
     const bool changed = take_made();
     if (!task_.pending()) start();
     return changed || had_image != has_image();
+}
+
+/// Of a case that has no surface yet; once, so that what the user hides stays hidden. The first
+/// surface is not hidden by the planes.
+void ImageSlices::show_first_image() {
+    if (!has_image()) return;
+    if (!std::exchange(was_shown_, true) && !surface_) {
+        row_ = true;
+        space_.fill(true);
+        until_surface_ = true;
+    }
+    if (surface_ && std::exchange(until_surface_, false)) space_.fill(false);
 }
 
 void ImageSlices::take_image(const Image& image, const Scene& scene) {

@@ -75,10 +75,16 @@ public:
 
     [[nodiscard]] bool any_in_space() const;
 
-    void show_in_space(SlicePlane plane, bool shown) { space_[number(plane)] = shown; }
+    void show_in_space(SlicePlane plane, bool shown) {
+        space_[number(plane)] = shown;
+        until_surface_ = false;
+    }
 
     /// All planes.
-    void show_in_space(bool shown) { space_.fill(shown); }
+    void show_in_space(bool shown) {
+        space_.fill(shown);
+        until_surface_ = false;
+    }
 
     bool mask_shown = true;
     bool outline_shown = true;
@@ -136,6 +142,7 @@ private:
     }
 
     [[nodiscard]] static Made made(Task task);
+    void show_first_image();
     void take_image(const Image& image, const Scene& scene);
     void take_surface(const std::optional<Surface>& surface);
     void take_figures(const ImageFigures& figures);
@@ -153,6 +160,8 @@ private:
     std::array<std::optional<Wish>, 3> had_;  ///< what the contents were made for
     int image_version_ = 0, surface_version_ = 0;
     bool row_ = false;
+    bool was_shown_ = false;      ///< the image of this case
+    bool until_surface_ = false;  ///< the planes were not asked for
     std::array<bool, 3> space_ = {false, false, false};
     Vec3 cross_ = Vec3::Zero();
     GreyWindow grey_;

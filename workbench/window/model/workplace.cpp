@@ -110,7 +110,35 @@ void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     const std::vector<Step>& allowed = form_->operation().allowed;
     const bool fits = step && std::ranges::count(allowed, *step) > 0;
     step_ = fits ? *step : form_->operation().usual_step;
-    if (is_brush(form_->operation()) && tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
+    if (is_brush(form_->operation())) {
+        if (tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
+        return;
+    }
+    arm_required();
+}
+
+/// What has to be picked is picked at once.
+void Workplace::arm_required() {
+    for (const FormField& field : form_->fields())
+        if (field.parameter->required && pick_target(form_->operation(), *field.parameter))
+            return arm(field.parameter->name);
+}
+
+void Workplace::follow(const Message& message) {
+    const auto& log = document.snapshot()->log;
+    const auto is = [&](const LogEntry& entry) {
+        return message.edit == entry.edit.edit.id ||
+               (!message.edit && message.remedy == entry.edit.operation &&
+                entry.edit.place.step == Step::Source);
+    };
+    const auto found = std::ranges::find_if(log, is);
+    if (found != log.end()) return choose_edit(found->edit.edit.id);
+    if (!message.remedy.empty()) choose(message.remedy);
+}
+
+void Workplace::look_at(const Vec3& place) {
+    slices_.set_cross(place);
+    looked_at_ = place;
 }
 
 void Workplace::choose_edit(EditId edit) {
