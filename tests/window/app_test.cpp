@@ -121,7 +121,7 @@ SCENARIO("A running operation is cancelled", "[window][app]") {
     REQUIRE(shell->click_item("status.cancel"));
     REQUIRE(wait_until_idle(*shell));
     CHECK(edits(*shell) == 1);
-    CHECK(shell->app().place().document.messages().back().text == "cancelled");
+    CHECK(shell->app().place().document.messages().back().text == "Cancelled");
 }
 
 SCENARIO("A broken file is refused and the window goes on", "[window][app]") {

@@ -16,6 +16,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/session/surface_change.h"
 #include "workbench/window/model/rail.h"
+#include "workbench/window/model/readable.h"
 
 namespace vesselbench {
 
@@ -24,8 +25,8 @@ namespace {
 constexpr std::size_t kMostMessages = 500;
 constexpr const char* kReading = "reading the model";
 
-/// The texts that a recipe tells while it runs, handed from its thread to the frame's.
-class ToldTexts {
+/// The messages of a running recipe, handed from its thread to the frame's.
+class RecipeMessages {
 public:
     void add(const std::string& text) {
         const std::lock_guard lock(mutex_);
@@ -42,7 +43,7 @@ private:
     std::vector<std::string> texts_;
 };
 
-Message told(const std::string& text) {
+Message message_of(const std::string& text) {
     constexpr std::string_view kWarning = "warning: ";
     if (text.starts_with(kWarning))
         return make_message(MessageKind::Warning, text.substr(kWarning.size()));
@@ -103,7 +104,7 @@ std::string newest_variant(const Snapshot& snapshot) {
 
 std::string entered_text(const LogEntry& entry) {
     const std::string change = entry.result ? change_text(entry.result->change) : "";
-    return entry.edit.operation + (change.empty() ? "" : ": " + change);
+    return readable(entry.edit.operation) + (change.empty() ? "" : ": " + change);
 }
 
 }  // namespace
@@ -135,7 +136,7 @@ void Document::watch(Job<Result> job, std::string what, std::string operation, b
         try {
             then(job.result());
         } catch (const Cancelled&) {
-            if (!background) stop_with("cancelled");
+            if (!background) stop_with("Cancelled");
         } catch (const std::exception& error) {
             if (!background) fail(error.what(), operation);
         }
@@ -218,14 +219,14 @@ void Document::take_opened() {
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
         if (opened.is_new)
-            tell(make_message(MessageKind::Success, "new project " + project_.string()));
+            tell(make_message(MessageKind::Success, "New project " + project_.string()));
         else
-            tell(make_message(MessageKind::Success, "opened " + project_.string()));
-        for (const std::string& remark : opened.remarks) tell(told(remark));
+            tell(make_message(MessageKind::Success, "Opened " + project_.string()));
+        for (const std::string& remark : opened.remarks) tell(message_of(remark));
         variant_ = newest_variant(*runner_->snapshot());
         take_snapshot();
     } catch (const Cancelled&) {
-        tell(make_message(MessageKind::Remark, "cancelled"));
+        tell(make_message(MessageKind::Remark, "Cancelled"));
     } catch (const std::exception& error) {
         fail(error.what(), {});
     }
@@ -363,15 +364,15 @@ void Document::tell_entered(const LogEntry& entry) {
     tell(make_message(MessageKind::Success, entered_text(entry)));
     if (!entry.result) return;
     for (const std::string& warning : entry.result->warnings)
-        tell(make_message(MessageKind::Warning, entry.edit.operation + ": " + warning,
+        tell(make_message(MessageKind::Warning, readable(entry.edit.operation) + ": " + warning,
                           entry.edit.operation));
 }
 
 void Document::show_preview(const Preview& preview) {
     preview_ = preview;
     scene_changed();
-    tell(make_message(MessageKind::Remark, "preview of " + preview.edit().operation + ": " +
-                                               change_text(preview.result().change)));
+    tell(make_message(MessageKind::Remark, "Preview of " + readable(preview.edit().operation) +
+                                               ": " + change_text(preview.result().change)));
 }
 
 void Document::apply(const std::string& operation, Arguments given, Step step) {
@@ -389,8 +390,8 @@ void Document::preview(const std::string& operation, Arguments given, Step step)
 
 void Document::change(EditId edit, Arguments given) {
     if (!begin_request()) return;
-    watch(runner_->change_edit(edit, std::move(given)), "edit " + std::to_string(edit), {}, false,
-          [this](const LogEntry& entry) { enter(entry); });
+    watch(runner_->change_edit(edit, std::move(given)), "Changing edit " + std::to_string(edit), {},
+          false, [this](const LogEntry& entry) { enter(entry); });
 }
 
 void Document::preview_change(EditId edit, Arguments given) {
@@ -438,7 +439,7 @@ void Document::redo() {
 void Document::jump(StateId state) {
     if (!begin_request()) return;
     drop_preview();
-    watch(runner_->jump(state), "going to another state", {}, false, [](const Nothing&) {});
+    watch(runner_->jump(state), "Switching state", {}, false, [](const Nothing&) {});
 }
 
 void Document::run_pending() {
@@ -480,12 +481,12 @@ void Document::prepare(const std::string& purpose) {
 /// One job per entry, so that the view follows the recipe.
 void Document::prepare_next() {
     if (preparation_->next == preparation_->recipe.size()) {
-        tell(make_message(MessageKind::Success, "prepared for " + preparation_->purpose));
+        tell(make_message(MessageKind::Success, "Prepared the model for " + preparation_->purpose));
         return preparation_.reset();
     }
     cancel_background();
     const RecipeEntry entry = preparation_->recipe[preparation_->next];
-    const auto texts = std::make_shared<ToldTexts>();
+    const auto texts = std::make_shared<RecipeMessages>();
     const auto job = runner_->submit([entry, purpose = preparation_->purpose, texts](
                                          Session& session, const Progress& progress) {
         const Teller note = [&](const std::string& text) { texts->add(text); };
@@ -494,7 +495,7 @@ void Document::prepare_next() {
     });
     const std::string& name = entry.given.operation().name;
     watch(job, name, name, false, [this, texts](const Nothing&) {
-        for (const std::string& text : texts->take()) tell(told(text));
+        for (const std::string& text : texts->take()) tell(message_of(text));
         ++preparation_->next;
         prepare_next();
     });
@@ -515,7 +516,7 @@ void Document::export_to(const std::filesystem::path& file) {
         progress.check_cancelled();
         files.commit();
     };
-    const std::string done = "exported " + file.string() + unit;
+    const std::string done = "Exported " + file.string() + unit;
     watch(runner_->with_scene(variant_, write), "export", {}, false,
           [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
 }
@@ -523,7 +524,7 @@ void Document::export_to(const std::filesystem::path& file) {
 void Document::save_copy(const std::filesystem::path& project) {
     if (!begin_request()) return;
     watch(runner_->save_as(project), "saving a copy", {}, false, [this, project](const Nothing&) {
-        tell(make_message(MessageKind::Success, "saved a copy as " + project.string()));
+        tell(make_message(MessageKind::Success, "Saved a copy as " + project.string()));
     });
 }
 
@@ -562,7 +563,7 @@ void Document::drop_stroke() {
 
 void Document::end(const EndedStroke& stroke) {
     if (stroke.entry) return tell_entered(*stroke.entry);
-    if (stroke.cancelled) stop_with("cancelled");
+    if (stroke.cancelled) stop_with("Cancelled");
     if (!stroke.error.empty()) fail(stroke.error, stroke.operation);
     show_without_stroke();
 }
