@@ -27,8 +27,8 @@ const Vec3 kInlet(-4.5, 2.5, -6.0), kOutletA(5.6, 7.6, 53.0), kOutletB(4.4, -6.0
 const Vec3 kBump(-5.0, 1.6, 2.5), kNarrowing(5.3, 3.0, 38.8);
 
 /// The walk, with the commands that do the same.
-struct Preparation {
-    explicit Preparation(Driver& driven) : window(driven) {}
+struct BundledCase {
+    explicit BundledCase(Driver& driven) : window(driven) {}
 
     void apply() { commands.push_back(apply_form(window)); }
 
@@ -61,7 +61,7 @@ struct Preparation {
     std::vector<std::string> commands;
 };
 
-void Preparation::make_surface() {
+void BundledCase::make_surface() {
     choose(window, "source", "extract-surface");
     REQUIRE(window.fill_item("field.dilation", "0"));
     apply();
@@ -69,7 +69,7 @@ void Preparation::make_surface() {
     apply();
 }
 
-void Preparation::remove_stubs() {
+void BundledCase::remove_stubs() {
     for (const Vec3& tip : {kLowStub, kHighStub}) {
         choose(window, "branches", "remove-branch");
         pick_end(window, "tip", tip);
@@ -77,7 +77,7 @@ void Preparation::remove_stubs() {
     }
 }
 
-void Preparation::open_ends() {
+void BundledCase::open_ends() {
     for (const Vec3& tip : {kInlet, kOutletA, kOutletB}) {
         choose(window, "openings", "clip-opening");
         pick_end(window, "tip", tip);
@@ -102,7 +102,7 @@ double narrow_side(const Surface& surface) {
     return side;
 }
 
-void Preparation::brush() {
+void BundledCase::brush() {
     choose(window, "local-repair", "brush-smooth");
     REQUIRE(window.fill_item("field.radius", "2"));
     REQUIRE(window.fill_item("field.strength", "0.9"));
@@ -119,7 +119,7 @@ void Preparation::brush() {
     CHECK(narrow_side(surface()) > narrow + 0.1);
 }
 
-void Preparation::finish() {
+void BundledCase::finish() {
     choose(window, "openings", "extrude-opening");
     apply();
     choose(window, "smoothing", "smooth");
@@ -185,7 +185,7 @@ SCENARIO("The bundled case is prepared by hand", "[window][walk]") {
     REQUIRE(document_of(*window).is_open());
     REQUIRE(window->settle());
     const fs::path project = document_of(*window).project();
-    Preparation walk(*window);
+    BundledCase walk(*window);
     walk.make_surface();
     walk.remove_stubs();
     walk.open_ends();

@@ -16,12 +16,15 @@ std::span<const Operation> operation_table() {
     return table;
 }
 
+const Operation* known_operation(const std::string& name) {
+    const auto found = std::ranges::find(operation_table(), name, &Operation::name);
+    return found == operation_table().end() ? nullptr : &*found;
+}
+
 const Operation& find_operation(const std::string& name) {
+    if (const Operation* known = known_operation(name)) return *known;
     std::vector<std::string> names;
-    for (const Operation& operation : operation_table()) {
-        if (operation.name == name) return operation;
-        names.push_back(operation.name);
-    }
+    for (const Operation& operation : operation_table()) names.push_back(operation.name);
     throw UsageError("there is no operation '" + name + "'" + did_you_mean(name, names) +
                      " ('vesselbench operations' lists them all)");
 }

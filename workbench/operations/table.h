@@ -10,6 +10,9 @@ namespace vesselbench {
 /// All operations of this build, in the order of their usual steps.
 [[nodiscard]] std::span<const Operation> operation_table();
 
+/// Null: this build has none of this name, such as that of a project from another version.
+[[nodiscard]] const Operation* known_operation(const std::string& name);
+
 /// \throw UsageError that lists the near names if there is none of this name
 [[nodiscard]] const Operation& find_operation(const std::string& name);
 

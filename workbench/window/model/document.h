@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "workbench/session/session_runner.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"
+#include "workbench/window/model/preparation.h"
+#include "workbench/window/model/request_job.h"
+#include "workbench/window/model/shown_scene.h"
 #include "workbench/window/model/stroke_queue.h"
 
 namespace vesselbench {
@@ -29,14 +31,8 @@ struct Activity {
     double fraction = 0.0;  ///< [0, 1]
 };
 
-/// Figures of the shown scene, found in the background.
-struct ShownFigures {
-    std::optional<double> volume;             ///< [mm^3]
-    std::optional<double> largest_deviation;  ///< [mm] from the source; none: it is the source
-};
-
-/// The case in the window: requests return at once, poll() collects their results once a frame.
-/// Used by the frame's thread only.
+/// The case in the window: requests return at once, poll() collects their results once a frame. A
+/// request that cannot be made now is refused with a message. Used by the frame's thread only.
 class Document {
 public:
     explicit Document(DocumentOptions options);
@@ -54,12 +50,15 @@ public:
 
     [[nodiscard]] bool is_opening() const { return opening_ != nullptr; }
 
+    /// Counts the cases that have been opened.
+    [[nodiscard]] int opened() const { return opened_; }
+
     [[nodiscard]] const std::filesystem::path& project() const { return project_; }
 
     /// Never null while a case is open.
     [[nodiscard]] const std::shared_ptr<const Snapshot>& snapshot() const { return snapshot_; }
 
-    /// Counts changes of snapshot().
+    /// Counts changes of the history, the edits and the variant that lists show.
     [[nodiscard]] int snapshot_changes() const { return snapshot_changes_; }
 
     /// For requests that nothing here depends on; null while no case is open.
@@ -67,6 +66,7 @@ public:
 
     [[nodiscard]] const std::string& variant() const { return variant_; }
 
+    /// Ignored while the model is prepared.
     void show_variant(const std::string& variant);
 
     // --- what is shown
@@ -76,42 +76,49 @@ public:
     [[nodiscard]] const Scene* shown() const;
 
     /// The scene that a preview replaces.
-    [[nodiscard]] const Scene* current() const { return scene_ ? &*scene_ : nullptr; }
+    [[nodiscard]] const Scene* current() const { return shown_.current(); }
 
     /// Counts changes of shown(), without those by dabs of a stroke.
-    [[nodiscard]] int scene_changes() const { return scene_changes_; }
+    [[nodiscard]] int scene_changes() const { return shown_.changes() + dropped_strokes_; }
 
     /// What dabs changed in shown() since the last call.
     [[nodiscard]] std::vector<SceneMove> take_moves() { return strokes_.take_moves(); }
 
-    [[nodiscard]] const std::optional<Preview>& previewed() const { return preview_; }
+    [[nodiscard]] const std::optional<Preview>& previewed() const { return shown_.previewed(); }
 
-    [[nodiscard]] const ShownFigures& figures() const { return figures_; }
+    [[nodiscard]] const ShownFigures& figures() const { return shown_.figures(); }
 
     /// Whether the distance of the shown surface from the source is wanted; of a preview, from the
     /// surface before it.
-    void want_deviation(bool wanted);
+    void want_deviation(bool wanted) { shown_.want_deviation(wanted); }
 
-    /// Null while it is not wanted, not known yet, or there is nothing to compare with.
+    /// As ShownScene::deviation().
     [[nodiscard]] const std::shared_ptr<const DeviationMap>& deviation() const {
-        return deviation_;
+        return shown_.deviation();
     }
 
     /// Whether the source's surface is wanted.
-    void want_source(bool wanted);
+    void want_source(bool wanted) { shown_.want_source(wanted); }
 
-    /// The surface as the source's step left it; none while it is not wanted, not known yet, or is
-    /// the shown one.
-    [[nodiscard]] const std::optional<Surface>& source() const { return source_; }
+    /// As ShownScene::source().
+    [[nodiscard]] const std::optional<Surface>& source() const { return shown_.source(); }
 
     // --- requests
+
+    /// Why a request of this kind would be refused now; empty: it would not.
+    [[nodiscard]] std::string why_not(RequestKind kind) const;
+
+    [[nodiscard]] bool can(RequestKind kind) const { return why_not(kind).empty(); }
 
     void apply(const std::string& operation, Arguments given, Step step);
     void preview(const std::string& operation, Arguments given, Step step);
     void change(EditId edit, Arguments given);
     void preview_change(EditId edit, Arguments given);
     void commit_preview();
+
+    /// Also cancels one that is being made.
     void drop_preview();
+
     void remove(EditId edit);
     void undo();
     void redo();
@@ -155,7 +162,8 @@ public:
 
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {
-        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty() || is_closing();
+        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty() || is_closing() ||
+               shown_.pending();
     }
 
     /// True while a closed case still ends, and holds its project.
@@ -176,61 +184,39 @@ public:
     [[nodiscard]] int entered() const { return entered_; }
 
 private:
-    struct Watched;
-
     template <class Owner>
     void retire(std::unique_ptr<Owner> owner);
-
-    struct Preparation {
-        Recipe recipe;
-        std::string purpose;
-        std::size_t next = 0;  ///< the entry that runs
-    };
-
     template <class Result, class Then>
-    void watch(Job<Result> job, std::string what, std::string operation, bool background,
-               Then then);
-    [[nodiscard]] bool begin_request();
+    void watch(Job<Result> job, RequestLabel label, Then then);
+    [[nodiscard]] bool begin_request(RequestKind kind);
+    void end(const RequestEnd& end);
+    void end(const EndedStroke& stroke);
     void enter(const LogEntry& entry);
     void tell_entered(const LogEntry& entry);
-    void end(const EndedStroke& stroke);
-    void show_without_stroke();
+    void show(const Preview& preview);
+    void cancel_preview();
     [[nodiscard]] Step stroke_step(const std::string& operation) const;
-    void show_preview(const Preview& preview);
     void take_opened();
     void take_snapshot();
-    void request_scene();
-    void request_figures();
-    void request_deviation();
-    void request_source();
-    void scene_changed();
-    void cancel_background();
     void prepare_next();
-    void stop_with(const std::string& text);
+    void end_entry(RecipeMessages& messages);
     void fail(const std::string& text, const std::string& operation);
-    void set_scene(std::optional<Scene> scene);
 
     DocumentOptions options_;
     std::shared_future<void> retired_;  ///< ends when every closed case has ended
     std::unique_ptr<Opening> opening_;
     std::unique_ptr<SessionRunner> runner_;
-    std::vector<std::unique_ptr<Watched>> jobs_;
+    std::vector<RequestJob> jobs_;
     StrokeQueue strokes_;
+    ShownScene shown_;
     std::filesystem::path project_;
     std::optional<Input> input_;
     std::string variant_ = kDefaultVariant;
     std::shared_ptr<const Snapshot> snapshot_;
-    std::optional<Scene> scene_;
-    std::optional<Preview> preview_;
     std::optional<Preparation> preparation_;
-    ShownFigures figures_;
-    bool wants_deviation_ = false;
-    std::shared_ptr<const DeviationMap> deviation_;
-    bool wants_source_ = false;
-    std::optional<Surface> source_;
     std::deque<Message> messages_;
     std::optional<Message> failure_;
-    int snapshot_changes_ = 0, scene_changes_ = 0, entered_ = 0;
+    int snapshot_changes_ = 0, dropped_strokes_ = 0, entered_ = 0, opened_ = 0;
 };
 
 }  // namespace vesselbench

@@ -19,19 +19,13 @@ Arguments arguments_of(const LogEntry& entry) {
     return all;
 }
 
-const Operation* operation_of(const LogEntry& entry) {
-    const auto table = operation_table();
-    const auto found = std::ranges::find(table, entry.edit.operation, &Operation::name);
-    return found == table.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::vector<NamedPlace> edit_anchors(const Snapshot& snapshot, const std::string& variant) {
     std::vector<NamedPlace> anchors;
     for (const LogEntry& entry : snapshot.log) {
         const std::string& own = entry.edit.place.variant;
-        const Operation* operation = operation_of(entry);
+        const Operation* operation = known_operation(entry.edit.operation);
         if (operation == nullptr || (!own.empty() && own != variant)) continue;
         const std::string name =
             std::to_string(entry.edit.edit.id) + "  " + readable(operation->name);

@@ -39,7 +39,8 @@ Positions places_of_edit(const LogEntry& entry) {
         for (std::size_t i = 0; i + kNumbers <= planes->size(); i += kNumbers)
             places.push_back(point_in(*planes, i + kPlanePoint));
     if (!places.empty()) return places;
-    return points_in(find_operation(entry.edit.operation), arguments);
+    const Operation* operation = known_operation(entry.edit.operation);
+    return operation == nullptr ? places : points_in(*operation, arguments);
 }
 
 }  // namespace vesselbench

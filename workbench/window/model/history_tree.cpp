@@ -4,8 +4,8 @@
 #include <set>
 
 #include "workbench/case/argument_texts.h"
-#include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/model/rail.h"
 
 namespace vesselbench {
 
@@ -60,7 +60,7 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     const auto found = snapshot.past->find(state.edit);
     if (found == snapshot.past->end()) return row;
     const EditRecord& edit = found->second.edit;
-    row.arguments = argument_summary(find_operation(edit.operation), edit.given);
+    row.arguments = arguments_text(edit);
     row.note = edit.note;
     row.edit = state.edit;
     row.author = edit.author;

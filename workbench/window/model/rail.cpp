@@ -37,7 +37,7 @@ RailEdit rail_edit(const LogEntry& entry) {
     RailEdit row{.id = edit.edit.id,
                  .revision = edit.edit.revision,
                  .operation = edit.operation,
-                 .arguments = argument_summary(find_operation(edit.operation), edit.given),
+                 .arguments = arguments_text(edit),
                  .status = entry.status,
                  .reason = entry.reason,
                  .places = places_of_edit(entry)};
@@ -62,6 +62,12 @@ StepState state_of(const std::vector<RailEdit>& edits) {
 }
 
 }  // namespace
+
+std::string arguments_text(const EditRecord& edit) {
+    const Operation* operation = known_operation(edit.operation);
+    return operation == nullptr ? "an operation of another version"
+                                : argument_summary(*operation, edit.given);
+}
 
 std::string title_of(Step step) {
     return kSteps.at(static_cast<std::size_t>(step) - 1).title;

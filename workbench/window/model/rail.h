@@ -40,6 +40,9 @@ struct RailStep {
 /// "Local repair"
 [[nodiscard]] std::string title_of(Step step);
 
+/// An edit's arguments as lists show them.
+[[nodiscard]] std::string arguments_text(const EditRecord& edit);
+
 /// Number of pending edits that the variant's model consists of.
 [[nodiscard]] int pending_count(const Snapshot& snapshot, const std::string& variant);
 

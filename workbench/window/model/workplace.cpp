@@ -19,7 +19,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
 bool Workplace::update() {
     const bool changed = document.poll();
     pointed_ = std::exchange(next_pointed_, std::nullopt);
-    if (was_opening_ && !document.is_opening() && document.is_open() && !document.failure()) {
+    if (seen_opened_ != document.opened()) {
+        seen_opened_ = document.opened();
         settings.remember(document.project());
         settings.save();
         slices_.clear();
@@ -27,7 +28,6 @@ bool Workplace::update() {
         comparison_.reset();
         view = {};
     }
-    was_opening_ = document.is_opening();
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
     if (seen_entered_ != document.entered()) {
         seen_entered_ = document.entered();
@@ -117,7 +117,9 @@ void Workplace::choose_edit(EditId edit) {
     leave_form();
     for (const LogEntry& entry : document.snapshot()->log) {
         if (entry.edit.edit.id != edit) continue;
-        form_.emplace(find_operation(entry.edit.operation), entry.edit);
+        const Operation* operation = known_operation(entry.edit.operation);
+        if (operation == nullptr) return;
+        form_.emplace(*operation, entry.edit);
         step_ = entry.edit.place.step;
     }
 }
@@ -149,8 +151,7 @@ void Workplace::leave_form() {
 }
 
 bool Workplace::can_change() const {
-    return document.is_open() && !document.activity() &&
-           document.snapshot()->read_only_reason.empty();
+    return document.can(RequestKind::Edit);
 }
 
 bool Workplace::can_apply() const {
@@ -162,7 +163,7 @@ bool Workplace::preview_is_current() const {
 }
 
 void Workplace::preview() {
-    if (!form_ || !form_->valid() || document.activity()) return;
+    if (!form_ || !form_->valid() || !document.can(RequestKind::Preview)) return;
     previewed_changes_ = form_->changes();
     if (form_->edit())
         document.preview_change(*form_->edit(), form_->arguments());

@@ -213,7 +213,7 @@ private:
     Step step_ = Step::Source;
     int previewed_changes_ = -1;  ///< the form's, when its preview was asked for
     int seen_snapshots_ = 0, seen_entered_ = 0;
-    bool was_opening_ = false;
+    int seen_opened_ = 0;
     FileQuestion question_ = FileQuestion::None;
     std::string asked_parameter_;
     std::string armed_;

@@ -82,7 +82,7 @@ void draw_pending(PanelContext& c, ScreenRect& place, int count) {
                         counted(static_cast<std::size_t>(count), "edit") +
                             (count == 1 ? " is pending: the model shown is the one before it"
                                         : " are pending: the model shown is the one before them"),
-                        c.place.document.activity() ? "" : "Run"};
+                        c.place.document.can(RequestKind::Edit) ? "Run" : ""};
     place.height = height_of(c.ui, banner, place.width);
     if (draw_banner(c, "pending", banner, place) == Answer::Action) c.place.document.run_pending();
 }
@@ -90,7 +90,7 @@ void draw_pending(PanelContext& c, ScreenRect& place, int count) {
 void draw_read_only(PanelContext& c, ScreenRect& place) {
     const Banner banner{icons::kWarning, c.ui.theme.warning,
                         c.place.document.snapshot()->read_only_reason,
-                        c.place.document.activity() ? "" : "Save a copy"};
+                        c.place.document.can(RequestKind::Output) ? "Save a copy" : ""};
     place.height = height_of(c.ui, banner, place.width);
     c.ui.item("banner.read_only", place);
     if (draw_banner(c, "read_only", banner, place) == Answer::Action)

@@ -178,7 +178,8 @@ void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, 
     const float side = ImGui::GetFrameHeight();
     draw_tools(c, state, {from.x + columns.tools, from.y + (height - side) / 2});
     ImGui::SetCursorPos(next);
-    if (clicked && !state.current) c.place.document.jump(state.state);
+    if (clicked && !state.current && c.place.document.can(RequestKind::History))
+        c.place.document.jump(state.state);
 }
 
 void scroll_to_current(int row, float height) {

@@ -26,7 +26,7 @@ void draw_words(PanelContext& c, float height) {
 void draw_buttons(PanelContext& c) {
     const Document& document = c.place.document;
     const float width = c.ui.em * 8;
-    const bool can_save = !document.activity() && document.snapshot()->read_only_reason.empty();
+    const bool can_save = document.can(RequestKind::History);
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
     const bool cancels = button(c.ui, "note.cancel", "Cancel", {.width = width});
     ImGui::SameLine(0, c.ui.grid(1));

@@ -141,7 +141,7 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
     const float width = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
     const bool idle = !place.document.activity().has_value();
     if (button(c.ui, "operation.preview", "Preview",
-               {.enabled = form.valid() && idle,
+               {.enabled = form.valid() && place.document.can(RequestKind::Preview),
                 .width = width,
                 .help = "Run and show the result without adding an edit"}))
         place.preview();
@@ -182,7 +182,7 @@ void draw_note(PanelContext& c, EditId edit) {
 }
 
 void draw_removal(PanelContext& c, EditId edit) {
-    const bool idle = !c.place.document.activity().has_value();
+    const bool idle = c.place.document.can(RequestKind::Edit);
     if (!button(c.ui, "operation.remove", "Remove this edit",
                 {.icon = icons::kDelete,
                  .enabled = idle,

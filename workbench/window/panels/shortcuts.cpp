@@ -39,7 +39,7 @@ void handle_escape(PanelContext& c) {
 }
 
 void handle_history(PanelContext& c) {
-    if (c.place.document.activity() || !c.place.document.is_open()) return;
+    if (!c.place.document.can(RequestKind::History)) return;
     const bool redo = ImGui::GetIO().KeyShift;
     const HistoryTree& history = c.place.history();
     if (pressed(keys::letter('Z')) && !redo && history.can_undo) c.place.document.undo();
@@ -48,11 +48,11 @@ void handle_history(PanelContext& c) {
 }
 
 void handle_control(PanelContext& c) {
-    const bool open = c.place.document.is_open();
+    const bool writes = c.place.document.can(RequestKind::Output);
     if (!ImGui::GetIO().WantTextInput) handle_history(c);
     if (pressed(keys::letter('O'))) c.place.ask(FileQuestion::Open);
-    if (pressed(keys::letter('S')) && open) c.place.ask(FileQuestion::SaveCopy);
-    if (pressed(keys::letter('E')) && open) c.place.ask(FileQuestion::Export);
+    if (pressed(keys::letter('S')) && writes) c.place.ask(FileQuestion::SaveCopy);
+    if (pressed(keys::letter('E')) && writes) c.place.ask(FileQuestion::Export);
     if (pressed(keys::letter('P'))) c.place.preview();
     if (pressed(keys::kEnter)) c.place.apply();
 }

@@ -31,7 +31,7 @@ void draw_files(PanelContext& c) {
 
 void draw_undo(PanelContext& c) {
     const HistoryTree& history = c.place.history();
-    const bool idle = !c.place.document.activity().has_value();
+    const bool idle = c.place.document.can(RequestKind::History);
     const bool wide = !c.shown.compact;
     if (button(c.ui, "tool.undo", wide ? "Undo" : "",
                {.icon = icons::kUndo,
@@ -52,16 +52,17 @@ void draw_undo(PanelContext& c) {
 
 void draw_products(PanelContext& c) {
     const Document& document = c.place.document;
-    const bool ready = document.is_open() && !document.activity();
     if (button(c.ui, "tool.prepare", "Prepare",
                {.icon = icons::kPrepare,
                 .primary = true,
-                .enabled = ready,
+                .enabled = document.can(RequestKind::Edit),
                 .help = "Run a complete recipe; its edits appear in the rail"}))
         c.shown.prepare = true;
     ImGui::SameLine();
     if (button(c.ui, "tool.export", "Export",
-               {.icon = icons::kExport, .enabled = ready, .help = "Export the model to a file"}))
+               {.icon = icons::kExport,
+                .enabled = document.can(RequestKind::Output),
+                .help = "Export the model to a file"}))
         c.place.ask(FileQuestion::Export);
 }
 

@@ -1,0 +1,69 @@
+#include "workbench/window/model/preparation.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace vesselbench {
+
+namespace {
+
+/// True for a recipe's entry of the source's step that the case has an edit for.
+bool is_done(const Snapshot& snapshot, const RecipeEntry& entry) {
+    const Step step = entry.step.value_or(entry.given.operation().usual_step);
+    return step == Step::Source && std::ranges::any_of(snapshot.log, [&](const LogEntry& made) {
+               return made.edit.operation == entry.given.operation().name &&
+                      made.edit.place.step == Step::Source;
+           });
+}
+
+}  // namespace
+
+void RecipeMessages::add(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    texts_.push_back(text);
+}
+
+std::vector<Message> RecipeMessages::take() {
+    std::vector<std::string> texts;
+    {
+        const std::lock_guard lock(mutex_);
+        texts.swap(texts_);
+    }
+    std::vector<Message> messages;
+    for (const std::string& text : texts) messages.push_back(message_from(text));
+    return messages;
+}
+
+Job<Nothing> Preparation::start(SessionRunner& runner,
+                                const std::shared_ptr<RecipeMessages>& messages) const {
+    return runner.submit([entry = recipe[next], purpose = purpose, messages](
+                             Session& session, const Progress& progress) {
+        const Teller note = [&](const std::string& text) { messages->add(text); };
+        apply_recipe(session, {entry}, purpose, note, progress);
+        return Nothing{};
+    });
+}
+
+Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
+                       const Scene* scene, const std::string& purpose) {
+    RecipeUse use = {scene != nullptr && scene->image ? "image" : "surface", purpose};
+    if (scene != nullptr && scene->mask) use.emplace_back("mask");
+    const nlohmann::ordered_json own = input ? own_recipe(*input, purpose) : nullptr;
+    Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
+    std::erase_if(recipe, [&](const RecipeEntry& entry) {
+        return entry.given.operation().recipe.loads.has_value() || is_done(snapshot, entry);
+    });
+    return recipe;
+}
+
+Message message_from(const std::string& text) {
+    constexpr std::string_view kWarning = "warning: ";
+    if (text.starts_with(kWarning))
+        return make_message(MessageKind::Warning, text.substr(kWarning.size()));
+    return make_message(MessageKind::Remark, text);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/prepare/input.h"
+#include "workbench/prepare/prepare.h"
+#include "workbench/session/session_runner.h"
+#include "workbench/window/model/message.h"
+
+namespace vesselbench {
+
+/// The messages of a recipe while it runs, handed from the session's thread to the frame's.
+class RecipeMessages {
+public:
+    void add(const std::string& text);
+
+    /// Those since the last call.
+    [[nodiscard]] std::vector<Message> take();
+
+private:
+    std::mutex mutex_;
+    std::vector<std::string> texts_;
+};
+
+/// A recipe that runs on a case, one entry after the other, so that the view follows it.
+struct Preparation {
+    Recipe recipe;
+    std::string purpose;
+    std::size_t next = 0;  ///< the entry that runs
+
+    [[nodiscard]] bool done() const { return next == recipe.size(); }
+
+    [[nodiscard]] const std::string& operation() const {
+        return recipe[next].given.operation().name;
+    }
+
+    /// Starts the next entry. \param messages receives what it reports
+    [[nodiscard]] Job<Nothing> start(SessionRunner& runner,
+                                     const std::shared_ptr<RecipeMessages>& messages) const;
+};
+
+/// The entries of a purpose's recipe that a case needs: its own recipe, else the default one,
+/// without those of the source's step that the case has edits for.
+/// \param input with the case's own recipes; none: it has none
+/// \param scene the shown one; null: none
+[[nodiscard]] Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
+                                     const Scene* scene, const std::string& purpose);
+
+/// A message of a text that may begin with "warning: ".
+[[nodiscard]] Message message_from(const std::string& text);
+
+}  // namespace vesselbench

@@ -1,0 +1,226 @@
+#include "workbench/window/model/shown_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "workbench/session/surface_change.h"
+#include "workbench/window/model/rail.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// The last edit up to which the variant's model is known.
+std::optional<EditId> last_known(const Snapshot& snapshot, const std::string& variant) {
+    std::optional<EditId> last;
+    for (const HistoryEntry& entry : snapshot.history->line(variant)) {
+        if (entry.status == EditStatus::Pending) break;
+        if (entry.status == EditStatus::Done) last = entry.edit.id;
+    }
+    return last;
+}
+
+const Scene* scene_at_hand(const Snapshot& snapshot, const std::string& variant) {
+    if (pending_count(snapshot, variant) > 0) return nullptr;
+    const auto variants = snapshot.history->variants();
+    const bool own = std::ranges::count(variants, variant) > 0;
+    const auto found = snapshot.scenes.find(own ? variant : "");
+    return found == snapshot.scenes.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+ShownScene::ShownScene(std::function<void(const std::string&)> report)
+    : report_(std::move(report)) {}
+
+// --- the scene
+
+void ShownScene::follow(std::shared_ptr<const Snapshot> snapshot, std::string variant) {
+    snapshot_ = std::move(snapshot);
+    variant_ = std::move(variant);
+    if (const Scene* known = scene_at_hand(*snapshot_, variant_))
+        set(*known);
+    else if (!last_known(*snapshot_, variant_))
+        set({});
+    else
+        state_.ask();
+}
+
+void ShownScene::set(Scene scene) {
+    state_.forget();
+    current_ = std::move(scene);
+    known_figures_ = {};
+    if (current_->surface)
+        figures_.ask();
+    else
+        figures_.forget();
+    scene_changed();
+}
+
+void ShownScene::clear() {
+    state_.forget();
+    figures_.forget();
+    deviation_.forget();
+    source_.forget();
+    snapshot_.reset();
+    current_.reset();
+    preview_.reset();
+    known_figures_ = {};
+    known_deviation_.reset();
+    known_source_.reset();
+    ++changes_;
+}
+
+void ShownScene::scene_changed() {
+    ++changes_;
+    ask_deviation();
+    ask_source();
+}
+
+void ShownScene::show_preview(const Preview& preview) {
+    preview_ = preview;
+    scene_changed();
+}
+
+void ShownScene::drop_preview() {
+    if (!preview_) return;
+    preview_.reset();
+    scene_changed();
+}
+
+// --- what is wanted
+
+/// The last edit of the source's step, if other edits follow it.
+std::optional<EditId> ShownScene::source_edit() const {
+    std::optional<EditId> source;
+    for (const HistoryEntry& entry : snapshot_->history->line(variant_)) {
+        if (entry.status != EditStatus::Done) continue;
+        if (entry.place.step != Step::Source) return source;
+        source = entry.edit.id;
+    }
+    return std::nullopt;
+}
+
+void ShownScene::want_deviation(bool wanted) {
+    if (wanted == std::exchange(wants_deviation_, wanted)) return;
+    ask_deviation();
+}
+
+void ShownScene::ask_deviation() {
+    known_deviation_.reset();
+    const bool comparable = scene() != nullptr && scene()->surface && (preview_ || source_edit());
+    if (wants_deviation_ && comparable)
+        deviation_.ask();
+    else
+        deviation_.forget();
+}
+
+void ShownScene::want_source(bool wanted) {
+    if (wanted == std::exchange(wants_source_, wanted)) return;
+    known_source_.reset();
+    ask_source();
+}
+
+void ShownScene::ask_source() {
+    if (wants_source_ && current() != nullptr && source_edit()) return source_.ask();
+    known_source_.reset();
+    source_.forget();
+}
+
+// --- finding it
+
+bool ShownScene::pending() const {
+    return state_.pending() || figures_.pending() || deviation_.pending() || source_.pending();
+}
+
+void ShownScene::pause() {
+    state_.pause();
+    figures_.pause();
+    deviation_.pause();
+    source_.pause();
+}
+
+void ShownScene::request(SessionRunner& runner) {
+    if (state_.due()) request_state(runner);
+    if (state_.pending()) return;
+    if (figures_.due()) request_figures(runner);
+    if (deviation_.due()) request_deviation(runner);
+    if (source_.due()) request_source(runner);
+}
+
+void ShownScene::request_state(SessionRunner& runner) {
+    state_.start(runner.scene_after(*last_known(*snapshot_, variant_)));
+}
+
+void ShownScene::request_figures(SessionRunner& runner) {
+    figures_.start(runner.submit(
+        [source = source_edit(), scene = *current_](Session& session, const Progress& progress) {
+            const Scene from = source ? session.scene_after(*source, progress) : scene;
+            return surface_change(from, scene, progress);
+        }));
+}
+
+void ShownScene::request_deviation(SessionRunner& runner) {
+    const std::optional<Scene> before = preview_ ? current_ : std::nullopt;
+    deviation_.start(runner.submit([source = source_edit(), before, scene = *scene()](
+                                       Session& session, const Progress& progress) {
+        const Scene from = before ? *before : session.scene_after(*source, progress);
+        progress.check_cancelled();
+        return std::make_shared<const DeviationMap>(
+            deviation_map(surface_of(scene), surface_of(from)));
+    }));
+}
+
+void ShownScene::request_source(SessionRunner& runner) {
+    source_.start(runner.scene_after(*source_edit()));
+}
+
+// --- what has been found
+
+template <class Answer>
+std::optional<Answer> ShownScene::taken(SessionAnswer<Answer>& answer, const char* what) {
+    try {
+        return answer.take();
+    } catch (const std::exception& error) {
+        report_(std::string(what) + ": " + error.what());
+        return std::nullopt;
+    }
+}
+
+bool ShownScene::poll() {
+    const bool state = poll_state(), figures = poll_figures();
+    const bool deviation = poll_deviation(), source = poll_source();
+    return state || figures || deviation || source;
+}
+
+bool ShownScene::poll_state() {
+    if (!state_.pending()) return false;
+    auto scene = taken(state_, "The model cannot be read");
+    if (scene)
+        set(std::move(*scene));
+    else if (!state_.pending())
+        set({});  // not the model of another state
+    return !state_.pending();
+}
+
+bool ShownScene::poll_figures() {
+    const auto change = taken(figures_, "The model cannot be measured");
+    if (!change) return false;
+    known_figures_.volume = change->volume_after;
+    if (source_edit()) known_figures_.largest_deviation = change->largest_deviation;
+    return true;
+}
+
+bool ShownScene::poll_deviation() {
+    const auto map = taken(deviation_, "The deviation cannot be measured");
+    if (map) known_deviation_ = *map;
+    return map.has_value();
+}
+
+bool ShownScene::poll_source() {
+    const auto scene = taken(source_, "The source cannot be read");
+    if (scene) known_source_ = scene->surface;
+    return scene.has_value();
+}
+
+}  // namespace vesselbench
