@@ -70,12 +70,12 @@ SCENARIO("The last question is answered", "[window]") {
     }
 }
 
-SCENARIO("A search tells why it found nothing", "[window]") {
+SCENARIO("A search reports why it found nothing", "[window]") {
     GIVEN("a search that fails") {
         BackgroundSearch<int> search(nullptr);
         search.begin([](const Progress&) -> int { throw AlgorithmFailure("no vessel here"); });
         while (!search.update()) CHECK(search.pending());
-        THEN("the problem is told until the next search") {
+        THEN("the problem is kept until the next search") {
             CHECK(search.result() == nullptr);
             CHECK(search.problem() == "no vessel here");
             search.begin([](const Progress&) { return 5; });

@@ -207,7 +207,7 @@ SCENARIO("The camera flies through the vessel and comes back", "[window][view]")
         seen.shell->frame();
         CHECK(eye().z() > 5);
         CHECK(eye().head<2>().norm() < 1);
-        THEN("dragging looks round without moving") {
+        THEN("dragging looks around without moving") {
             const Vec3 before = eye();
             const Vec3 view_before = seen.shell->app().camera().view;
             seen.shell->drag(view.middle_x(), view.middle_y(), view.middle_x() + 80,

@@ -67,7 +67,7 @@ std::string unit_text(const Parameter& parameter) {
 }
 
 std::string default_text(const Parameter& parameter) {
-    if (parameter.required) return "needed";
+    if (parameter.required) return "required";
     if (!parameter.default_value) return "automatic";
     const std::string text = to_text(*parameter.default_value);
     return text.empty() ? "none" : text;

@@ -14,7 +14,7 @@ namespace vesselbench {
 /// "[mm]"; empty for texts and ratios.
 [[nodiscard]] std::string unit_text(const Parameter& parameter);
 
-/// The text of its default, "automatic" if the operation decides, "needed" if it must be given.
+/// The text of its default, "automatic" if the operation decides, "required" if it must be given.
 [[nodiscard]] std::string default_text(const Parameter& parameter);
 
 }  // namespace vesselbench

@@ -312,7 +312,7 @@ void add_new(CommandLine& line) {
 void add_export(CommandLine& line) {
     const auto options = std::make_shared<ExportArguments>();
     CLI::App& command =
-        add_command(line, "export", "Write the model as a file, or as an OpenFOAM case",
+        add_command(line, "export", "Export the model to a file, or as an OpenFOAM case",
                     [options, &line] { return export_project(*options, line.progress), 0; });
     add_project(command, options->project);
     command

@@ -10,7 +10,7 @@ namespace vesselbench {
 
 namespace {
 
-std::string told(const LogEntry& entry) {
+std::string entry_text(const LogEntry& entry) {
     const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
     const std::string change = entry.result ? change_text(entry.result->change) : "";
     return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
@@ -40,7 +40,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
     try {
         const LogEntry done =
             session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
-        tell(told(done));
+        tell(entry_text(done));
         if (done.result)
             for (const std::string& warning : done.result->warnings)
                 tell("warning: " + operation.name + ": " + warning);

@@ -36,7 +36,7 @@ std::string change_text(const SurfaceChange& change) {
         const double percent = 100.0 * (*change.volume_after / *change.volume_before - 1.0);
         if (std::abs(percent) >= 0.005) add_part(text, formatted(percent, "volume %+.2f %%"));
     } else if (change.volume_after && !change.volume_before) {
-        add_part(text, formatted(*change.volume_after, "volume %.1f mm3"));
+        add_part(text, formatted(*change.volume_after, "volume %.1f mm\u00B3"));
     }
     // Between surfaces of other triangles, the distance may be that to a part which has gone.
     if (change.largest_deviation && *change.largest_deviation >= 0.0005)

@@ -37,7 +37,7 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
       "2 r_in / r_out of the worst triangle at each vertex: 1 is equilateral, 0 degenerate"},
      {LocalRadius, "local-radius", "Local radius", "mm",
       "Radius of the largest sphere inside the vessel, along its centerline"},
-     {TetrahedraQuality, "tetrahedra-quality", "Tetrahedra quality", "deg",
+     {TetrahedraQuality, "tetrahedra-quality", "Tetrahedron quality", "deg",
       "Smallest dihedral angle of the tetrahedra that the section plane cuts: 70.5 is the best"}}};
 
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]
@@ -133,13 +133,13 @@ ValueRange shown_range(std::vector<double> values) {
 }
 
 std::string why_no_colours(ColouringKind kind, const Scene& scene) {
-    if (!scene.surface || scene.surface->empty()) return "there is no surface yet";
+    if (!scene.surface || scene.surface->empty()) return "There is no surface yet";
     if (kind == NeighbourDistance && std::ranges::all_of(scene.neighbours, [](const auto& entry) {
             return entry.second.empty();
         }))
-        return "there is no neighbour structure: use Load neighbour";
+        return "No neighbouring structure: run Load neighbour";
     if (kind == TetrahedraQuality && (!scene.volume_mesh || scene.volume_mesh->tetrahedra.empty()))
-        return "there is no volume mesh yet: use Tetrahedralize";
+        return "No volume mesh yet: run Tetrahedralize";
     return "";
 }
 

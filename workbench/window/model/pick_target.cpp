@@ -69,7 +69,7 @@ std::string pick_instruction(PickTarget target) {
         case PickTarget::Surface:
             return "Click a place on the surface";
         case PickTarget::Tip:
-            return "Click a vessel's end or a dome";
+            return "Click a vessel end or a dome";
         case PickTarget::Opening:
             return "Click an opening";
         case PickTarget::Corners:

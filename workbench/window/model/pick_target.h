@@ -13,7 +13,7 @@ namespace vesselbench {
 /// in its slices, too.
 enum class PickTarget {
     Surface,  ///< a point on the surface
-    Tip,      ///< a vessel's end; elsewhere on the surface, such as on a dome, the point itself
+    Tip,      ///< a vessel end; elsewhere on the surface, such as on a dome, the point itself
     Opening,  ///< an opening
     Corners,  ///< two opposite corners of a box, one after the other
     Voxel,    ///< a point in a slice of the image
@@ -28,7 +28,7 @@ enum class PickTarget {
 [[nodiscard]] std::optional<PickTarget> pick_target(const Operation& operation,
                                                     const Parameter& parameter);
 
-/// What to click, for the user: "Click a vessel's end".
+/// What to click, for the user: "Click a vessel end".
 [[nodiscard]] std::string pick_instruction(PickTarget target);
 
 /// A parameter's text after a click, as the command line takes it; coordinates are rounded to

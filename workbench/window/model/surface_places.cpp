@@ -12,7 +12,7 @@ namespace vesselbench {
 
 namespace {
 
-/// A click within this many radii of a vessel's end means the end.
+/// A click within this many radii of a vessel end means the end.
 constexpr double kReach = 2.0;
 
 std::vector<NamedPlace> tips_of(const Surface& surface, const Progress& progress) {

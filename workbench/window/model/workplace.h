@@ -184,7 +184,7 @@ public:
     /// The opening whose role is asked for.
     [[nodiscard]] const std::optional<PatchMeasures>& role_question() const { return opening_; }
 
-    /// Fills in the form that gives the opening a role.
+    /// Fills in the form so that the opening gets a role.
     void give_role(PatchKind role);
 
     void forget_role_question() { opening_.reset(); }

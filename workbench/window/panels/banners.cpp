@@ -80,8 +80,8 @@ void draw_failure(PanelContext& c, ScreenRect& place) {
 void draw_pending(PanelContext& c, ScreenRect& place, int count) {
     const Banner banner{icons::kPending, c.ui.theme.accent,
                         counted(static_cast<std::size_t>(count), "edit") +
-                            (count == 1 ? " is" : " are") +
-                            " pending: the model is shown as it is before",
+                            (count == 1 ? " is pending: the model shown is the one before it"
+                                        : " are pending: the model shown is the one before them"),
                         c.place.document.can(RequestKind::Edit) ? "Run" : ""};
     place.height = height_of(c.ui, banner, place.width);
     if (draw_banner(c, "pending", banner, place) == Answer::Action) c.place.document.run_pending();
@@ -116,7 +116,7 @@ void draw_stale(PanelContext& c, ScreenRect& place, float gap) {
     const EditId edit = stale->edit.edit.id;
     const Banner banner{
         icons::kStale, c.ui.theme.danger,
-        readable(stale->edit.operation) + " no longer applies and is left out: " + stale->reason,
+        readable(stale->edit.operation) + " no longer applies and was skipped: " + stale->reason,
         "Change it"};
     place.height = height_of(c.ui, banner, place.width);
     if (draw_banner(c, "stale", banner, place) == Answer::Action) c.place.choose_edit(edit);
@@ -126,7 +126,7 @@ void draw_stale(PanelContext& c, ScreenRect& place, float gap) {
 void draw_preview(PanelContext& c, ScreenRect& place) {
     const Banner banner{icons::kPreview, c.ui.theme.accent,
                         "Preview of " + readable(c.place.document.previewed()->edit().operation) +
-                            ": not entered yet"};
+                            ": not applied yet"};
     place.height = height_of(c.ui, banner, place.width);
     draw_banner(c, "preview", banner, place);
 }

@@ -21,7 +21,7 @@ struct ModeLook {
 constexpr ModeLook kModes[] = {
     {CompareMode::SideBySide, "compare.side", "Side by side", "Both, seen from the same direction"},
     {CompareMode::Blink, "compare.blink", "Blink",
-     "The two in turn, in the same place. Space switches by hand."},
+     "Alternates the two in place; Space switches manually."},
     {CompareMode::Deviation, "compare.deviation", "Deviation",
      "The shown surface, coloured by its distance from the reference"}};
 

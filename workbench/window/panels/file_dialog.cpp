@@ -104,10 +104,10 @@ void FileDialog::begin(PanelContext& c) {
 }
 
 void FileDialog::draw_folder_line(PanelContext& c) {
-    if (icon_button(c.ui, "file.up", icons::kUp, "To the folder above"))
+    if (icon_button(c.ui, "file.up", icons::kUp, "Parent folder"))
         enter(listing_.folder.parent_path());
     ImGui::SameLine();
-    if (icon_button(c.ui, "file.home", icons::kHome, "To the home folder")) enter(home_folder());
+    if (icon_button(c.ui, "file.home", icons::kHome, "Home folder")) enter(home_folder());
     ImGui::SameLine();
     if (text_field(c.ui, "file.folder", typed_folder_) && fs::is_directory(typed_folder_))
         enter(typed_folder_);
@@ -147,7 +147,8 @@ void FileDialog::draw_entries(PanelContext& c, float height) {
     }
     if (listing.entries.empty()) {
         ImGui::SetCursorPos({c.ui.grid(1.5F), c.ui.grid(1)});
-        text(c.ui, writes() ? "No such files here." : "Nothing to open here.", c.ui.theme.muted);
+        text(c.ui, writes() ? "No files of this type here." : "Nothing to open here.",
+             c.ui.theme.muted);
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();
@@ -168,7 +169,7 @@ void FileDialog::draw_formats(PanelContext& c) {
         if (row(c.ui, "format." + (own.empty() ? format.name : own),
                 {.title = format.name + (own.empty() ? "" : "  " + own),
                  .detail = writable ? format.content + ", in " + format.unit
-                                    : "needs a volume mesh: tetrahedralize",
+                                    : "Needs a volume mesh: run Tetrahedralize",
                  .selected = suffix == own,
                  .enabled = writable,
                  .help = format.content + ", in " + format.unit}))

@@ -145,7 +145,7 @@ void draw_tools(PanelContext& c, const HistoryRow& state, ImVec2 at) {
     ImGui::SetCursorScreenPos(at);
     if (state.edit.id != 0 &&
         quiet_icon(c, "history.note." + id, icons::kNote,
-                   state.note.empty() ? "Write a note on this edit" : state.note,
+                   state.note.empty() ? "Add a note to this edit" : state.note,
                    !state.note.empty()))
         c.shown.note = NoteInProgress{state.edit, readable(state.title), state.note};
     if (state.current) return;

@@ -42,7 +42,7 @@ void draw_note_dialog(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
     begin_dialog(ui, "note", window, ui.em * 32, ui.em * 17);
     heading(ui, "Note on " + c.shown.note->title);
-    wrapped(ui, "It goes into the project's log with the edit, and changes nothing else.",
+    wrapped(ui, "Stored with the edit in the project's log; the model does not change.",
             ui.theme.muted);
     space(ui, 1);
     draw_words(c, ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeight() - ui.grid(2));

@@ -70,7 +70,7 @@ void draw_title(PanelContext& c, const OperationForm& form) {
     heading(c.ui, readable(form.operation().name));
     const float side = ImGui::GetFrameHeight();
     ImGui::SameLine(ImGui::GetWindowWidth() - c.ui.grid(1.5F) - 2 * side);
-    if (icon_button(c.ui, "operation.reset", icons::kRefresh, "Empty all fields"))
+    if (icon_button(c.ui, "operation.reset", icons::kRefresh, "Clear all fields"))
         c.place.reset_form();
     ImGui::SameLine(0, 0);
     if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
@@ -109,13 +109,13 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (const LogEntry* stale = stale_edit(c))
         return wrapped(c.ui,
                        "No longer applies: " + stale->reason +
-                           "\nChange its arguments, pick its place again, or leave it out.",
+                           "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
-                  "with Shift the strength; Shift while dragging smooths, Ctrl does the opposite."
+                  "with Shift the strength; Shift while dragging smooths, Ctrl inverts."
                 : "Point at a field to read about it. Empty fields take their defaults.",
             c.ui.theme.muted);
 }
@@ -143,7 +143,7 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
     if (button(c.ui, "operation.preview", "Preview",
                {.enabled = form.valid() && place.document.can(RequestKind::Preview),
                 .width = width,
-                .help = "Run it and show the result without entering it"}))
+                .help = "Run and show the result without adding an edit"}))
         place.preview();
     ImGui::SameLine(0, c.ui.grid(1));
     const bool change = form.edit().has_value();
@@ -152,12 +152,12 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
                 .enabled = place.can_apply(),
                 .width = width,
                 .help = change ? "Run the edit with these arguments; later edits become pending"
-                               : "Run it and enter it as an edit, which can be undone"}))
+                               : "Run and add it as an edit; can be undone"}))
         place.apply();
     ImGui::SameLine(0, c.ui.grid(1));
     if (!place.form()) return;
     if (button(c.ui, "operation.cancel", "Cancel",
-               {.width = width, .help = "Stop what runs, or close this form"})) {
+               {.width = width, .help = "Cancel the running operation, or close this form"})) {
         if (!idle) return place.document.cancel();
         place.leave_form();
     }
@@ -183,11 +183,11 @@ void draw_note(PanelContext& c, EditId edit) {
 
 void draw_removal(PanelContext& c, EditId edit) {
     const bool idle = c.place.document.can(RequestKind::Edit);
-    if (!button(c.ui, "operation.remove", "Leave this edit out",
+    if (!button(c.ui, "operation.remove", "Remove this edit",
                 {.icon = icons::kDelete,
                  .enabled = idle,
                  .width = -1,
-                 .help = "Later edits become pending; undo takes it back"}))
+                 .help = "Later edits become pending. Undo brings it back"}))
         return;
     c.place.leave_form();
     c.place.document.remove(edit);

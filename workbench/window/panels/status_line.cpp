@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/model/readable.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -51,7 +52,8 @@ void draw_figures(const PanelContext& c) {
 void draw_progress(PanelContext& c, const Activity& activity, float width) {
     const Ui& ui = c.ui;
     const float high = ui.em * 0.4F, bar = ui.em * 9, side = ImGui::GetFrameHeight();
-    const std::string words = fitted(activity.what, width - bar - side - ui.grid(4));
+    const std::string words =
+        fitted(readable_sentence(activity.what), width - bar - side - ui.grid(4));
     const float total = ImGui::CalcTextSize(words.c_str()).x + bar + side + ui.grid(2.5F);
     ImGui::SetCursorPos({ImGui::GetWindowWidth() - total - ui.grid(1), text_top(ui)});
     text(ui, words, ui.theme.text);

@@ -56,13 +56,13 @@ void draw_products(PanelContext& c) {
                {.icon = icons::kPrepare,
                 .primary = true,
                 .enabled = document.can(RequestKind::Edit),
-                .help = "Run a whole recipe; its edits stay in the rail"}))
+                .help = "Run a complete recipe; its edits appear in the rail"}))
         c.shown.prepare = true;
     ImGui::SameLine();
     if (button(c.ui, "tool.export", "Export",
                {.icon = icons::kExport,
                 .enabled = document.can(RequestKind::Output),
-                .help = "Write the model as a file"}))
+                .help = "Export the model to a file"}))
         c.place.ask(FileQuestion::Export);
 }
 
@@ -71,7 +71,7 @@ void draw_slices_toggle(PanelContext& c) {
     const bool shown = slices.in_row();
     ImGui::SameLine();
     if (icon_button(c.ui, "tool.slices", icons::kColumns,
-                    slices.has_image() ? "Slices of the image  I" : "Slices: there is no image",
+                    slices.has_image() ? "Slices of the image  I" : "No image to slice",
                     slices.has_image(), shown))
         slices.show_row(!shown);
 }

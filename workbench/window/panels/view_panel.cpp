@@ -25,12 +25,12 @@ struct LayerToggle {
 };
 
 constexpr std::array<LayerToggle, 6> kLayers = {
-    {{"edges", "Triangles' edges", 0, &ShownLayers::edges},
+    {{"edges", "Triangle edges", 0, &ShownLayers::edges},
      {"flat", "Flat shading", 0, &ShownLayers::flat},
      {"source", "Source as wireframe", 'W', &ShownLayers::source},
      {"centerlines", "Centerlines with radii", 'L', &ShownLayers::centerlines},
-     {"names", "Names of openings", 'N', &ShownLayers::names},
-     {"anchors", "Places of edits", 'A', &ShownLayers::anchors}}};
+     {"names", "Opening names", 'N', &ShownLayers::names},
+     {"anchors", "Edit locations", 'A', &ShownLayers::anchors}}};
 
 bool pressed(int key) {
     return ImGui::IsKeyPressed(key, false);
@@ -116,7 +116,7 @@ void draw_colour_remark(PanelContext& c) {
         wrapped(c.ui, readable_sentence(data.colours_problem()), c.ui.theme.warning);
     else if (now.kind == ColouringKind::Deviation && !automatic_range(c) &&
              !c.place.document.busy())
-        wrapped(c.ui, "The model is the source: nothing deviates", c.ui.theme.muted);
+        wrapped(c.ui, "The model is the source: no deviation", c.ui.theme.muted);
     else
         wrapped(c.ui, now.help, c.ui.theme.muted);
 }
@@ -151,7 +151,7 @@ void toggle(MeasureTool& tool, MeasureTool which) {
 
 void draw_modes(PanelContext& c) {
     ViewChoice& view = c.place.view;
-    group_heading(c.ui, "Look and measure");
+    group_heading(c.ui, "View modes and measuring");
     space(c.ui, 0.5F);
     if (draw_mode(c, "view.clip", "Clip plane", view.clip.on, "C")) view.clip.on = !view.clip.on;
     if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, "E")) view.flies = !view.flies;

@@ -13,7 +13,7 @@ struct Fonts {
     ImFont* title = nullptr;
 };
 
-/// Makes the fonts of the current ImGui context anew; the device's texture must be made again.
+/// Replaces the fonts of the current ImGui context; the device's texture must be made again.
 /// \param em size of the text [pixels]
 [[nodiscard]] Fonts make_fonts(float em);
 

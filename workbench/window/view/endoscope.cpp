@@ -113,7 +113,7 @@ void Endoscope::draw_strip(PanelContext& c, ViewStrips& strips) {
                 .text = formatted(abscissa_, "%.1f of ") + formatted(path()->length(), "%.1f mm") +
                         formatted(diameter, "   \u00F8 %.2f mm"),
                 .width = wide - ends - 2 * side - 3 * gap,
-                .help = "Drag, or turn the wheel in the view; dragging the view looks round"});
+                .help = "Drag, or turn the wheel in the view; drag the view to look around"});
         ViewStrips::next(ui);
         draw_destination(c, ends);
         ViewStrips::next(ui);

@@ -12,7 +12,7 @@
 namespace vesselbench {
 
 /// The endoscopic view (thesis Figs. 3.11, 5.17): a wide-angle camera on the centerline, which is
-/// moved by a slider, the wheel and the arrow keys, or flies by itself; dragging looks round.
+/// moved by a slider, the wheel and the arrow keys, or flies by itself; dragging looks around.
 class Endoscope {
 public:
     /// Once a frame. Takes the centerlines when they are known; flies on.

@@ -118,9 +118,9 @@ std::string MeasuringTool::words(const PanelContext& c) const {
         return "Diameter: click a vessel";
     }
     if (points_.size() < 2)
-        return points_.empty() ? "Distance: click a point" : "Click another one";
+        return points_.empty() ? "Distance: click a point" : "Click another point";
     return formatted(path_length(points_), "%.2f mm") +
-           (points_.size() > 2 ? " along " + counted(points_.size() - 1, "line") : "");
+           (points_.size() > 2 ? " along " + counted(points_.size() - 1, "segment") : "");
 }
 
 void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
@@ -134,8 +134,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
     clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 3 * gap);
     ImGui::SameLine(left + wide - 2 * side - gap);
     const bool any = !points_.empty() || !diameters_.empty();
-    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Forget what was measured", any))
-        clear();
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Clear measurements", any)) clear();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
         c.place.view.tool = MeasureTool::None;

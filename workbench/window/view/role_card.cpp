@@ -37,7 +37,7 @@ bool role_button(Ui& ui, const PatchMeasures& opening, PatchKind role, const std
                   {.primary = opening.kind != role,
                    .enabled = opening.kind != role,
                    .width = width,
-                   .help = "Fills in the form that gives the opening this role"});
+                   .help = "Fill in Clip opening so that this opening gets this role"});
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ void draw_role_card(PanelContext& c, const OnScreen& screen) {
     ImGui::AlignTextToFramePadding();
     clipped_text(c.ui, opening_text(opening), c.ui.theme.text, size.x - 3 * pad - line);
     ImGui::SetCursorScreenPos({corner.x + size.x - pad - line, corner.y + pad});
-    if (icon_button(c.ui, "role.close", icons::kClose, "Leave the role as it is  Esc"))
+    if (icon_button(c.ui, "role.close", icons::kClose, "Keep the role  Esc"))
         return c.place.forget_role_question();
     const float wide = (size.x - 3 * pad) / 2;
     ImGui::SetCursorScreenPos({corner.x + pad, corner.y + 2 * pad + line});

@@ -167,7 +167,7 @@ void ViewHandles::draw(PanelContext& c, const OnScreen& screen) const {
     if (state_ == State::Idle && !hot_) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (state_ == State::Dragging)
-        draw_hint(c.ui, screen.rect, start_.handle.help + "    Esc: as it was");
+        draw_hint(c.ui, screen.rect, start_.handle.help + "    Esc: restore");
     else if (hot_ && *hot_ < shape_.handles.size())
         draw_hint(c.ui, screen.rect, shape_.handles[*hot_].help);
 }

@@ -67,8 +67,8 @@ bool ViewPicture::update(PanelContext& c, const ScreenRect& view) {
     Document& document = c.place.document;
     if (own.saving.update()) {
         if (own.saving.result())
-            document.tell(
-                make_message(MessageKind::Success, "picture " + own.saving.result()->string()));
+            document.tell(make_message(MessageKind::Success,
+                                       "Saved picture " + own.saving.result()->string()));
         else
             document.tell(make_message(MessageKind::Error, own.saving.problem()));
     }

@@ -177,7 +177,7 @@ void ViewPlaces::draw(PanelContext& c, const OnScreen& screen) const {
     const SurfacePlaces& places = c.place.surface_places();
     const auto target = c.place.armed_target();
     if (c.place.searches_places() && wants_tips(*c.place.form()))
-        draw_hint(c.ui, screen.rect, "Finding the vessels' ends");
+        draw_hint(c.ui, screen.rect, "Finding vessel ends");
     else if (target)
         draw_hint(c.ui, screen.rect,
                   pick_instruction(*target) + "    Esc: stop picking" +

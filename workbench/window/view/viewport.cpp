@@ -473,7 +473,7 @@ void Viewport::Impl::draw_toolbar(PanelContext& c) {
     ImGui::SetCursorScreenPos({at.x + pad, at.y + pad});
     if (icon_button(c.ui, "view.fit", icons::kFit, "Show everything  Home")) frame_model();
     const ShownLayers before = layers;
-    if (draw_tool(c, "view.edges", icons::kGrid, "Triangles' edges", layers.edges))
+    if (draw_tool(c, "view.edges", icons::kGrid, "Triangle edges", layers.edges))
         layers.edges = !layers.edges;
     if (draw_tool(c, "view.flat", icons::kFlat, "Flat shading", layers.flat))
         layers.flat = !layers.flat;
@@ -512,7 +512,7 @@ void Viewport::Impl::draw_legend(const PanelContext& c) const {
         draw_colour_legend(c.ui, place,
                            {ColourMap::Diverging, range.least, range.most,
                             compared.colours_model() ? "Distance from the reference [mm]"
-                            : preview                ? "Distance from before [mm]"
+                            : preview                ? "Distance from the unmodified surface [mm]"
                                                      : "Distance from the source [mm]"});
     }
 }
