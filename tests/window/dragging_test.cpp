@@ -8,6 +8,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/keys.h"
+#include "workbench/window/model/field_text.h"
 #include "workbench/window/view/screen_places.h"
 
 using namespace vesselbench;

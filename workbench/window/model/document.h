@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"

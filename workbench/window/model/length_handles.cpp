@@ -21,13 +21,6 @@ std::vector<std::string> named_in(const std::string& text) {
     return names;
 }
 
-double default_diameters(const OperationForm& form) {
-    const auto& otherwise = form.field("diameters").parameter->default_value;
-    if (!otherwise) return 0.0;
-    const auto* whole = std::get_if<std::int64_t>(&*otherwise);
-    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(*otherwise);
-}
-
 /// Of each opening [mm].
 std::vector<double> lengths_of(const OperationForm& form,
                                const std::vector<PatchMeasures>& openings) {
@@ -35,9 +28,9 @@ std::vector<double> lengths_of(const OperationForm& form,
     if (lengths.size() == openings.size()) return lengths;
     lengths.clear();
     const auto same = number_of(form, "length");
-    const double diameters = number_of(form, "diameters").value_or(default_diameters(form));
     for (const PatchMeasures& opening : openings)
-        lengths.push_back(same.value_or(diameters * diameter_of_area(opening.area)));
+        lengths.push_back(
+            same.value_or(used_number(form, "diameters") * diameter_of_area(opening.area)));
     return lengths;
 }
 
@@ -66,10 +59,6 @@ void add_tube(std::vector<RegionLine>& lines, const PatchMeasures& opening, doub
 }
 
 }  // namespace
-
-bool has_lengths(const OperationForm& form) {
-    return has_field(form, "opening") && has_field(form, "diameters") && has_field(form, "length");
-}
 
 std::vector<PatchMeasures> lengthened_openings(const OperationForm& form,
                                                const std::vector<PatchMeasures>& openings) {
