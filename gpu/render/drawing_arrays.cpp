@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
@@ -55,6 +56,8 @@ public:
             layout.triangles[t] = split(surface_.triangles()[t], (*surface_.patch_labels)[t]);
         sort_extras(layout);
         layout.solid = is_solid_surface(surface_);
+        layout.topology = surface_.topology;
+        layout.patch_labels = surface_.patch_labels;
         return layout;
     }
 
@@ -169,9 +172,8 @@ Sphere sphere_around(const Positions& points) {
     return sphere;
 }
 
-bool same_layout(const Surface& surface, const DrawingArrays* previous) {
-    return previous != nullptr && previous->surface.topology == surface.topology &&
-           previous->surface.patch_labels == surface.patch_labels;
+bool fits(const DrawingLayout& layout, const Surface& surface) {
+    return layout.topology == surface.topology && layout.patch_labels == surface.patch_labels;
 }
 
 /// The moved vertices and all corners of their triangles, ascending.
@@ -211,11 +213,11 @@ std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout, std::size_t
     return copies;
 }
 
-DrawingArrays prepare_drawing(const Surface& surface, const DrawingArrays* previous) {
+DrawingArrays prepare_drawing(const Surface& surface, std::shared_ptr<const DrawingLayout> known) {
     if (surface.empty()) throw InvalidInput("there is no surface to draw");
     DrawingArrays drawing{surface, nullptr, {}, sphere_around(surface.points())};
-    drawing.layout = same_layout(surface, previous)
-                         ? previous->layout
+    drawing.layout = known && fits(*known, surface)
+                         ? std::move(known)
                          : std::make_shared<const DrawingLayout>(Splitter(surface).layout());
     drawing.vertices.resize(drawing.layout->tags.size());
     static_cast<void>(surface.topology->triangles_at());

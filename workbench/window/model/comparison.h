@@ -32,6 +32,12 @@ public:
     explicit Comparison(StateId reference, CompareMode mode = CompareMode::SideBySide)
         : reference_(reference), mode_(mode) {}
 
+    /// Cancels what runs.
+    ~Comparison();
+
+    Comparison(const Comparison&) = delete;
+    Comparison& operator=(const Comparison&) = delete;
+
     /// Collects what is ready and requests what is missing, once a frame while the case is open.
     /// \return true if something has changed
     bool update(Document& document);

@@ -13,6 +13,8 @@ void CutSearch::update(const Surface* surface, const std::optional<CutQuestion>&
         return;
     }
     if (auto answer = task_.take()) cut_ = std::move(answer);
+    if (std::string problem = task_.take_problem(); !problem.empty())
+        cut_ = Cut{.problem = std::move(problem)};
     const bool same = same_surface(surface_, *surface);
     if (same && asked_ == question) return;
     if (!same || !asked_ || asked_->tip != question->tip) {

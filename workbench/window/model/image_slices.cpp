@@ -56,6 +56,7 @@ void ImageSlices::clear() {
     figures_.reset();
     contents_ = {};
     had_ = {};
+    problem_.clear();
     ++image_version_;
     row_ = typed_grey_ = was_shown_ = until_surface_ = false;
     space_.fill(false);
@@ -159,6 +160,9 @@ ImageSlices::Made ImageSlices::made(Task task) {
 
 bool ImageSlices::take_made() {
     const auto made = task_.take();
+    const std::string problem = task_.take_problem();
+    if (made || !problem.empty()) problem_ = problem;
+    if (!problem.empty()) return true;
     if (!made || made->image != image_version_) return false;
     take_figures(made->figures);
     for (const auto& content : made->contents) contents_[number(content->plane)] = content;

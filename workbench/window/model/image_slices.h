@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geometry/image/slices.h"
@@ -44,6 +45,9 @@ public:
 
     /// True while a shown slice is not made yet.
     [[nodiscard]] bool pending() const;
+
+    /// Why the last slices could not be made; empty: they were.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
 
     /// Of the image.
     [[nodiscard]] const SliceGrid& grid() const { return grid_; }
@@ -167,6 +171,7 @@ private:
     GreyWindow grey_;
     bool typed_grey_ = false;  ///< grey_ is the user's
     LatestTask<Made> task_;
+    std::string problem_;
 };
 
 }  // namespace vesselbench

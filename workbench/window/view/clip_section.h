@@ -25,6 +25,9 @@ public:
     /// \param surface that is drawn; null: none
     void update(const PanelContext& context, const Surface* surface, const ViewCamera& camera);
 
+    /// Forgets the model: the case is closed.
+    void forget();
+
     [[nodiscard]] const std::optional<ClipPlane>& plane() const { return plane_; }
 
     /// Counts changes of the plane, and of what is drawn in it.
@@ -59,7 +62,8 @@ private:
     };
 
     [[nodiscard]] static Prepared prepared(const VolumeMesh& mesh, const ColourValues& colours,
-                                           const Plane& plane);
+                                           const Plane& plane, const Progress& progress);
+    void measure(const PanelContext& context, const Surface& surface);
     void choose_side(ClipChoice& choice, const ViewCamera& camera);
     void update_cells(const PanelContext& context);
     void take_cells();

@@ -40,11 +40,13 @@ public:
     void draw_strip(PanelContext& context, ViewStrips& strips);
 
 private:
+    void find_paths(const PanelContext& context);
     [[nodiscard]] const FlightPath* path() const;
     void toggle_play();
     void draw_destination(PanelContext& context, float width);
 
     std::shared_ptr<const CenterlineGraph> graph_;  ///< whose paths these are
+    std::vector<PatchMeasures> openings_;           ///< that name them
     std::vector<FlightPath> paths_;
     std::size_t chosen_ = 0;
     bool flies_ = false;

@@ -38,6 +38,15 @@ void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colo
 
 }  // namespace
 
+void ViewHandles::forget() {
+    search_.update(nullptr, std::nullopt);
+    shape_ = {};
+    positions_.reset();
+    openings_.clear();
+    state_ = State::Idle;
+    hot_.reset();
+}
+
 // --- what is shown
 
 void ViewHandles::take_model(const PanelContext& c) {
@@ -47,7 +56,8 @@ void ViewHandles::take_model(const PanelContext& c) {
         openings_.clear();
         return;
     }
-    if (positions_ != model->positions) {
+    const auto& form = c.place.form();
+    if (form && has_region(*form) && positions_ != model->positions) {
         positions_ = model->positions;
         bounds_ = bounds(*model);
     }

@@ -69,6 +69,8 @@ std::optional<Vec3> ViewPlaces::hit() const {
 }
 
 void ViewPlaces::forget() {
+    picker_.forget();
+    clicked_.reset();
     answer_.reset();
     spot_.reset();
     lit_patch_.reset();
@@ -113,10 +115,7 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     const OnScreen screen{seen.view.camera, seen.rect};
     const bool wanted =
         !c.place.can_paint() && (target || may_be_over(screen, places.openings, cursor));
-    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) {
-        clicked_.reset();
-        return forget();
-    }
+    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
     light_opening(c, seen);
