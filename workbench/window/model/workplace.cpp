@@ -120,7 +120,7 @@ void Workplace::choose(const std::string& operation, std::optional<Step> step) {
 /// What has to be picked is picked at once.
 void Workplace::arm_required() {
     for (const FormField& field : form_->fields())
-        if (field.parameter->required && pick_target(form_->operation(), *field.parameter))
+        if (field.parameter->required && pick_target(*field.parameter))
             return arm(field.parameter->name);
 }
 

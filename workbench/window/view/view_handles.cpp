@@ -57,7 +57,7 @@ void ViewHandles::take_model(const PanelContext& c) {
         return;
     }
     const auto& form = c.place.form();
-    if (form && has_region(*form) && positions_ != model->positions) {
+    if (form && has_field(*form, Meaning::Box) && positions_ != model->positions) {
         positions_ = model->positions;
         bounds_ = bounds(*model);
     }
