@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/edges.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;

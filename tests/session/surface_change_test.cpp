@@ -7,6 +7,7 @@
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
+using namespace vesselbench::test;
 
 namespace {
 

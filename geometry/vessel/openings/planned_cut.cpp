@@ -54,7 +54,7 @@ std::shared_ptr<const CutBranch> cut_branch(const Surface& surface, const Vec3& 
 
 Plane chosen_plane(const CutBranch& branch, const CutQuestion& question) {
     if (question.plane) return *question.plane;
-    if (question.tip) (void)tip_to_open(*branch.graph, *question.tip);
+    if (question.tip) static_cast<void>(tip_to_open(*branch.graph, *question.tip));
     auto distance = question.distance;
     if (question.radii) distance = *question.radii * branch.radius;
     if (distance)
