@@ -1,17 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/remove_branch.h"
-#include "tests/support/paths.h"
-#include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/branch_part.h"
 #include "workbench/window/model/crop_handles.h"
 #include "workbench/window/model/cut_handles.h"
 #include "workbench/window/model/handle.h"
@@ -48,6 +43,11 @@ struct TubeCut {
         return find_cut(tube, cut_question(form).value(), known);
     }
 };
+
+/// The text of `names`.
+std::string name_of(const std::vector<FieldText>& texts) {
+    return std::ranges::find(texts, "names", &FieldText::parameter)->text;
+}
 
 double tilt_of(const std::vector<double>& planes) {
     return std::acos(planes.at(8)) * 180 / std::numbers::pi;
@@ -249,6 +249,12 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
         CHECK(tilt_of(planes) == Approx(30).margin(0.01));
         CHECK(tube.form.field("names").text == "outlet:outlet_1");
         CHECK(tube.form.valid());
+        THEN("a typed role and name are those of the opening, as without the tilt") {
+            tube.form.set("kind", "inlet");
+            CHECK(name_of(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:outlet_1");
+            tube.form.set("name", "neck");
+            CHECK(name_of(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:neck");
+        }
         const Cut tilted = tube.find(cut.branch);
         CHECK(tilted.tilt_deg == Approx(30).margin(1));
         CHECK(tilted.area ==
@@ -281,20 +287,6 @@ SCENARIO("A cut that is not possible says why", "[window][handles]") {
     CHECK(cut_shape(tube.form, cut).handles.size() == 1);
     tube.form.set("tip", "");
     CHECK_FALSE(cut_question(tube.form));
-}
-
-SCENARIO("The lit part of a branch is what its removal cuts off", "[window][handles]") {
-    const std::string folder = temporary_folder();
-    REQUIRE(run_program(program_path(), {"phantom", "y", "--out", folder}).exit_code == 0);
-    const Surface y = read_surface(folder + "/exact.vtp").surface;
-    const auto graph = lines_to(y, {12, 0, 18}, 4, {});
-    const std::size_t tip = nearest_tip(*graph, {12, 0, 18}).value();
-    const Surface part = branch_part(y, graph->nodes[tip].position, kUsualMargin, {});
-    REQUIRE_FALSE(part.empty());
-    CHECK(measure(part).area == Approx(remove_branch(y, *graph, tip).removed_area));
-    CHECK(bounds(part).min.x() > -4);
-    CHECK(bounds(part).max.x() > 10);
-    CHECK(branch_part(fine_tube(4, 30, 24), {0, 0, 30}, kUsualMargin, {}).empty());
 }
 
 SCENARIO("An opening's role is text of the form", "[window][handles]") {

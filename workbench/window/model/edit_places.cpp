@@ -1,5 +1,6 @@
 #include "workbench/window/model/edit_places.h"
 
+#include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/pick_target.h"
 
@@ -7,8 +8,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kNumbers = 10;  ///< of a dab in `dabs`, and of an opening in `planes`
-constexpr std::size_t kPlanePoint = 3;
+constexpr std::size_t kDabNumbers = 10;  ///< of a dab in `dabs`
 
 const std::vector<double>* list_in(const Arguments& arguments, const std::string& name) {
     return arguments.has(name) ? &arguments.list(name) : nullptr;
@@ -32,12 +32,13 @@ Positions points_in(const Operation& operation, const Arguments& arguments) {
 
 Positions places_of_edit(const LogEntry& entry) {
     const Arguments& arguments = entry.result ? entry.result->resolved : entry.edit.given;
-    if (const auto* dabs = list_in(arguments, "dabs"); dabs != nullptr && dabs->size() >= kNumbers)
-        return {point_in(*dabs, dabs->size() / kNumbers / 2 * kNumbers)};
+    if (const auto* dabs = list_in(arguments, "dabs");
+        dabs != nullptr && dabs->size() >= kDabNumbers)
+        return {point_in(*dabs, dabs->size() / kDabNumbers / 2 * kDabNumbers)};
     Positions places;
     if (const auto* planes = list_in(arguments, "planes"))
-        for (std::size_t i = 0; i + kNumbers <= planes->size(); i += kNumbers)
-            places.push_back(point_in(*planes, i + kPlanePoint));
+        for (const PlannedOpening& opening : openings_in(*planes))
+            places.push_back(opening.place.plane.point);
     if (!places.empty()) return places;
     return points_in(find_operation(entry.edit.operation), arguments);
 }

@@ -25,6 +25,11 @@ struct FieldText {
 
 [[nodiscard]] std::optional<double> number_of(const OperationForm& form,
                                               const std::string& parameter);
+
+/// The number that the operation uses: the field's, or the parameter's default.
+/// \pre the parameter has a default
+[[nodiscard]] double used_number(const OperationForm& form, const std::string& parameter);
+
 [[nodiscard]] std::optional<Vec3> point_of(const OperationForm& form, const std::string& parameter);
 
 /// Empty if it is not given.

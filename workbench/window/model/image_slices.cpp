@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "workbench/window/model/same_surface.h"
+#include "geometry/kernel/same_surface.h"
 
 namespace vesselbench {
 

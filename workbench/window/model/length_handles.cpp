@@ -21,17 +21,9 @@ std::vector<std::string> named_in(const std::string& text) {
     return names;
 }
 
-double default_diameters(const OperationForm& form) {
-    const auto& otherwise = form.field("diameters").parameter->default_value;
-    if (!otherwise) return 0.0;
-    const auto* whole = std::get_if<std::int64_t>(&*otherwise);
-    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(*otherwise);
-}
-
 double length_at(const OperationForm& form, const PatchMeasures& opening) {
     if (const auto length = number_of(form, "length")) return *length;
-    return number_of(form, "diameters").value_or(default_diameters(form)) *
-           diameter_of_area(opening.area);
+    return used_number(form, "diameters") * diameter_of_area(opening.area);
 }
 
 /// "12 mm = 3 diameters"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "workbench/window/model/same_surface.h"
+#include "geometry/kernel/same_surface.h"
 
 namespace vesselbench {
 
