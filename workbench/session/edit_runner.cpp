@@ -33,9 +33,9 @@ EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedAr
 
 CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
                                      const Arguments& stored) const {
-    const ProjectFile& project = store_->project();
     return checked_arguments(
-        operation, with_found_files(operation, stored, project.sources(edit), project.folder()));
+        operation,
+        with_found_files(operation, stored, store_->project().sources(edit), store_->files()));
 }
 
 EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progress) {
