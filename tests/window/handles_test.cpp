@@ -45,7 +45,7 @@ struct TubeCut {
 };
 
 /// The text of `names`.
-std::string name_of(const std::vector<FieldText>& texts) {
+std::string names_in(const std::vector<FieldText>& texts) {
     return std::ranges::find(texts, "names", &FieldText::parameter)->text;
 }
 
@@ -110,7 +110,7 @@ SCENARIO("The handle under the cursor is the nearest one within reach", "[window
 
 SCENARIO("A crop box is dragged by its faces and corners", "[window][handles]") {
     OperationForm form(find_operation("crop"));
-    REQUIRE(has_region(form));
+    REQUIRE(has_field(form, Meaning::Box));
     GIVEN("no region yet") {
         const FormShape offered = crop_shape(form, kModel);
         REQUIRE(offered.handles.size() == 14);
@@ -163,7 +163,7 @@ SCENARIO("A crop ball is dragged by its centre and its outline", "[window][handl
           std::vector<FieldText>{{"centre", "4,4,4"}, {"radius", "5"}});
     form.set("radius", "-5");
     CHECK(crop_shape(form, kModel).lines.front().faint);
-    CHECK_FALSE(has_region(OperationForm(find_operation("smooth"))));
+    CHECK_FALSE(has_field(OperationForm(find_operation("smooth")), Meaning::Box));
 }
 
 SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[window][handles]") {
@@ -172,7 +172,7 @@ SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[w
     const std::vector<PatchMeasures> openings(patches.begin() + 1, patches.end());
     const double diameter = 2 * std::sqrt(openings[1].area / std::numbers::pi);
     REQUIRE(diameter == Approx(8).epsilon(0.002));
-    REQUIRE(has_lengths(form));
+    REQUIRE(has_field(form, Meaning::Openings));
     const FormShape shape = length_shape(form, openings);
     REQUIRE(shape.handles.size() == 2);
     CHECK(shape.handles[1].name == "length.outlet_1");
@@ -251,9 +251,9 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
         CHECK(tube.form.valid());
         THEN("a typed role and name are those of the opening, as without the tilt") {
             tube.form.set("kind", "inlet");
-            CHECK(name_of(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:outlet_1");
+            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:outlet_1");
             tube.form.set("name", "neck");
-            CHECK(name_of(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:neck");
+            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:neck");
         }
         const Cut tilted = tube.find(cut.branch);
         CHECK(tilted.tilt_deg == Approx(30).margin(1));
@@ -293,7 +293,7 @@ SCENARIO("An opening's role is text of the form", "[window][handles]") {
     const Surface tube = closed_tube(4, 30, 24, 10);
     const auto patches = measure_patches(tube);
     OperationForm form(find_operation("clip-opening"));
-    REQUIRE(has_roles(form));
+    REQUIRE(has_field(form, Meaning::Inlet));
     WHEN("the outlet becomes the inlet") {
         form.set("kind", "outlet");
         fill(form, role_texts(patches.at(2), PatchKind::Inlet, tube.patches));

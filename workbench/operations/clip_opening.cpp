@@ -155,7 +155,8 @@ Operation clip_opening_operation() {
             {{.name = "tip",
               .type = Point,
               .unit = "mm",
-              .help = "a point near the tip of the branch to open; default: every vessel end"},
+              .help = "a point near the tip of the branch to open; default: every vessel end",
+              .meaning = Meaning::Tip},
              {.name = "distance",
               .unit = "mm",
               .help = "distance of the cut from the tip along the centerline; default: the nearest "
@@ -171,7 +172,8 @@ Operation clip_opening_operation() {
               .type = Point,
               .unit = "mm",
               .help = "a point near the opening where the blood flows in; default: the largest "
-                      "opening"},
+                      "opening",
+              .meaning = Meaning::Inlet},
              {.name = "name",
               .type = Text,
               .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size"},
@@ -184,7 +186,8 @@ Operation clip_opening_operation() {
               .unit = "mm",
               .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
                       "plane, unit normal out of the vessel, 1 if a good cap was kept; they are "
-                      "used as they are"},
+                      "used as they are",
+              .meaning = Meaning::Planes},
              {.name = "names",
               .type = Text,
               .help = "with planes: kind:name of each opening, separated by commas"}},

@@ -118,10 +118,6 @@ std::string cut_text(const Cut& cut) {
 
 }  // namespace
 
-bool has_cut(const OperationForm& form) {
-    return has_field(form, "tip") && has_field(form, "distance") && has_field(form, "planes");
-}
-
 std::optional<CutQuestion> cut_question(const OperationForm& form) {
     if (!text_of(form, "planes").empty()) {
         const auto place = typed_place(form);

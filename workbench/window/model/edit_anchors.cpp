@@ -37,7 +37,7 @@ std::vector<NamedPlace> edit_anchors(const Snapshot& snapshot, const std::string
             std::to_string(entry.edit.edit.id) + "  " + readable(operation->name);
         const Arguments arguments = arguments_of(entry);
         for (const Parameter& parameter : operation->parameters) {
-            if (!arguments.has(parameter.name) || !pick_target(*operation, parameter)) continue;
+            if (!arguments.has(parameter.name) || !pick_target(parameter)) continue;
             const Value& value = arguments.values().at(parameter.name);
             const auto* point = std::get_if<Vec3>(&value);
             const auto same = [&](const NamedPlace& place) {

@@ -22,8 +22,12 @@ double number_in(const Value& value) {
 
 }  // namespace
 
-bool has_field(const OperationForm& form, const std::string& parameter) {
-    return find(form, parameter) != nullptr;
+bool has_field(const OperationForm& form, Meaning meaning) {
+    return parameter_of(form.operation(), meaning) != nullptr;
+}
+
+const std::string& name_of(const OperationForm& form, Meaning meaning) {
+    return parameter_of(form.operation(), meaning)->name;
 }
 
 std::optional<Value> value_of(const OperationForm& form, const std::string& parameter) {

@@ -45,10 +45,6 @@ void add_tube(std::vector<RegionLine>& lines, const PatchMeasures& opening, doub
 
 }  // namespace
 
-bool has_lengths(const OperationForm& form) {
-    return has_field(form, "opening") && has_field(form, "diameters") && has_field(form, "length");
-}
-
 std::vector<PatchMeasures> lengthened_openings(const OperationForm& form,
                                                const std::vector<PatchMeasures>& openings) {
     const std::vector<std::string> names = named_in(text_of(form, "opening"));

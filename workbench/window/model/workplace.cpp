@@ -217,7 +217,7 @@ void Workplace::arm(const std::string& parameter) {
 std::optional<PickTarget> Workplace::armed_target() const {
     if (!form_ || armed_.empty()) return std::nullopt;
     const FormField& field = form_->field(armed_);
-    return field.active ? pick_target(form_->operation(), *field.parameter) : std::nullopt;
+    return field.active ? pick_target(*field.parameter) : std::nullopt;
 }
 
 void Workplace::pick(const Vec3& point) {
@@ -266,11 +266,13 @@ void Workplace::cancel_drag() {
 
 void Workplace::click_opening(const PatchMeasures& opening) {
     forget_role_question();
-    const bool free = !form_ || (has_roles(*form_) && !form_->edit());
-    if (form_ && has_field(*form_, "opening"))
-        set_field("opening", with_name_switched(form_->field("opening").text, opening.name));
-    else if (free && can_change())
+    const bool free = !form_ || (has_field(*form_, Meaning::Inlet) && !form_->edit());
+    if (form_ && has_field(*form_, Meaning::Openings)) {
+        const std::string& names = name_of(*form_, Meaning::Openings);
+        set_field(names, with_name_switched(form_->field(names).text, opening.name));
+    } else if (free && can_change()) {
         opening_ = opening;
+    }
 }
 
 void Workplace::give_role(PatchKind role) {
@@ -278,7 +280,7 @@ void Workplace::give_role(PatchKind role) {
     const Scene* scene = document.shown();
     if (!opening || scene == nullptr || !scene->surface) return;
     const auto texts = role_texts(*opening, role, scene->surface->patches);
-    if (!form_ || !has_roles(*form_)) choose("clip-opening");
+    if (!form_ || !has_field(*form_, Meaning::Inlet)) choose("clip-opening");
     for (const FieldText& field : texts) set_field(field.parameter, field.text);
 }
 

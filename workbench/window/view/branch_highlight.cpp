@@ -10,10 +10,6 @@ namespace {
 
 const Colour kLit(0.95F, 0.42F, 0.08F);
 
-bool removes_branch(const OperationForm& form) {
-    return has_field(form, "tip") && has_field(form, "margin") && has_field(form, "continuity");
-}
-
 /// None if the operation would fail; it says why.
 std::optional<DrawingArrays> lit_part(const Surface& surface, const Vec3& tip, double margin,
                                       const Progress& progress) {
@@ -37,8 +33,8 @@ void BranchHighlight::clear() {
 void BranchHighlight::update(const OperationForm* form, const Surface* surface,
                              const std::optional<Vec3>& hovered) {
     std::optional<Question> now;
-    if (form != nullptr && surface != nullptr && removes_branch(*form))
-        if (const auto tip = hovered ? hovered : point_of(*form, "tip"))
+    if (form != nullptr && surface != nullptr && has_field(*form, Meaning::Branch))
+        if (const auto tip = hovered ? hovered : point_of(*form, name_of(*form, Meaning::Branch)))
             now = Question{*tip, used_number(*form, "margin")};
     if (!now) {
         if (asked_) task_.forget();

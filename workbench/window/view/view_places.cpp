@@ -30,7 +30,7 @@ std::vector<NamedPlace> offered_for(PickTarget target, const SurfacePlaces& plac
 std::vector<NamedPlace> offered_in(const OperationForm& form, const SurfacePlaces& places) {
     std::vector<NamedPlace> offered;
     for (const FormField& field : form.fields()) {
-        const auto target = pick_target(form.operation(), *field.parameter);
+        const auto target = pick_target(*field.parameter);
         if (!target || !field.active) continue;
         for (NamedPlace& place : offered_for(*target, places))
             if (std::ranges::count(offered, place) == 0) offered.push_back(std::move(place));
