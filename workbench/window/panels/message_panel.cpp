@@ -40,6 +40,19 @@ Paint colour_of(const Theme& theme, MessageKind kind) {
 
 namespace {
 
+constexpr float kTextLeft = 7.5F;  ///< [em]
+
+/// Room right of a message's text [pixels].
+float right_of(const Ui& ui, const Message& message) {
+    return message.remedy.empty() ? ui.grid(2) : ui.em * 12;
+}
+
+float height_of(const Ui& ui, const Message& message) {
+    const float width = ImGui::GetWindowWidth() - right_of(ui, message) - ui.em * kTextLeft;
+    const float text = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, width).y;
+    return text + 2 * ImGui::GetStyle().FramePadding.y;
+}
+
 void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
     if (message.remedy.empty()) return;
     const std::string label = "Go to " + readable(message.remedy);
@@ -58,9 +71,8 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
     text(ui, message.time, ui.theme.muted);
     ImGui::SameLine(ui.em * 5.5F);
     text(ui, icon_of(message.kind), colour_of(ui.theme, message.kind));
-    ImGui::SameLine(ui.em * 7.5F);
-    const float room = message.remedy.empty() ? ui.grid(2) : ui.em * 12;
-    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - room);
+    ImGui::SameLine(ui.em * kTextLeft);
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - right_of(ui, message));
     text(ui, message.text, ui.theme.text);
     ImGui::PopTextWrapPos();
     draw_remedy(c, message, index);
@@ -71,7 +83,15 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
 void draw_messages(PanelContext& c) {
     const auto& all = c.place.document.messages();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.ui.grid(1), 0});
-    for (std::size_t i = all.size(); i-- > 0;) draw_message(c, all[i], i);
+    float y = ImGui::GetCursorPosY();
+    for (std::size_t i = all.size(); i-- > 0;) {
+        const float height = height_of(c.ui, all[i]);
+        ImGui::SetCursorPosY(y);
+        if (ImGui::IsRectVisible({ImGui::GetWindowWidth(), height})) draw_message(c, all[i], i);
+        y += height;
+    }
+    ImGui::SetCursorPosY(y);
+    ImGui::Dummy({0, 0});
     if (all.empty()) text(c.ui, "No messages yet.", c.ui.theme.muted);
     ImGui::PopStyleVar();
 }
