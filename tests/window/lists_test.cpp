@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -5,6 +6,8 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/operations/table.h"
 #include "workbench/window/model/folder_listing.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/message.h"
@@ -12,7 +15,9 @@
 #include "workbench/window/model/readable.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/user_folders.h"
+#include "workbench/window/model/view_choice.h"
 #include "workbench/window/view/view_overlays.h"
+#include "workbench/window/widgets/controls.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -51,6 +56,13 @@ SCENARIO("The rail lists the steps with their edits and states", "[window][rail]
         CHECK(changed[4].state == StepState::Pending);
         CHECK(pending_count(*session.snapshot(), "cfd") == 1);
     }
+}
+
+SCENARIO("Long lists of arguments are counted", "[window][rail]") {
+    const Arguments stroke = {{"dabs", Value(std::vector<double>(800, 1.5))}};
+    CHECK(argument_summary(find_operation("brush-inflate"), stroke) == "dabs=(800 numbers)");
+    const Arguments box = {{"box", Value(std::vector<double>{1, 2, 3, 4, 5, 6})}};
+    CHECK(argument_summary(find_operation("crop"), box) == "box=1,2,3,4,5,6");
 }
 
 SCENARIO("Edits of another variant are not in the rail", "[window][rail]") {
@@ -120,6 +132,19 @@ SCENARIO("Settings remember recent projects", "[window][settings]") {
     }
 }
 
+SCENARIO("The size of the text is remembered", "[window][settings]") {
+    const std::string folder = temporary_folder();
+    Settings settings(folder);
+    settings.change_scale(1);
+    CHECK(settings.scale == 1.1);
+    settings.change_scale(100);
+    CHECK(settings.scale == 2.5);
+    REQUIRE(settings.save());
+    CHECK(Settings(folder).scale == 2.5);
+    settings.change_scale(-100);
+    CHECK(settings.scale == 0.75);
+}
+
 SCENARIO("A listing has folders first and only files that can be opened", "[window][files]") {
     const std::string folder = temporary_folder();
     fs::create_directories(folder + "/zebra");
@@ -159,4 +184,53 @@ SCENARIO("Names of the command line are made readable", "[window]") {
     CHECK(readable("clip-opening") == "Clip opening");
     CHECK(readable("tau_max") == "Tau max");
     CHECK(readable("").empty());
+}
+
+SCENARIO("Typed numbers are read as a whole or not at all", "[window]") {
+    CHECK(typed_number(" 1.5 ") == 1.5);
+    CHECK(typed_number("+2e-3") == 0.002);
+    for (const char* text : {"", " ", "+", "1,5", "2 mm", "nan", "inf"}) {
+        INFO(text);
+        CHECK_FALSE(typed_number(text));
+    }
+}
+
+SCENARIO("A typed range is of one quantity", "[window][view]") {
+    ViewChoice view;
+    view.draw_as({ColouringKind::MeanCurvature}, ValueRange{-1, 2});
+    CHECK_FALSE(view.range());
+    view.least = "0.5";
+    CHECK(view.range() == ValueRange{0.5, 2});
+    view.most = "0.4";
+    CHECK_FALSE(view.range());
+    view.most = "1";
+    view.draw_as({ColouringKind::MeanCurvature}, ValueRange{-3, 3});
+    CHECK(view.range() == ValueRange{0.5, 1});
+    WHEN("a comparison colours the model") {
+        view.draw_as({ColouringKind::MeanCurvature, true}, ValueRange{-0.1, 0.1});
+        CHECK_FALSE(view.has_typed_range());
+    }
+    WHEN("another quantity is chosen") {
+        view.choose(ColouringKind::Deviation);
+        CHECK_FALSE(view.has_typed_range());
+    }
+}
+
+SCENARIO("A text is shortened to whole characters", "[window]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    shell->frame();
+    CHECK(fitted("short", 500) == "short");
+    std::string endless;
+    for (int i = 0; i < 5000; ++i) endless += "\u00F8 1.5 mm, ";
+    const std::string shorter = fitted(endless, 200);
+    CHECK(shorter.size() < 100);
+    CHECK(shorter.ends_with("\u2026"));
+    CHECK(fitted(shorter, 200) == shorter);
+    CHECK(fitted(endless, -5) == "\u2026");
+    for (int width = 20; width < 60; ++width) {
+        const std::string part = fitted(endless, static_cast<float>(width));
+        const auto before = static_cast<unsigned char>(part[part.size() - 4]);
+        CHECK(before != 0xC3);  // the first half of a character
+    }
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -280,4 +281,21 @@ SCENARIO("Labels are picked in slices", "[window][slices][picking]") {
     CHECK(place.armed() == "labels");
     shell->press_key(keys::kEscape);
     CHECK(place.armed().empty());
+}
+
+SCENARIO("The line over the slices has room in a small window", "[window][slices]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, image_file(ball_in(flipped_matrix(), kBright)));
+    shell->resize(900, 600);
+    const Eigen::Vector2f at = seen_in(*shell, SlicePlane::Axial, kBright);
+    shell->move_mouse(at.x(), at.y());
+    REQUIRE(shell->settle(10s));
+    std::vector<ScreenRect> rects;
+    for (const auto& [name, item] : shell->app().ui().items())
+        if (name.starts_with("slices.")) rects.push_back(item.rect);
+    REQUIRE(rects.size() >= 5);
+    std::ranges::sort(rects, {}, &ScreenRect::x);
+    for (std::size_t i = 1; i < rects.size(); ++i)
+        CHECK(rects[i - 1].x + rects[i - 1].width <= rects[i].x);
 }

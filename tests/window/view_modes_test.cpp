@@ -91,10 +91,21 @@ SCENARIO("Colours are chosen in the view's options", "[window][view]") {
         seen.key('V');
         REQUIRE(seen.shell->fill_item("view.least", "0"));
         REQUIRE(seen.shell->fill_item("view.most", "1"));
-        CHECK(seen.place().view.range == ValueRange{0, 1});
+        CHECK(seen.place().view.range() == ValueRange{0, 1});
+        seen.shell->press_key(keys::kEnter);
         seen.shell->press_key(keys::kEscape);
-        seen.shell->press_key(keys::kEscape);
-        CHECK(seen.pixels() != coloured);
+        CHECK_FALSE(seen.shell->has("view.least"));
+        const auto ranged = seen.pixels();
+        CHECK(ranged != coloured);
+        THEN("another quantity has its own range") {
+            REQUIRE(seen.shell->click_item("view.deviation"));
+            REQUIRE(seen.shell->click_item("view.deviation"));
+            REQUIRE(seen.shell->settle(60s));
+            seen.key('V');
+            CHECK_FALSE(seen.place().view.range());
+            seen.key('V');
+            CHECK(seen.pixels() == coloured);
+        }
     }
     WHEN("the colours are switched off and on") {
         REQUIRE(seen.shell->click_item("view.deviation"));
@@ -314,6 +325,6 @@ SCENARIO("A picture of the view is saved", "[window][view]") {
         seen.shell->press_key(keys::kF12);
         REQUIRE(seen.shell->click_item("file.accept"));
         REQUIRE(seen.shell->settle(30s));
-        CHECK(std::filesystem::exists(file.parent_path() / "tube 2.png"));
+        CHECK(std::filesystem::exists(file.parent_path() / "tube-2.png"));
     }
 }

@@ -1,8 +1,22 @@
 #include "workbench/case/argument_texts.h"
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
+
+namespace {
+
+/// Longer lists, such as the dabs of a stroke, are counted: a summary is read at a glance.
+constexpr std::size_t kMostListed = 8;
+
+std::string short_text(const Value& value) {
+    const auto* list = std::get_if<std::vector<double>>(&value);
+    if (list == nullptr || list->size() <= kMostListed) return to_text(value);
+    return "(" + counted(list->size(), "number") + ")";
+}
+
+}  // namespace
 
 GivenArguments arguments_from_texts(const Operation& operation,
                                     std::span<const std::string> texts) {
@@ -24,7 +38,7 @@ std::string argument_summary(const Operation& operation, const Arguments& argume
     for (const Parameter& parameter : operation.parameters) {
         const auto found = arguments.values().find(parameter.name);
         if (found == arguments.values().end() || found->second == parameter.default_value) continue;
-        summary += (summary.empty() ? "" : " ") + parameter.name + "=" + to_text(found->second);
+        summary += (summary.empty() ? "" : " ") + parameter.name + "=" + short_text(found->second);
     }
     return summary;
 }

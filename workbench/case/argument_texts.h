@@ -12,7 +12,8 @@ namespace vesselbench {
 [[nodiscard]] GivenArguments arguments_from_texts(const Operation& operation,
                                                   std::span<const std::string> texts);
 
-/// "parameter=value parameter=value", in the order of the table; defaults are left out.
+/// "parameter=value parameter=value" for people, in the order of the table; defaults are left out,
+/// and long lists are counted: "dabs=(800 numbers)".
 [[nodiscard]] std::string argument_summary(const Operation& operation, const Arguments& arguments);
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #include "workbench/window/app.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
@@ -27,7 +28,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kTextSize = 15.0F;  ///< at scale 1 [pixels]
+constexpr float kTextSize = 15.0F;                          ///< at scale 1 [pixels]
+constexpr float kLeastWidth = 53.0F, kLeastHeight = 37.0F;  ///< of a window for its parts [em]
 
 std::filesystem::path or_else(const std::filesystem::path& given,
                               std::filesystem::path (*otherwise)()) {
@@ -54,8 +56,13 @@ struct App::Impl {
           device(options.device),
           display_scale(options.display_scale) {}
 
+    /// Enlarged no further than the window has room for all of its parts.
     [[nodiscard]] float text_size() const {
-        return std::round(kTextSize * static_cast<float>(display_scale * place.settings.scale));
+        const ImVec2 size = ImGui::GetIO().DisplaySize;
+        const float usual = kTextSize * static_cast<float>(display_scale);
+        const float room = std::min(size.x / kLeastWidth, size.y / kLeastHeight);
+        const float most = std::max(usual, room);
+        return std::round(std::min(usual * static_cast<float>(place.settings.scale), most));
     }
 
     void take_case();

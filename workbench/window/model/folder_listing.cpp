@@ -23,6 +23,13 @@ bool has_suffix(const std::string& name, const std::vector<std::string>& suffixe
            std::ranges::any_of(suffixes, [&](const std::string& s) { return small.ends_with(s); });
 }
 
+/// 0 for what has no size, such as a broken link.
+std::uintmax_t size_of(const fs::directory_entry& file) {
+    std::error_code error;
+    const std::uintmax_t bytes = file.file_size(error);
+    return error ? 0 : bytes;
+}
+
 FolderEntry entry_of(const fs::directory_entry& file) {
     std::error_code ignored;
     FolderEntry entry{.name = file.path().filename().string(),
@@ -30,7 +37,7 @@ FolderEntry entry_of(const fs::directory_entry& file) {
     if (entry.folder)
         entry.openable_folder = fs::exists(file.path() / "case.json", ignored);
     else
-        entry.bytes = file.file_size(ignored);
+        entry.bytes = size_of(file);
     return entry;
 }
 

@@ -1,10 +1,10 @@
 #include "workbench/window/model/message.h"
 
 #include <cctype>
-#include <ctime>
 #include <regex>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/model/local_time.h"
 
 namespace vesselbench {
 
@@ -23,15 +23,6 @@ std::size_t find_word(const std::string& text, const std::string& word) {
             return at;
     }
     return std::string::npos;
-}
-
-std::string time_of_day() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    char text[16];
-    std::strftime(text, sizeof text, "%H:%M:%S", &local);
-    return text;
 }
 
 }  // namespace
@@ -57,7 +48,7 @@ std::optional<Vec3> place_in(const std::string& text) {
 }
 
 Message make_message(MessageKind kind, std::string text, const std::string& failed) {
-    Message message{.kind = kind, .text = std::move(text), .time = time_of_day()};
+    Message message{.kind = kind, .text = std::move(text), .time = local_time("%H:%M:%S")};
     message.place = place_in(message.text);
     if (kind == MessageKind::Error || kind == MessageKind::Warning)
         message.remedy = remedy_in(message.text, failed);

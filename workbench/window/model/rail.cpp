@@ -51,13 +51,7 @@ RailEdit rail_edit(const LogEntry& entry) {
 /// The worst of its edits' states.
 StepState state_of(const std::vector<RailEdit>& edits) {
     StepState worst = StepState::Empty;
-    for (const RailEdit& edit : edits) {
-        const StepState state = edit.status == EditStatus::Stale     ? StepState::Stale
-                                : edit.status == EditStatus::Pending ? StepState::Pending
-                                : edit.warnings.empty()              ? StepState::Done
-                                                                     : StepState::Warnings;
-        worst = std::max(worst, state);
-    }
+    for (const RailEdit& edit : edits) worst = std::max(worst, state_of(edit));
     return worst;
 }
 
@@ -90,6 +84,25 @@ std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& varia
                 .edits.push_back(rail_edit(entry));
     for (RailStep& step : rail) step.state = state_of(step.edits);
     return rail;
+}
+
+StepState state_of(const RailEdit& edit) {
+    if (edit.status == EditStatus::Stale) return StepState::Stale;
+    if (edit.status == EditStatus::Pending) return StepState::Pending;
+    return edit.warnings.empty() ? StepState::Done : StepState::Warnings;
+}
+
+const LogEntry* find_entry(const Snapshot& snapshot, EditId edit) {
+    const auto found = std::ranges::find_if(
+        snapshot.log, [&](const LogEntry& entry) { return entry.edit.edit.id == edit; });
+    return found == snapshot.log.end() ? nullptr : &*found;
+}
+
+const LogEntry* first_stale(const Snapshot& snapshot, const std::string& variant) {
+    const auto found = std::ranges::find_if(snapshot.log, [&](const LogEntry& entry) {
+        return entry.status == EditStatus::Stale && is_shown(entry.edit.place, variant);
+    });
+    return found == snapshot.log.end() ? nullptr : &*found;
 }
 
 int pending_count(const Snapshot& snapshot, const std::string& variant) {

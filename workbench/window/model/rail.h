@@ -43,6 +43,15 @@ struct RailStep {
 /// An edit's arguments as lists show them.
 [[nodiscard]] std::string arguments_text(const EditRecord& edit);
 
+/// How an edit is marked; never empty.
+[[nodiscard]] StepState state_of(const RailEdit& edit);
+
+/// Null if there is no such edit in the current state.
+[[nodiscard]] const LogEntry* find_entry(const Snapshot& snapshot, EditId edit);
+
+/// The first edit of the variant's model that no longer applies; null: none.
+[[nodiscard]] const LogEntry* first_stale(const Snapshot& snapshot, const std::string& variant);
+
 /// Number of pending edits that the variant's model consists of.
 [[nodiscard]] int pending_count(const Snapshot& snapshot, const std::string& variant);
 

@@ -1,6 +1,8 @@
 #include "workbench/window/model/readable.h"
 
 #include <cctype>
+#include <charconv>
+#include <cmath>
 
 namespace vesselbench {
 
@@ -14,6 +16,17 @@ std::string readable(const std::string& name) {
 std::string readable_sentence(std::string sentence) {
     if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(sentence[0]));
     return sentence;
+}
+
+std::optional<double> typed_number(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+    if (first == std::string::npos) return std::nullopt;
+    const char* begin = text.data() + first + (text[first] == '+' ? 1 : 0);
+    const char* end = text.data() + last + 1;
+    double number = 0.0;
+    const auto [stop, error] = std::from_chars(begin, end, number);
+    if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
+    return number;
 }
 
 }  // namespace vesselbench

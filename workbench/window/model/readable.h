@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace vesselbench {
@@ -10,5 +11,8 @@ namespace vesselbench {
 
 /// With a capital first letter: words stay as they are.
 [[nodiscard]] std::string readable_sentence(std::string sentence);
+
+/// A number that was typed, with blanks around it or without; none: it is not one.
+[[nodiscard]] std::optional<double> typed_number(const std::string& text);
 
 }  // namespace vesselbench

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/whole_file.h"
+#include "workbench/window/model/local_time.h"
 
 namespace vesselbench {
 
@@ -25,17 +26,6 @@ constexpr std::array<std::pair<const char*, bool ShownLayers::*>, 6> kLayers = {
      {"centerlines", &ShownLayers::centerlines},
      {"names", &ShownLayers::names},
      {"anchors", &ShownLayers::anchors}}};
-
-constexpr double kSmallestScale = 0.75, kLargestScale = 3.0;
-
-std::string now_text() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local);
-    return text;
-}
 
 fs::path whole_path(const fs::path& file) {
     std::error_code error;
@@ -58,7 +48,7 @@ void Settings::read() {
     if (!fs::exists(folder_ / kFile)) return;
     const Json json = Json::parse(file_content(folder_ / kFile));
     dark = json.value("theme", "dark") != "light";
-    scale = std::clamp(json.value("scale", 1.0), kSmallestScale, kLargestScale);
+    scale = std::clamp(json.value("scale", 1.0), kScales.front(), kScales.back());
     for (const Json& shown : json.value("layers", Json::array()))
         for (const auto& [name, layer] : kLayers)
             if (shown == name) layers.*layer = true;
@@ -70,7 +60,7 @@ void Settings::read() {
 void Settings::remember(const fs::path& project) {
     const fs::path file = whole_path(project);
     forget(file);
-    recent_.insert(recent_.begin(), {.file = file, .opened = now_text()});
+    recent_.insert(recent_.begin(), {.file = file, .opened = local_time("%Y-%m-%d %H:%M")});
     if (recent_.size() > kMostRecent) recent_.resize(kMostRecent);
 }
 
@@ -82,6 +72,14 @@ void Settings::forget(const fs::path& project) {
 void Settings::refresh() {
     std::error_code ignored;
     for (RecentProject& entry : recent_) entry.missing = !fs::exists(entry.file, ignored);
+}
+
+void Settings::change_scale(int steps) {
+    const auto nearest = std::ranges::min_element(
+        kScales, {}, [&](double offered) { return std::abs(offered - scale); });
+    const auto index = static_cast<int>(nearest - kScales.begin()) + steps;
+    scale = kScales.at(
+        static_cast<std::size_t>(std::clamp(index, 0, static_cast<int>(kScales.size()) - 1)));
 }
 
 bool Settings::save() const {

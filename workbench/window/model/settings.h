@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,8 +24,11 @@ public:
     /// Reads settings.json of this folder; a missing or damaged file gives the defaults.
     explicit Settings(std::filesystem::path folder);
 
+    /// The sizes of the text that are offered.
+    static constexpr std::array kScales = {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5};
+
     bool dark = true;
-    double scale = 1.0;  ///< of all sizes, on top of the display's
+    double scale = 1.0;  ///< of all sizes, on top of the display's; in the range of kScales
     ShownLayers layers;  ///< of the view
 
     [[nodiscard]] const std::vector<RecentProject>& recent() const { return recent_; }
@@ -32,6 +36,9 @@ public:
     /// Puts a project first in the list.
     void remember(const std::filesystem::path& project);
     void forget(const std::filesystem::path& project);
+
+    /// The scale so many steps of kScales larger, as far as there are any.
+    void change_scale(int steps);
 
     /// Looks which projects are missing.
     void refresh();

@@ -65,15 +65,20 @@ fs::path bundled_cases_folder() {
     return {};
 }
 
+fs::path free_file(const fs::path& wanted) {
+    const std::string stem = wanted.stem().string(), suffix = wanted.extension().string();
+    fs::path file = wanted;
+    std::error_code error;
+    for (int number = 2; fs::exists(file, error); ++number)
+        file.replace_filename(stem + "-" + std::to_string(number) + suffix);
+    return file;
+}
+
 fs::path new_project_file(const fs::path& input, bool beside, const fs::path& otherwise) {
     const fs::path parent = (input.has_filename() ? input : input.parent_path()).parent_path();
     const fs::path near = parent.empty() ? fs::path(".") : parent;
     const fs::path folder = beside && is_writable_folder(near) ? near : otherwise;
-    const std::string stem = plain_stem(input);
-    fs::path file = folder / (stem + ".vbench");
-    for (int number = 2; fs::exists(file); ++number)
-        file = folder / (stem + "-" + std::to_string(number) + ".vbench");
-    return file;
+    return free_file(folder / (plain_stem(input) + ".vbench"));
 }
 
 }  // namespace vesselbench

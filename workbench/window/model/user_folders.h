@@ -21,6 +21,9 @@ namespace vesselbench {
 /// The folder with the bundled cases, found from the program upward; empty: none.
 [[nodiscard]] std::filesystem::path bundled_cases_folder();
 
+/// The name itself if no file has it, else the first free one of "a-2.png", "a-3.png" ...
+[[nodiscard]] std::filesystem::path free_file(const std::filesystem::path& wanted);
+
 /// Where the project of an input goes: NAME.vbench beside the input if that folder can be written
 /// (`beside`), else in `otherwise`; never an existing file (NAME-2.vbench ...).
 [[nodiscard]] std::filesystem::path new_project_file(const std::filesystem::path& input,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "workbench/window/model/readable.h"
+
 namespace vesselbench {
 
 namespace {
@@ -37,10 +39,32 @@ bool hides_section(ClipAxis axis, const Vec3& view) {
 
 void ViewChoice::choose(ColouringKind kind) {
     colouring = kind;
-    range.reset();
+    forget_range();
     if (kind != ColouringKind::Patches) last_colouring = kind;
     // Its colours are those of a section.
     if (kind == ColouringKind::TetrahedraQuality) clip.on = true;
+}
+
+void ViewChoice::draw_as(const DrawnQuantity& quantity, const std::optional<ValueRange>& range) {
+    if (drawn_ != quantity) forget_range();
+    drawn_ = quantity;
+    automatic = range;
+}
+
+std::optional<ValueRange> ViewChoice::range() const {
+    if (!has_typed_range()) return std::nullopt;
+    const auto end = [&](const std::string& text, double ValueRange::*part) {
+        if (text.empty() && automatic) return std::optional(*automatic.*part);
+        return typed_number(text);
+    };
+    const auto from = end(least, &ValueRange::least), to = end(most, &ValueRange::most);
+    if (!from || !to || !(*from < *to)) return std::nullopt;
+    return ValueRange{*from, *to};
+}
+
+void ViewChoice::forget_range() {
+    least.clear();
+    most.clear();
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/measure.h"
@@ -44,11 +45,20 @@ struct ClipChoice {
 /// What clicks in the view measure.
 enum class MeasureTool { None, Distance, Diameter };
 
-/// How the user looks at the case; forgotten when the window closes.
+/// What the drawn colours show.
+struct DrawnQuantity {
+    ColouringKind kind = ColouringKind::Patches;
+    bool compared = false;  ///< the distance from a comparison's reference, whatever the kind
+
+    bool operator==(const DrawnQuantity&) const = default;
+};
+
+/// How the user looks at the case, kept as long as the case is open.
 struct ViewChoice {
     ColouringKind colouring = ColouringKind::Patches;
     ColouringKind last_colouring = ColouringKind::Deviation;  ///< other than patches
-    std::optional<ValueRange> range;                          ///< typed; none: automatic
+    std::string least, most;              ///< typed ends of the colours' range; empty: automatic
+    std::optional<ValueRange> automatic;  ///< range of what is drawn; none: not known
     bool transparent = false;
     ClipChoice clip;
     bool flies = false;  ///< through the lumen
@@ -56,6 +66,20 @@ struct ViewChoice {
 
     /// With the automatic range.
     void choose(ColouringKind kind);
+
+    /// Once a frame: what the view draws, with its automatic range. The typed range of another
+    /// quantity is forgotten.
+    void draw_as(const DrawnQuantity& quantity, const std::optional<ValueRange>& range);
+
+    [[nodiscard]] bool has_typed_range() const { return !least.empty() || !most.empty(); }
+
+    /// The typed range; none: nothing is typed, or it makes no sense.
+    [[nodiscard]] std::optional<ValueRange> range() const;
+
+    void forget_range();
+
+private:
+    DrawnQuantity drawn_;
 };
 
 }  // namespace vesselbench

@@ -99,15 +99,10 @@ void draw_read_only(PanelContext& c, ScreenRect& place) {
 
 /// The first edit of the shown variant that no longer applies, unless its form is open.
 const LogEntry* stale_edit(const PanelContext& c) {
-    const Document& document = c.place.document;
     const auto& form = c.place.form();
-    for (const LogEntry& entry : document.snapshot()->log) {
-        const std::string& variant = entry.edit.place.variant;
-        if (entry.status != EditStatus::Stale) continue;
-        if (!variant.empty() && variant != document.variant()) continue;
-        return form && form->edit() == entry.edit.edit.id ? nullptr : &entry;
-    }
-    return nullptr;
+    const LogEntry* stale = first_stale(*c.place.document.snapshot(), c.place.document.variant());
+    const bool open = stale != nullptr && form && form->edit() == stale->edit.edit.id;
+    return open ? nullptr : stale;
 }
 
 void draw_stale(PanelContext& c, ScreenRect& place, float gap) {

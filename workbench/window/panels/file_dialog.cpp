@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/window/model/user_folders.h"
 #include "workbench/window/panels/panel_frame.h"
@@ -63,14 +64,34 @@ const char* ending_for(FileQuestion question) {
     return question == FileQuestion::Export ? ".stl" : " copy.vbench";
 }
 
-/// A name that no file of a folder has: "a.png", "a 2.png".
-std::string free_name(const fs::path& folder, const std::string& name) {
-    const fs::path file(name);
-    std::string free = name;
+/// The suffix that a name must have; empty: any.
+std::string needed_suffix(FileQuestion question) {
+    if (question == FileQuestion::SaveCopy) return ".vbench";
+    return question == FileQuestion::Picture ? ".png" : "";
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+bool is_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+/// Whether there is something, or why that cannot be found out: a name may be too long, a folder
+/// closed to the user.
+struct Presence {
+    bool exists = false;
+    std::string problem;
+};
+
+Presence presence_of(const fs::path& file) {
     std::error_code error;
-    for (int i = 2; fs::exists(folder / free, error); ++i)
-        free = file.stem().string() + " " + std::to_string(i) + file.extension().string();
-    return free;
+    const fs::file_type type = fs::status(file, error).type();
+    if (type == fs::file_type::none) return {.problem = error.message()};
+    return {.exists = type != fs::file_type::not_found};
 }
 
 std::string size_text(std::uintmax_t bytes) {
@@ -99,8 +120,11 @@ void FileDialog::begin(PanelContext& c) {
     enter(!near.empty() ? near : !listing_.folder.empty() ? listing_.folder : documents_folder());
     name_.clear();
     replaced_.clear();
+    clicked_.clear();
     if (writes())
-        name_ = free_name(listing_.folder, project.stem().string() + ending_for(question_));
+        name_ = free_file(listing_.folder / (project.stem().string() + ending_for(question_)))
+                    .filename()
+                    .string();
 }
 
 void FileDialog::draw_folder_line(PanelContext& c) {
@@ -109,43 +133,61 @@ void FileDialog::draw_folder_line(PanelContext& c) {
     ImGui::SameLine();
     if (icon_button(c.ui, "file.home", icons::kHome, "Home folder")) enter(home_folder());
     ImGui::SameLine();
-    if (text_field(c.ui, "file.folder", typed_folder_) && fs::is_directory(typed_folder_))
+    if (text_field(c.ui, "file.folder", typed_folder_) && is_folder(typed_folder_))
         enter(typed_folder_);
+    folder_entered_ = ImGui::IsItemDeactivated() && c.shown.keys.has(KeyCommand::Accept);
+    if (folder_entered_) accept_folder(c);
+}
+
+/// Enter in the field of the folder: a file that was typed there is the answer.
+void FileDialog::accept_folder(PanelContext& c) {
+    const fs::path typed = typed_folder_;
+    if (is_folder(typed)) return;
+    if (!is_file(typed)) {
+        error_ = "'" + typed.filename().string() + "' is no folder that can be read";
+        return;
+    }
+    enter(typed.parent_path());
+    name_ = typed.filename().string();
+    finish(c);
 }
 
 void FileDialog::choose(PanelContext& c, const FolderEntry& entry, bool twice) {
-    const bool browses = entry.folder && !(entry.openable_folder && !twice);
-    if (entry.folder && (browses || twice)) {
-        if (entry.openable_folder && question_ == FileQuestion::Open) {
-            name_ = entry.name;
-            return finish(c);
-        }
+    const bool answers =
+        !entry.folder || (entry.openable_folder && question_ == FileQuestion::Open);
+    if (entry.folder && (!entry.openable_folder || (twice && !answers)))
         return enter(listing_.folder / entry.name);
-    }
+    if (name_ != entry.name) error_.clear();
     name_ = entry.name;
-    error_.clear();
-    if (twice && !writes()) finish(c);
+    if (twice && answers) finish(c);
+}
+
+/// Acts on a click on the last row.
+void FileDialog::handle_click(PanelContext& c, const FolderEntry& entry, bool clicked) {
+    const fs::path file = listing_.folder / entry.name;
+    const bool same = clicked_ == file;
+    const bool twice = row_double_clicked() && same;
+    // The second click on a folder hits what the folder holds.
+    const bool strays = ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] > 1 && !same;
+    if (!twice && (!clicked || strays)) return;
+    clicked_ = file;
+    choose(c, entry, twice);
 }
 
 void FileDialog::draw_entries(PanelContext& c, float height) {
     ImGui::PushStyleColor(ImGuiCol_ChildBg, c.ui.theme.field);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     ImGui::BeginChild("entries", {0, height});
-    const FolderListing listing = listing_;  // entering a folder changes it
-    for (const FolderEntry& entry : listing.entries) {
-        const bool clicked = row(c.ui, "file.entry." + entry.name,
-                                 {.icon = entry.openable_folder ? icons::kCube
-                                          : entry.folder        ? icons::kFolder
-                                                                : icons::kFile,
-                                  .icon_colour = entry.folder ? c.ui.theme.accent : 0,
-                                  .title = entry.name,
-                                  .right = entry.folder ? "" : size_text(entry.bytes),
-                                  .selected = entry.name == name_});
-        const bool twice = row_double_clicked();
-        if (clicked || twice) choose(c, entry, twice);
-        if (listing_.folder != listing.folder) break;
-    }
-    if (listing.entries.empty()) {
+    const fs::path folder = listing_.folder;
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(listing_.entries.size()), row_height(c.ui, false));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+            if (question_ == FileQuestion::None || listing_.folder != folder)
+                break;  // it was answered
+            draw_entry(c, FolderEntry(listing_.entries[static_cast<std::size_t>(i)]));
+        }
+    if (listing_.entries.empty()) {
         ImGui::SetCursorPos({c.ui.grid(1.5F), c.ui.grid(1)});
         text(c.ui, writes() ? "No files of this type here." : "Nothing to open here.",
              c.ui.theme.muted);
@@ -153,6 +195,18 @@ void FileDialog::draw_entries(PanelContext& c, float height) {
     ImGui::EndChild();
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();
+}
+
+void FileDialog::draw_entry(PanelContext& c, const FolderEntry& entry) {
+    const bool clicked = row(c.ui, "file.entry." + entry.name,
+                             {.icon = entry.openable_folder ? icons::kCube
+                                      : entry.folder        ? icons::kFolder
+                                                            : icons::kFile,
+                              .icon_colour = entry.folder ? c.ui.theme.accent : 0,
+                              .title = entry.name,
+                              .right = entry.folder ? "" : size_text(entry.bytes),
+                              .selected = entry.name == name_});
+    handle_click(c, entry, clicked);
 }
 
 /// Another suffix for the name.
@@ -183,22 +237,37 @@ bool FileDialog::can_finish() const {
     return !name_.empty();
 }
 
+/// For error texts.
+std::string FileDialog::short_name() const {
+    constexpr std::size_t kMost = 40;  // characters
+    return name_.size() <= kMost ? name_ : name_.substr(0, kMost) + "...";
+}
+
 /// An exported file may be replaced, by asking for it twice; a project never.
 bool FileDialog::may_write(const fs::path& file) {
-    if (!fs::exists(file)) return true;
-    const bool replaceable = question_ == FileQuestion::Export && fs::is_regular_file(file);
+    const Presence presence = presence_of(file);
+    if (!presence.problem.empty()) {
+        error_ = "'" + short_name() + "' cannot be written: " + presence.problem;
+        return false;
+    }
+    if (!presence.exists) return true;
+    const bool replaceable = question_ == FileQuestion::Export && is_file(file);
     if (replaceable && replaced_ == file) return true;
-    error_ = "'" + name_ + "' exists: " +
+    error_ = "'" + short_name() + "' exists: " +
              (replaceable ? "press Export again to replace it" : "choose another name");
     replaced_ = file;
     return false;
 }
 
 void FileDialog::finish(PanelContext& c) {
-    if (question_ == FileQuestion::SaveCopy && !name_.ends_with(".vbench")) name_ += ".vbench";
+    if (!can_finish()) return;
+    if (!lower_case(name_).ends_with(needed_suffix(question_))) name_ += needed_suffix(question_);
     const fs::path file = listing_.folder / name_;
-    if (!writes() && !fs::exists(file)) {
-        error_ = "'" + name_ + "' does not exist";
+    const Presence presence = writes() ? Presence{.exists = true} : presence_of(file);
+    if (!presence.exists) {
+        error_ =
+            "'" + short_name() + "' " +
+            (presence.problem.empty() ? "does not exist" : "cannot be read: " + presence.problem);
         return;
     }
     if (writes() && !may_write(file)) return;
@@ -210,6 +279,8 @@ void FileDialog::draw_name_line(PanelContext& c) {
     const float width = c.ui.em * 8;
     const float field = ImGui::GetContentRegionAvail().x - 2 * (width + c.ui.grid(1));
     if (text_field(c.ui, "file.name", name_, {.hint = "File name", .width = field})) error_.clear();
+    const bool enters =
+        c.shown.keys.has(KeyCommand::Accept) && !ImGui::IsAnyItemActive() && !folder_entered_;
     ImGui::SameLine(0, c.ui.grid(1));
     if (button(c.ui, "file.cancel", "Cancel", {.width = width})) {
         question_ = FileQuestion::None;
@@ -218,7 +289,8 @@ void FileDialog::draw_name_line(PanelContext& c) {
     ImGui::SameLine(0, c.ui.grid(1));
     const char* label = question_ == FileQuestion::Export ? "Export" : writes() ? "Save" : "Open";
     if (button(c.ui, "file.accept", label,
-               {.primary = true, .enabled = can_finish(), .width = width}))
+               {.primary = true, .enabled = can_finish(), .width = width}) ||
+        enters)
         finish(c);
 }
 

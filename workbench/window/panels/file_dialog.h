@@ -17,20 +17,26 @@ private:
     void begin(PanelContext& context);
     void enter(const std::filesystem::path& folder);
     void draw_folder_line(PanelContext& context);
+    void accept_folder(PanelContext& context);
     void draw_entries(PanelContext& context, float height);
+    void draw_entry(PanelContext& context, const FolderEntry& entry);
+    void handle_click(PanelContext& context, const FolderEntry& entry, bool clicked);
     void draw_formats(PanelContext& context);
     void draw_name_line(PanelContext& context);
     void choose(PanelContext& context, const FolderEntry& entry, bool twice);
     void finish(PanelContext& context);
     [[nodiscard]] bool writes() const;
     [[nodiscard]] bool can_finish() const;
+    [[nodiscard]] std::string short_name() const;
     [[nodiscard]] bool may_write(const std::filesystem::path& file);
 
     FileQuestion question_ = FileQuestion::None;
     FolderListing listing_;
     std::string typed_folder_;
+    bool folder_entered_ = false;  ///< by Enter, in this frame
     std::string name_;
     std::string error_;
+    std::filesystem::path clicked_;   ///< the last entry that was clicked
     std::filesystem::path replaced_;  ///< a file that the user was warned about
 };
 

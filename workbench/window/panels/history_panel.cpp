@@ -1,6 +1,7 @@
 #include "workbench/window/panels/history_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <imgui.h>
@@ -182,6 +183,17 @@ void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, 
         c.place.document.jump(state.state);
 }
 
+/// The nodes and lines that reach into the visible part.
+void draw_graph(const Ui& ui, const HistoryTree& tree, const ImVec2& corner, float height) {
+    const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowHeight();
+    const auto first = static_cast<int>(std::floor((top - corner.y) / height));
+    const auto last = static_cast<int>(std::ceil((bottom - corner.y) / height));
+    const int count = static_cast<int>(tree.rows.size());
+    for (int i = std::max(first, 0); i < count; ++i)
+        if (i <= last || (tree.rows[i].parent_row >= 0 && tree.rows[i].parent_row <= last))
+            draw_node(ui, tree.rows, i, corner, height);
+}
+
 void scroll_to_current(int row, float height) {
     const float middle = (static_cast<float>(row) + 0.5F) * height;
     ImGui::SetScrollY(std::max(0.0F, middle - ImGui::GetWindowHeight() / 2));
@@ -196,8 +208,12 @@ void draw_history(PanelContext& c) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const Columns columns = columns_of(c.ui, tree, ImGui::GetContentRegionAvail().x);
     const int count = static_cast<int>(tree.rows.size());
-    for (int i = 0; i < count; ++i) draw_row(c, tree.rows[i], columns, height);
-    for (int i = 0; i < count; ++i) draw_node(c.ui, tree.rows, i, corner, height);
+    ImGuiListClipper clipper;
+    clipper.Begin(count, height);
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            draw_row(c, tree.rows[i], columns, height);
+    draw_graph(c.ui, tree, corner, height);
     ImGuiStorage& seen = *ImGui::GetStateStorage();
     const ImGuiID key = ImGui::GetID("seen");
     for (int i = 0; i < count; ++i)

@@ -1,6 +1,7 @@
 #include "workbench/window/panels/message_panel.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <imgui.h>
 
@@ -45,6 +46,19 @@ std::string label_of(const Message& message) {
     return message.remedy.empty() ? "" : "Go to " + readable(message.remedy);
 }
 
+constexpr float kTextLeft = 7.5F;  ///< [em]
+
+/// Room right of a message's text [pixels].
+float right_of(const Ui& ui, const Message& message) {
+    return label_of(message).empty() && !message.place ? ui.grid(2) : ui.em * 14;
+}
+
+float height_of(const Ui& ui, const Message& message) {
+    const float width = ImGui::GetWindowWidth() - right_of(ui, message) - ui.em * kTextLeft;
+    const float text = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, width).y;
+    return text + 2 * ImGui::GetStyle().FramePadding.y;
+}
+
 void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
     const std::string label = label_of(message);
     const float button_width = label.empty() ? 0 : ImGui::CalcTextSize(label.c_str()).x;
@@ -69,9 +83,8 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
     text(ui, message.time, ui.theme.muted);
     ImGui::SameLine(ui.em * 5.5F);
     text(ui, icon_of(message.kind), colour_of(ui.theme, message.kind));
-    ImGui::SameLine(ui.em * 7.5F);
-    const float room = label_of(message).empty() && !message.place ? ui.grid(2) : ui.em * 14;
-    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - room);
+    ImGui::SameLine(ui.em * kTextLeft);
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - right_of(ui, message));
     text(ui, message.text, ui.theme.text);
     ImGui::PopTextWrapPos();
     draw_remedy(c, message, index);
@@ -81,8 +94,18 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
 
 void draw_messages(PanelContext& c) {
     const auto& all = c.place.document.messages();
+    int& seen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("seen"), 0);
+    if (std::exchange(seen, c.place.document.message_changes()) != seen) ImGui::SetScrollY(0);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.ui.grid(1), 0});
-    for (std::size_t i = all.size(); i-- > 0;) draw_message(c, all[i], i);
+    float y = ImGui::GetCursorPosY();
+    for (std::size_t i = all.size(); i-- > 0;) {
+        const float height = height_of(c.ui, all[i]);
+        ImGui::SetCursorPosY(y);
+        if (ImGui::IsRectVisible({ImGui::GetWindowWidth(), height})) draw_message(c, all[i], i);
+        y += height;
+    }
+    ImGui::SetCursorPosY(y);
+    ImGui::Dummy({0, 0});
     if (all.empty()) text(c.ui, "No messages yet.", c.ui.theme.muted);
     ImGui::PopStyleVar();
 }

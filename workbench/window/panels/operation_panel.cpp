@@ -92,9 +92,8 @@ std::string help_of(const Parameter& parameter) {
 const LogEntry* stale_edit(const PanelContext& c) {
     const auto& form = c.place.form();
     if (!form || !form->edit()) return nullptr;
-    for (const LogEntry& entry : c.place.document.snapshot()->log)
-        if (entry.edit.edit.id == *form->edit() && entry.status == EditStatus::Stale) return &entry;
-    return nullptr;
+    const LogEntry* entry = find_entry(*c.place.document.snapshot(), *form->edit());
+    return entry != nullptr && entry->status == EditStatus::Stale ? entry : nullptr;
 }
 
 /// Why the operation cannot run, or the help of a parameter: always in the same place.
@@ -163,15 +162,10 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
     }
 }
 
-const EditRecord* record_of(const PanelContext& c, EditId edit) {
-    for (const LogEntry& entry : c.place.document.snapshot()->log)
-        if (entry.edit.edit.id == edit) return &entry.edit;
-    return nullptr;
-}
-
 void draw_note(PanelContext& c, EditId edit) {
-    const EditRecord* record = record_of(c, edit);
-    if (record == nullptr) return;
+    const LogEntry* entry = find_entry(*c.place.document.snapshot(), edit);
+    if (entry == nullptr) return;
+    const EditRecord* record = &entry->edit;
     const bool noted = !record->note.empty();
     if (button(c.ui, "operation.note", noted ? "Note" : "Add a note",
                {.icon = icons::kNote,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "workbench/case/edit_record.h"
+#include "workbench/window/model/key_table.h"
 #include "workbench/window/model/workplace.h"
 #include "workbench/window/view/thumbnails.h"
 #include "workbench/window/widgets/ui.h"
@@ -28,8 +29,8 @@ struct Shown {
     std::string purpose = kDefaultVariant;  ///< answer so far
     std::optional<NoteInProgress> note;     ///< the dialog for it
     bool view = false;                      ///< the view's options
-    std::string least, most;                ///< typed ends of the colours' range
     bool compact = false;                   ///< little room: tool buttons without labels
+    PressedKeys keys;                       ///< of this frame
 };
 
 /// What panels draw from, and where their requests go.

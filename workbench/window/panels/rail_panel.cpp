@@ -34,12 +34,6 @@ StateLook look_of(const Theme& theme, StepState state) {
     return {"", theme.muted, ""};
 }
 
-StepState state_of(const RailEdit& edit) {
-    if (edit.status == EditStatus::Stale) return StepState::Stale;
-    if (edit.status == EditStatus::Pending) return StepState::Pending;
-    return edit.warnings.empty() ? StepState::Done : StepState::Warnings;
-}
-
 /// The step's number in a circle, or the icon of its state.
 void draw_badge(const Ui& ui, const RailStep& step, ImVec2 middle) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -80,17 +74,25 @@ std::string help_of(const RailEdit& edit) {
     return help + "\nClick to change its arguments.";
 }
 
+/// The second line of an edit.
+const std::string& detail_of(const RailEdit& edit) {
+    if (!edit.reason.empty()) return edit.reason;
+    return edit.change.empty() ? edit.arguments : edit.change;
+}
+
 void draw_edit(PanelContext& c, const RailEdit& edit) {
+    const std::string& detail = detail_of(edit);
+    const float height = row_height(c.ui, !detail.empty());
+    if (!ImGui::IsRectVisible({ImGui::GetWindowWidth(), height})) return ImGui::Dummy({1, height});
     const auto& form = c.place.form();
     const StepState state = state_of(edit);
     const StateLook look = look_of(c.ui.theme, state);
-    const std::string detail = !edit.reason.empty() ? edit.reason : edit.change;
     const std::string name = "rail.edit." + std::to_string(edit.id);
     if (row(c.ui, name,
             {.icon = state == StepState::Done ? "" : look.icon,
              .icon_colour = look.colour,
              .title = readable(edit.operation),
-             .detail = detail.empty() ? edit.arguments : detail,
+             .detail = detail,
              .right = edit.revision > 1 ? "rev. " + std::to_string(edit.revision) : "",
              .selected = (form && form->edit() == edit.id) || c.place.pointed_edit() == edit.id,
              .indent = c.ui.em * 1.9F,

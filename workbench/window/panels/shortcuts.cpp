@@ -2,15 +2,54 @@
 
 #include <imgui.h>
 
-#include "workbench/window/keys.h"
+#include "workbench/window/model/key_table.h"
 #include "workbench/window/panels/view_panel.h"
 
 namespace vesselbench {
 
 namespace {
 
-bool pressed(int key) {
-    return ImGui::IsKeyPressed(key, false);
+bool holds(Modifiers modifiers) {
+    const bool control = ImGui::GetIO().KeyCtrl, shift = ImGui::GetIO().KeyShift;
+    switch (modifiers) {
+        case Modifiers::None:
+            return !control && !shift;
+        case Modifiers::Control:
+            return control && !shift;
+        case Modifiers::Shift:
+            return !control && shift;
+        case Modifiers::ControlShift:
+            return control && shift;
+        case Modifiers::Any:
+            break;
+    }
+    return true;
+}
+
+bool is_pressed(const KeyBinding& binding) {
+    if (!holds(binding.modifiers)) return false;
+    if (binding.press == KeyPress::Held) return ImGui::IsKeyDown(binding.key);
+    return ImGui::IsKeyPressed(binding.key, binding.press == KeyPress::Repeats);
+}
+
+bool has_dialog(const PanelContext& c) {
+    return c.shown.help || c.shown.prepare || c.shown.note ||
+           c.place.question() != FileQuestion::None;
+}
+
+/// Dialogs and text fields keep the keys of the window from acting behind them.
+PressedKeys pressed_keys(const PanelContext& c) {
+    const KeyReach least = has_dialog(c)                  ? KeyReach::Everywhere
+                           : ImGui::GetIO().WantTextInput ? KeyReach::TextFields
+                                                          : KeyReach::Window;
+    const KeyUse other = c.place.view.flies ? KeyUse::Outside : KeyUse::Flight;
+    PressedKeys keys;
+    for (const KeyRow& row : key_table()) {
+        if (row.reach < least) continue;
+        for (const KeyBinding& binding : row.bindings)
+            if (binding.use != other && is_pressed(binding)) keys.add(binding.command);
+    }
+    return keys;
 }
 
 void handle_escape(PanelContext& c) {
@@ -19,6 +58,8 @@ void handle_escape(PanelContext& c) {
         c.shown.note.reset();
     } else if (c.place.question() != FileQuestion::None) {
         c.place.ask(FileQuestion::None);
+    } else if (ImGui::GetIO().WantTextInput) {
+        return;  // the field takes back its old text
     } else if (c.place.document.is_painting()) {
         c.place.document.drop_stroke();
     } else if (c.place.before_drag()) {
@@ -31,52 +72,57 @@ void handle_escape(PanelContext& c) {
         return;
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
-    } else if (c.place.comparison() && !ImGui::GetIO().WantTextInput) {
+    } else if (c.place.comparison()) {
         c.place.stop_comparing();
-    } else if (!ImGui::GetIO().WantTextInput) {
+    } else {
         c.place.leave_form();
     }
 }
 
 void handle_history(PanelContext& c) {
     if (!c.place.document.can(RequestKind::History)) return;
-    const bool redo = ImGui::GetIO().KeyShift;
     const HistoryTree& history = c.place.history();
-    if (pressed(keys::letter('Z')) && !redo && history.can_undo) c.place.document.undo();
-    if (((pressed(keys::letter('Z')) && redo) || pressed(keys::letter('Y'))) && history.can_redo)
-        c.place.document.redo();
+    if (c.shown.keys.has(KeyCommand::Undo) && history.can_undo) c.place.document.undo();
+    if (c.shown.keys.has(KeyCommand::Redo) && history.can_redo) c.place.document.redo();
 }
 
-void handle_control(PanelContext& c) {
+void handle_files(PanelContext& c) {
+    const PressedKeys& keys = c.shown.keys;
     const bool writes = c.place.document.can(RequestKind::Output);
-    if (!ImGui::GetIO().WantTextInput) handle_history(c);
-    if (pressed(keys::letter('O'))) c.place.ask(FileQuestion::Open);
-    if (pressed(keys::letter('S')) && writes) c.place.ask(FileQuestion::SaveCopy);
-    if (pressed(keys::letter('E')) && writes) c.place.ask(FileQuestion::Export);
-    if (pressed(keys::letter('P'))) c.place.preview();
-    if (pressed(keys::kEnter)) c.place.apply();
+    if (keys.has(KeyCommand::Open)) c.place.ask(FileQuestion::Open);
+    if (keys.has(KeyCommand::SaveCopy) && writes) c.place.ask(FileQuestion::SaveCopy);
+    if (keys.has(KeyCommand::Export) && writes) c.place.ask(FileQuestion::Export);
 }
 
 /// The image: its slices, or its planes in the 3D view.
 void handle_image(PanelContext& c) {
     ImageSlices& slices = c.place.slices();
-    if (!slices.has_image() || !pressed(keys::letter('I'))) return;
-    if (ImGui::GetIO().KeyShift)
-        slices.show_in_space(!slices.any_in_space());
-    else
-        slices.show_row(!slices.in_row());
+    if (!slices.has_image()) return;
+    if (c.shown.keys.has(KeyCommand::SlicePlanes)) slices.show_in_space(!slices.any_in_space());
+    if (c.shown.keys.has(KeyCommand::SliceRow)) slices.show_row(!slices.in_row());
+}
+
+void handle_text_size(PanelContext& c) {
+    Settings& settings = c.place.settings;
+    const double before = settings.scale;
+    if (c.shown.keys.has(KeyCommand::LargerText)) settings.change_scale(1);
+    if (c.shown.keys.has(KeyCommand::SmallerText)) settings.change_scale(-1);
+    if (c.shown.keys.has(KeyCommand::UsualText)) settings.scale = 1.0;
+    if (settings.scale != before) settings.save();
 }
 
 }  // namespace
 
 void handle_shortcuts(PanelContext& c) {
-    if (pressed(keys::kF1)) c.shown.help = !c.shown.help;
-    if (pressed(keys::kEscape)) handle_escape(c);
-    const bool dialog =
-        c.shown.help || c.shown.prepare || c.shown.note || c.place.question() != FileQuestion::None;
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl && !dialog) handle_control(c);
-    if (io.KeyCtrl || dialog || io.WantTextInput) return;
+    c.shown.keys = pressed_keys(c);
+    const PressedKeys keys = c.shown.keys;
+    if (keys.has(KeyCommand::Help)) c.shown.help = !c.shown.help;
+    if (keys.has(KeyCommand::Cancel)) handle_escape(c);
+    handle_text_size(c);
+    handle_history(c);
+    handle_files(c);
+    if (keys.has(KeyCommand::Preview)) c.place.preview();
+    if (keys.has(KeyCommand::Apply)) c.place.apply();
     handle_image(c);
     handle_view_keys(c);
 }

@@ -4,7 +4,7 @@
 
 namespace vesselbench {
 
-/// Does what the keys pressed in this frame ask for; keys of the view are the viewport's.
+/// Finds what the keys of this frame ask for (Shown::keys), and does what is not the view's.
 void handle_shortcuts(PanelContext& context);
 
 }  // namespace vesselbench

@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include "geometry/kernel/wording.h"
+#include "workbench/case/purposes.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -77,7 +79,7 @@ void draw_slices_toggle(PanelContext& c) {
 }
 
 std::vector<std::string> variants_of(const Document& document) {
-    std::vector<std::string> variants = {"cfd", "rp"};
+    std::vector<std::string> variants = purpose_names();
     if (!document.is_open()) return variants;
     for (const std::string& variant : document.snapshot()->history->variants())
         if (std::ranges::count(variants, variant) == 0) variants.push_back(variant);
@@ -86,15 +88,25 @@ std::vector<std::string> variants_of(const Document& document) {
     return variants;
 }
 
+std::string variant_help() {
+    std::string help = "Steps 6 to 8 belong to a variant:";
+    for (const Purpose& purpose : purposes()) help += "\n" + purpose.name + ": " + purpose.title;
+    return help;
+}
+
+constexpr float kVariant = 7.5F;  ///< [em]
+
 void draw_variant(PanelContext& c) {
     const Ui& ui = c.ui;
-    ImGui::AlignTextToFramePadding();
-    text(ui, "Variant", ui.theme.muted);
-    ImGui::SameLine();
+    if (!c.shown.compact) {
+        ImGui::AlignTextToFramePadding();
+        text(ui, "Variant", ui.theme.muted);
+        ImGui::SameLine();
+    }
     std::string variant = c.place.document.variant();
-    if (choice(c.ui, "tool.variant", variants_of(c.place.document), variant, ui.em * 7))
+    if (choice(c.ui, "tool.variant", variants_of(c.place.document), variant, ui.em * kVariant))
         c.place.document.show_variant(variant);
-    help_on_hover(ui, "Steps 6 to 8 belong to a variant: cfd for flow simulation, rp for printing");
+    help_on_hover(ui, variant_help());
 }
 
 void switch_theme(PanelContext& c) {
@@ -102,16 +114,47 @@ void switch_theme(PanelContext& c) {
     c.place.settings.save();
 }
 
+std::string percent(double scale) {
+    return formatted(100.0 * scale, "%.0f %%");
+}
+
+/// A list of sizes under the last button, while it is open.
+void draw_text_sizes(PanelContext& c) {
+    Settings& settings = c.place.settings;
+    const ImVec2 corner{ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y};
+    ImGui::SetNextWindowPos(corner);
+    if (!ImGui::BeginPopup("text sizes")) return;
+    for (const double scale : Settings::kScales) {
+        if (ImGui::Selectable(percent(scale).c_str(), scale == settings.scale)) {
+            settings.scale = scale;
+            settings.save();
+        }
+        c.ui.item("tool.text_size=" + percent(scale));
+    }
+    ImGui::EndPopup();
+}
+
+void draw_text_size(PanelContext& c) {
+    if (icon_button(c.ui, "tool.text_size", icons::kTextSize,
+                    "Text size: " + percent(c.place.settings.scale) +
+                        ", as far as the window has room.  Ctrl+Plus, Ctrl+Minus, Ctrl+0"))
+        ImGui::OpenPopup("text sizes");
+    draw_text_sizes(c);
+}
+
 void draw_right_end(PanelContext& c, const ScreenRect& rect) {
     const Ui& ui = c.ui;
     const float frame = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const bool open = c.place.document.is_open();
-    const float variant = open ? ui.em * 7 + gap * 3 + ImGui::CalcTextSize("Variant").x : 0;
-    ImGui::SameLine(rect.width - ui.grid(1) - 2 * frame - gap - variant);
+    const float word = c.shown.compact ? 0 : ImGui::CalcTextSize("Variant").x + gap;
+    const float variant = open ? ui.em * kVariant + gap * 2 + word : 0;
+    ImGui::SameLine(rect.width - ui.grid(1) - 3 * frame - 2 * gap - variant);
     if (open) {
         draw_variant(c);
         ImGui::SameLine(0, gap * 2);
     }
+    draw_text_size(c);
+    ImGui::SameLine();
     const bool dark = c.place.settings.dark;
     if (icon_button(c.ui, "tool.theme", dark ? icons::kSun : icons::kMoon,
                     dark ? "Light theme" : "Dark theme"))

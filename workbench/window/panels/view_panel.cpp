@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/model/key_table.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -20,56 +19,17 @@ namespace {
 struct LayerToggle {
     const char* name;
     const char* label;
-    char key;  ///< 0: none
+    KeyCommand key;
     bool ShownLayers::*layer;
 };
 
 constexpr std::array<LayerToggle, 6> kLayers = {
-    {{"edges", "Triangle edges", 0, &ShownLayers::edges},
-     {"flat", "Flat shading", 0, &ShownLayers::flat},
-     {"source", "Source as wireframe", 'W', &ShownLayers::source},
-     {"centerlines", "Centerlines with radii", 'L', &ShownLayers::centerlines},
-     {"names", "Opening names", 'N', &ShownLayers::names},
-     {"anchors", "Edit locations", 'A', &ShownLayers::anchors}}};
-
-bool pressed(int key) {
-    return ImGui::IsKeyPressed(key, false);
-}
-
-/// The automatic range of the chosen colouring, as far as it is known.
-std::optional<ValueRange> automatic_range(const PanelContext& c) {
-    if (const auto& colours = c.place.view_data().colours()) return colours->range;
-    const auto& deviation = c.place.document.deviation();
-    if (c.place.view.colouring == ColouringKind::Deviation && deviation)
-        return ValueRange{-deviation->full, deviation->full};
-    return std::nullopt;
-}
-
-std::optional<double> number_in(const std::string& text) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
-/// The range that the fields say; none: automatic, as is an empty field.
-std::optional<ValueRange> typed_range(const PanelContext& c) {
-    const auto automatic = automatic_range(c);
-    const auto end = [&](const std::string& text, bool least) {
-        if (!text.empty() || !automatic) return number_in(text);
-        return std::optional(least ? automatic->least : automatic->most);
-    };
-    if (c.shown.least.empty() && c.shown.most.empty()) return std::nullopt;
-    const auto least = end(c.shown.least, true), most = end(c.shown.most, false);
-    if (!least || !most || !(*least < *most)) return std::nullopt;
-    return ValueRange{*least, *most};
-}
-
-void choose_colours(PanelContext& c, ColouringKind kind) {
-    c.place.view.choose(kind);
-    c.shown.least.clear();
-    c.shown.most.clear();
-}
+    {{"edges", "Triangle edges", KeyCommand::None, &ShownLayers::edges},
+     {"flat", "Flat shading", KeyCommand::None, &ShownLayers::flat},
+     {"source", "Source as wireframe", KeyCommand::Source, &ShownLayers::source},
+     {"centerlines", "Centerlines with radii", KeyCommand::Centerlines, &ShownLayers::centerlines},
+     {"names", "Opening names", KeyCommand::OpeningNames, &ShownLayers::names},
+     {"anchors", "Edit locations", KeyCommand::EditLocations, &ShownLayers::anchors}}};
 
 void draw_colour_choice(PanelContext& c) {
     std::vector<std::string> labels;
@@ -77,29 +37,26 @@ void draw_colour_choice(PanelContext& c) {
     const ColouringInfo& now = colouring_info(c.place.view.colouring);
     std::string chosen = now.label;
     if (choice(c.ui, "view.colours", labels, chosen))
-        choose_colours(c, std::ranges::find(colourings(), chosen, &ColouringInfo::label)->kind);
+        c.place.view.choose(std::ranges::find(colourings(), chosen, &ColouringInfo::label)->kind);
     help_on_hover(c.ui, now.help);
 }
 
 void draw_range(PanelContext& c) {
-    const auto automatic = automatic_range(c);
+    ViewChoice& view = c.place.view;
+    const auto& automatic = view.automatic;
     const float gap = c.ui.grid(0.75F), side = ImGui::GetFrameHeight();
     const float width = (ImGui::GetContentRegionAvail().x - side - 2 * gap) / 2;
-    const bool empty = c.shown.least.empty() && c.shown.most.empty();
-    const bool wrong = !empty && automatic && !typed_range(c);
+    const bool wrong = view.has_typed_range() && automatic && !view.range();
     const auto field = [&](const char* name, std::string& words, double value) {
         text_field(c.ui, name, words,
                    {.hint = automatic ? formatted(value) : "", .wrong = wrong, .width = width});
         ImGui::SameLine(0, gap);
     };
-    field("view.least", c.shown.least, automatic ? automatic->least : 0.0);
-    field("view.most", c.shown.most, automatic ? automatic->most : 0.0);
+    field("view.least", view.least, automatic ? automatic->least : 0.0);
+    field("view.most", view.most, automatic ? automatic->most : 0.0);
     if (icon_button(c.ui, "view.automatic", icons::kRefresh,
-                    "Automatic range: from the 2nd to the 98th percentile", !empty)) {
-        c.shown.least.clear();
-        c.shown.most.clear();
-    }
-    c.place.view.range = typed_range(c);
+                    "Automatic range: from the 2nd to the 98th percentile", view.has_typed_range()))
+        view.forget_range();
 }
 
 /// What is the matter with the colours, or what they show.
@@ -114,7 +71,7 @@ void draw_colour_remark(PanelContext& c) {
         wrapped(c.ui, "Computing", c.ui.theme.muted);
     else if (!data.colours_problem().empty())
         wrapped(c.ui, readable_sentence(data.colours_problem()), c.ui.theme.warning);
-    else if (now.kind == ColouringKind::Deviation && !automatic_range(c) &&
+    else if (now.kind == ColouringKind::Deviation && !c.place.view.automatic &&
              !c.place.document.busy())
         wrapped(c.ui, "The model is the source: no deviation", c.ui.theme.muted);
     else
@@ -129,7 +86,8 @@ void draw_colours(PanelContext& c) {
     draw_colour_remark(c);
 }
 
-void draw_key(const Ui& ui, const std::string& key, float row) {
+void draw_key(const Ui& ui, KeyCommand command, float row) {
+    const std::string key = keys_of(command);
     const float wide = ImGui::CalcTextSize(key.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - wide);
     ImGui::SetCursorPosY(row + ImGui::GetStyle().FramePadding.y - ui.grid(0.4F));
@@ -138,7 +96,7 @@ void draw_key(const Ui& ui, const std::string& key, float row) {
 
 /// A row with a mode of the view that is on or off.
 bool draw_mode(PanelContext& c, const std::string& name, const std::string& label, bool on,
-               const std::string& key) {
+               KeyCommand key) {
     const float row = ImGui::GetCursorPosY();
     const bool switched = checkbox(c.ui, name, label, on);
     draw_key(c.ui, key, row);
@@ -153,11 +111,15 @@ void draw_modes(PanelContext& c) {
     ViewChoice& view = c.place.view;
     group_heading(c.ui, "View modes and measuring");
     space(c.ui, 0.5F);
-    if (draw_mode(c, "view.clip", "Clip plane", view.clip.on, "C")) view.clip.on = !view.clip.on;
-    if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, "E")) view.flies = !view.flies;
-    if (draw_mode(c, "view.distance", "Distance", view.tool == MeasureTool::Distance, "M"))
+    if (draw_mode(c, "view.clip", "Clip plane", view.clip.on, KeyCommand::ClipPlane))
+        view.clip.on = !view.clip.on;
+    if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, KeyCommand::Flight))
+        view.flies = !view.flies;
+    if (draw_mode(c, "view.distance", "Distance", view.tool == MeasureTool::Distance,
+                  KeyCommand::Distance))
         toggle(view.tool, MeasureTool::Distance);
-    if (draw_mode(c, "view.diameter", "Diameter", view.tool == MeasureTool::Diameter, "D"))
+    if (draw_mode(c, "view.diameter", "Diameter", view.tool == MeasureTool::Diameter,
+                  KeyCommand::Diameter))
         toggle(view.tool, MeasureTool::Diameter);
     space(c.ui, 1);
     if (button(c.ui, "view.picture", "Save picture",
@@ -175,7 +137,7 @@ void draw_layers(PanelContext& c) {
         if (checkbox(c.ui, std::string("view.show.") + toggle.name, toggle.label,
                      c.place.settings.layers.*toggle.layer))
             c.place.settings.save();
-        if (toggle.key != 0) draw_key(c.ui, std::string(1, toggle.key), row);
+        if (toggle.key != KeyCommand::None) draw_key(c.ui, toggle.key, row);
     }
 }
 
@@ -203,18 +165,19 @@ void draw_view_panel(PanelContext& c, const ScreenRect& view) {
 
 void handle_view_keys(PanelContext& c) {
     if (!c.place.document.is_open()) return;
-    if (pressed(keys::letter('V'))) c.shown.view = !c.shown.view;
+    const PressedKeys& keys = c.shown.keys;
+    if (keys.has(KeyCommand::ViewOptions)) c.shown.view = !c.shown.view;
     for (const LayerToggle& toggle : kLayers) {
-        if (toggle.key == 0 || !pressed(keys::letter(toggle.key))) continue;
+        if (!keys.has(toggle.key)) continue;
         c.place.settings.layers.*toggle.layer = !(c.place.settings.layers.*toggle.layer);
         c.place.settings.save();
     }
     ViewChoice& view = c.place.view;
-    if (pressed(keys::letter('C'))) view.clip.on = !view.clip.on;
-    if (pressed(keys::letter('E'))) view.flies = !view.flies;
-    if (pressed(keys::letter('M'))) toggle(view.tool, MeasureTool::Distance);
-    if (pressed(keys::letter('D'))) toggle(view.tool, MeasureTool::Diameter);
-    if (pressed(keys::kF12)) c.place.ask(FileQuestion::Picture);
+    if (keys.has(KeyCommand::ClipPlane)) view.clip.on = !view.clip.on;
+    if (keys.has(KeyCommand::Flight)) view.flies = !view.flies;
+    if (keys.has(KeyCommand::Distance)) toggle(view.tool, MeasureTool::Distance);
+    if (keys.has(KeyCommand::Diameter)) toggle(view.tool, MeasureTool::Diameter);
+    if (keys.has(KeyCommand::Picture)) c.place.ask(FileQuestion::Picture);
 }
 
 bool leave_view_mode(PanelContext& c) {

@@ -1,13 +1,14 @@
 #include "workbench/window/view/brush_pointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/keys.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/view/model_drawing.h"
 
@@ -19,6 +20,12 @@ constexpr double kFirstRadius = 0.1;      ///< by half the view's height
 constexpr float kSizingReach = 150.0F;    ///< a drag by this changes the radius by e [pixels]
 constexpr double kStrengthReach = 400.0;  ///< or the strength by 1 [pixels]
 constexpr std::size_t kCircle = 72;       ///< segments
+
+constexpr std::array<std::pair<KeyCommand, BrushKey>, 4> kBrushKeys = {
+    {{KeyCommand::SmallerBrush, BrushKey::Smaller},
+     {KeyCommand::LargerBrush, BrushKey::Larger},
+     {KeyCommand::WeakerBrush, BrushKey::Weaker},
+     {KeyCommand::StrongerBrush, BrushKey::Stronger}}};
 
 Eigen::Vector2f mouse_pixel() {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -173,20 +180,15 @@ void BrushPointer::end_stroke(PanelContext& c) {
 // --- radius and strength
 
 void BrushPointer::handle_keys(PanelContext& c, bool over) {
-    if (ImGui::GetIO().WantTextInput) return;
     if (over || sized_) handle_sizing(c);
     if (!over) return;
-    const bool shift = ImGui::GetIO().KeyShift;
-    using enum BrushKey;
-    if (ImGui::IsKeyPressed(keys::kLeftBracket))
-        c.place.set_tip(after_key(c.place.tip(), shift ? Weaker : Smaller));
-    if (ImGui::IsKeyPressed(keys::kRightBracket))
-        c.place.set_tip(after_key(c.place.tip(), shift ? Stronger : Larger));
+    for (const auto& [command, key] : kBrushKeys)
+        if (c.shown.keys.has(command)) c.place.set_tip(after_key(c.place.tip(), key));
 }
 
 /// While F is held, the mouse changes the radius, with Shift the strength.
 void BrushPointer::handle_sizing(PanelContext& c) {
-    if (!ImGui::IsKeyDown(keys::letter('F')) || holds_left()) return sized_.reset();
+    if (!c.shown.keys.has(KeyCommand::SizeBrush) || holds_left()) return sized_.reset();
     if (!sized_) {
         sized_ = c.place.tip();
         sized_from_ = mouse_pixel().x();

@@ -109,8 +109,8 @@ void ClipSection::update_cells(const PanelContext& c) {
         static_cast<void>(search_.update());
         return;
     }
-    if (range_ != c.place.view.range.value_or(colours->range)) ++version_;
-    range_ = c.place.view.range.value_or(colours->range);
+    if (range_ != c.place.view.range().value_or(colours->range)) ++version_;
+    range_ = c.place.view.range().value_or(colours->range);
     if (search_.update()) take_cells();
     const Asked now{colours, plane_->point, plane_->normal};
     if (now == asked_ || search_.pending()) return;  // a dragged plane shows what is ready

@@ -4,7 +4,6 @@
 
 #include <imgui.h>
 
-#include "workbench/window/keys.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/widgets/controls.h"
 
@@ -46,8 +45,7 @@ void draw_label(const Ui& ui, const ScreenRect& part, const std::string& kind,
 void ComparisonView::update(PanelContext& c) {
     std::optional<Comparison>& comparison = c.place.comparison();
     if (!comparison) return forget();
-    if (!ImGui::GetIO().WantTextInput && mode_ == CompareMode::Blink &&
-        ImGui::IsKeyPressed(keys::kSpace, false))
+    if (mode_ == CompareMode::Blink && c.shown.keys.has(KeyCommand::SwitchComparison))
         comparison->switch_by_hand();
     comparison->blink(ImGui::GetTime());
     take(c, *comparison);

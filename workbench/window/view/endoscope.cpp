@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/keys.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/slider.h"
@@ -83,11 +82,11 @@ void Endoscope::toggle_play() {
     if (plays_ && path() != nullptr && abscissa_ >= path()->length()) abscissa_ = 0.0;
 }
 
-void Endoscope::handle_keys() {
-    if (ImGui::IsKeyPressed(keys::kSpace, false)) toggle_play();
-    if (ImGui::IsKeyPressed(keys::kUp)) advance(kKeyStep);
-    if (ImGui::IsKeyPressed(keys::kDown)) advance(-kKeyStep);
-    if (ImGui::IsKeyPressed(keys::kHome, false)) look_ahead();
+void Endoscope::handle_keys(const PressedKeys& keys) {
+    if (keys.has(KeyCommand::FlyOrStop)) toggle_play();
+    if (keys.has(KeyCommand::FlyForward)) advance(kKeyStep);
+    if (keys.has(KeyCommand::FlyBack)) advance(-kKeyStep);
+    if (keys.has(KeyCommand::LookAhead)) look_ahead();
 }
 
 void Endoscope::draw_destination(PanelContext& c, float width) {

@@ -34,8 +34,8 @@ public:
     /// Moves by so many local radii.
     void advance(double radii);
 
-    /// Keys, while the view is flown through and no text is typed.
-    void handle_keys();
+    /// Keys of the flight.
+    void handle_keys(const PressedKeys& keys);
 
     void draw_strip(PanelContext& context, ViewStrips& strips);
 

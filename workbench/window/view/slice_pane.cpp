@@ -6,7 +6,6 @@
 
 #include <imgui.h>
 
-#include "workbench/window/keys.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/screen_places.h"
@@ -92,6 +91,7 @@ void SlicePane::place_camera(const ImageSlices& slices) {
 void SlicePane::handle_wheel(PanelContext& c) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.MouseWheel == 0) return;
+    take_keyboard();
     if (io.KeyCtrl) {
         const ImVec2 mouse = io.MousePos;
         const Eigen::Vector2d at(2.0 * (mouse.x - rect_.x) / rect_.width - 1.0,
@@ -154,7 +154,7 @@ void SlicePane::handle_mouse(PanelContext& c) {
     if (over && released) handle_click(c);
     if (!over) return;
     handle_wheel(c);
-    if (!io.WantTextInput && ImGui::IsKeyPressed(keys::kHome, false)) fits_ = true;
+    if (c.shown.keys.has(KeyCommand::FrameSlice)) fits_ = true;
     if (c.place.armed_target()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
 }
 

@@ -1,11 +1,12 @@
 #include "workbench/window/view/slice_row.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/model/readable.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr float kShare = 0.52F;  ///< of the view's height
 constexpr float kField = 4.6F;   ///< width of a number [em]
+constexpr float kWide = 36.0F;   ///< a narrower row has no words before its fields [em]
 
 std::string place_words(const Vec3& point) {
     std::string words;
@@ -26,17 +28,25 @@ std::string place_words(const Vec3& point) {
     return words + " mm";
 }
 
-/// "L 1.0, P 2.0, S 3.0 mm: 103, label 2"
-std::string pointed_words(const ImageSlices& slices, const Vec3& point) {
+/// "103, label 2"
+std::string value_words(const ImageSlices& slices, const Vec3& point) {
     const auto value = slices.value_at(point);
     if (!value) return "";
     const auto label = slices.label_at(point);
-    std::string words = place_words(point) + ":  ";
+    std::string words;
     if (!slices.shows_labels()) words += formatted(*value, "%.5g");
     if (slices.has_mask() && label) words += ", ";
     if (label) words += "label " + std::to_string(*label);
     if (slices.shows_labels() && !label) words += "no label";
     return words;
+}
+
+/// The name of a field, for which there may be no room.
+void label(const PanelContext& c, const std::string& words, bool narrow) {
+    if (narrow) return;
+    ImGui::AlignTextToFramePadding();
+    text(c.ui, words, c.ui.theme.muted);
+    ImGui::SameLine();
 }
 
 void toggle(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
@@ -56,30 +66,26 @@ std::optional<double> SliceRow::edit(PanelContext& c, const std::string& name, T
     if (!number.typing) number.text = formatted(value, "%.4g");
     const bool changed = text_field(c.ui, name, number.text, {.width = c.ui.em * kField});
     number.typing = ImGui::IsItemActive();
-    if (!changed) return std::nullopt;
-    char* end = nullptr;
-    const double typed = std::strtod(number.text.c_str(), &end);
-    const bool whole = end != number.text.c_str() && *end == '\0';
-    return whole ? std::optional(typed) : std::nullopt;
+    return changed ? typed_number(number.text) : std::nullopt;
 }
 
-void SliceRow::draw_grey(PanelContext& c) {
+void SliceRow::draw_grey(PanelContext& c, bool narrow) {
     ImageSlices& slices = c.place.slices();
     const GreyWindow grey = slices.grey();
-    ImGui::AlignTextToFramePadding();
-    text(c.ui, "Window", c.ui.theme.muted);
-    help_on_hover(c.ui, "Values from black to white; drag with the right button in a slice");
-    ImGui::SameLine();
+    label(c, "Window", narrow);
     if (const auto window = edit(c, "slices.window", window_, grey.window))
         slices.set_grey({*window, grey.level});
+    help_on_hover(c.ui,
+                  "Window: values from black to white. Drag with the right button in a slice");
     ImGui::SameLine();
-    text(c.ui, "Level", c.ui.theme.muted);
-    help_on_hover(c.ui, "The value in the middle of the window");
-    ImGui::SameLine();
+    label(c, "Level", narrow);
     if (const auto level = edit(c, "slices.level", level_, grey.level))
         slices.set_grey({grey.window, *level});
+    help_on_hover(c.ui, "Level: the value in the middle of the window");
     ImGui::SameLine();
-    if (button(c.ui, "slices.auto", "Auto", {.help = "From the image's values"}))
+    const std::string help = "Window and level from the image's values";
+    if (narrow ? icon_button(c.ui, "slices.auto", icons::kRefresh, help)
+               : button(c.ui, "slices.auto", "Auto", {.help = help}))
         slices.reset_grey();
 }
 
@@ -92,19 +98,23 @@ void SliceRow::draw_toggles(PanelContext& c) const {
     toggle(c, "slices.mask", icons::kPalette, "The mask in colour", slices.mask_shown);
 }
 
-/// The place under the cursor, right-aligned.
+/// The place and the value under the cursor, right-aligned; the value alone, or nothing, where
+/// there is no room.
 void SliceRow::draw_pointed(PanelContext& c, float right) const {
-    std::string words;
-    for (const SlicePane& pane : panes_)
-        if (pane.pointed()) words = pointed_words(c.place.slices(), *pane.pointed());
-    if (words.empty()) return;
+    const auto pane =
+        std::ranges::find_if(panes_, [](const SlicePane& p) { return p.pointed().has_value(); });
+    if (pane == panes_.end()) return;
+    const Vec3 point = *pane->pointed();
+    const std::string value = value_words(c.place.slices(), point);
+    if (value.empty()) return;
     ImGui::SameLine();
     ImGui::PushFont(c.ui.fonts.small);
     const float room = right - ImGui::GetCursorScreenPos().x;
-    const std::string shown = fitted(words, room);
-    ImGui::SetCursorScreenPos({right - ImGui::CalcTextSize(shown.c_str()).x,
-                               ImGui::GetCursorScreenPos().y + c.ui.em * 0.07F});
-    text(c.ui, shown, c.ui.theme.text);
+    std::string words = place_words(point) + ":  " + value;
+    if (ImGui::CalcTextSize(words.c_str()).x > room) words = value;
+    const float wide = ImGui::CalcTextSize(words.c_str()).x;
+    ImGui::SetCursorScreenPos({right - wide, ImGui::GetCursorScreenPos().y + c.ui.em * 0.07F});
+    if (wide <= room) text(c.ui, words, c.ui.theme.text);
     ImGui::PopFont();
 }
 
@@ -116,7 +126,7 @@ void SliceRow::draw_header(PanelContext& c, const ScreenRect& rect) {
         ImGui::AlignTextToFramePadding();
         text(c.ui, "Labels", c.ui.theme.muted);
     } else {
-        draw_grey(c);
+        draw_grey(c, rect.width < c.ui.em * kWide);
     }
     draw_toggles(c);
     const float right = rect.x + rect.width - pad - side;

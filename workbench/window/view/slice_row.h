@@ -25,7 +25,7 @@ private:
     };
 
     void draw_header(PanelContext& c, const ScreenRect& rect);
-    void draw_grey(PanelContext& c);
+    void draw_grey(PanelContext& c, bool narrow);
     void draw_toggles(PanelContext& c) const;
     void draw_pointed(PanelContext& c, float right) const;
     [[nodiscard]] static std::optional<double> edit(PanelContext& c, const std::string& name,

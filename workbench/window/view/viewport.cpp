@@ -11,7 +11,6 @@
 #include "gpu/render/pick.h"
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
-#include "workbench/window/keys.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/branch_highlight.h"
@@ -50,6 +49,27 @@ constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [
 
 /// From the front, somewhat from the left and above: all three planes of an image are seen.
 const ViewCamera kObliqueView = {.view = {-0.45, 0.75, -0.4}, .up = {0, 0, 1}};
+
+constexpr std::array<std::pair<KeyCommand, StandardView>, 6> kSides = {
+    {{KeyCommand::Anterior, StandardView::Anterior},
+     {KeyCommand::Posterior, StandardView::Posterior},
+     {KeyCommand::Left, StandardView::Left},
+     {KeyCommand::Right, StandardView::Right},
+     {KeyCommand::Superior, StandardView::Superior},
+     {KeyCommand::Inferior, StandardView::Inferior}}};
+
+std::optional<ValueRange> range_of(const std::shared_ptr<const DeviationMap>& map) {
+    return map ? std::optional(ValueRange{-map->full, map->full}) : std::nullopt;
+}
+
+/// The range of what is drawn in colours; none: not known, or there are no colours.
+std::optional<ValueRange> automatic_range(const Workplace& place, const ComparisonView& compared) {
+    if (compared.colours_model()) return range_of(compared.difference());
+    const auto& colours = place.view_data().colours();
+    const ColouringKind kind = place.view.colouring;
+    if (colours && colours->kind == kind) return colours->range;
+    return kind == ColouringKind::Deviation ? range_of(place.document.deviation()) : std::nullopt;
+}
 
 bool draw_tool(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
                bool on) {
@@ -214,7 +234,9 @@ void Viewport::Impl::take_scene(PanelContext& c) {
     const bool on_model =
         colours && !compared.colours_model() && colours->kind != ColouringKind::TetrahedraQuality;
     model.set_colouring(on_model ? colours : nullptr);
-    model.set_range(c.place.view.range);
+    c.place.view.draw_as({c.place.view.colouring, compared.colours_model()},
+                         automatic_range(c.place, compared));
+    model.set_range(c.place.view.range());
     if (!model.update()) return;
     drawn.reset();
     ++models;
@@ -468,7 +490,10 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     const bool held = brush.holds_left() || handles.holds_left();
     if (ImGui::IsItemActive() && moved.norm() > 0 && (middle || !held)) handle_drag(moved);
     if (!ImGui::IsItemHovered()) return;
-    if (io.MouseWheel != 0) handle_wheel(c, io.MouseWheel);
+    if (io.MouseWheel != 0) {
+        take_keyboard();
+        handle_wheel(c, io.MouseWheel);
+    }
     const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
                       outside.has_value() || places.took_click() || handles.has_cursor();
     if (!busy && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) request_centre();
@@ -491,20 +516,13 @@ void Viewport::Impl::take_centre() {
 }
 
 void Viewport::Impl::handle_keys(const PanelContext& c, bool over_view) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || !over_view) return;
-    if (c.place.view.flies) return endoscope.handle_keys();
-    const auto pressed = [](int digit) {
-        return ImGui::IsKeyPressed(keys::k0 + digit, false) ||
-               ImGui::IsKeyPressed(keys::kPad0 + digit, false);
-    };
-    const bool opposite = io.KeyCtrl;
-    using enum StandardView;
-    if (pressed(1)) camera = facing(camera, opposite ? Posterior : Anterior);
-    if (pressed(3)) camera = facing(camera, opposite ? Right : Left);
-    if (pressed(7)) camera = facing(camera, opposite ? Inferior : Superior);
-    if (pressed(5)) camera.perspective = !camera.perspective;
-    if (ImGui::IsKeyPressed(keys::kHome, false)) frame_model();
+    if (!over_view) return;
+    const PressedKeys& keys = c.shown.keys;
+    if (c.place.view.flies) return endoscope.handle_keys(keys);
+    for (const auto& [command, side] : kSides)
+        if (keys.has(command)) camera = facing(camera, side);
+    if (keys.has(KeyCommand::Perspective)) camera.perspective = !camera.perspective;
+    if (keys.has(KeyCommand::FrameAll)) frame_model();
 }
 
 void Viewport::Impl::draw_toolbar(PanelContext& c) {

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include "workbench/window/style/icons.h"
@@ -32,6 +33,15 @@ void outline(const Ui& ui, Paint colour) {
     ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), colour,
                                         ImGui::GetStyle().FrameRounding, 0,
                                         std::max(1.0F, ui.em / 12.0F));
+}
+
+/// Bytes of a text's beginning that is narrower than `width`, in whole characters. Reads no more
+/// than these.
+std::size_t end_within(const std::string& words, float width) {
+    const char* end = words.data();
+    ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), std::max(0.0F, width), 0.0F, words.data(),
+                                    words.data() + words.size(), &end);
+    return static_cast<std::size_t>(end - words.data());
 }
 
 }  // namespace
@@ -151,15 +161,14 @@ void group_heading(const Ui& ui, const std::string& words) {
 }
 
 std::string fitted(const std::string& words, float width) {
-    if (ImGui::CalcTextSize(words.c_str()).x <= width) return words;
-    std::string shorter = words;
-    while (!shorter.empty() && ImGui::CalcTextSize((shorter + "\u2026").c_str()).x > width) {
-        // Bytes of one character of UTF-8 go together.
-        while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xC0) == 0x80)
-            shorter.pop_back();
-        if (!shorter.empty()) shorter.pop_back();
-    }
-    return shorter + "\u2026";
+    constexpr float kRounding = 0.5F;  // widths that callers measure are whole pixels
+    if (end_within(words, width + kRounding) == words.size()) return words;
+    const float room = width - ImGui::CalcTextSize("\u2026").x;
+    return words.substr(0, end_within(words, room)) + "\u2026";
+}
+
+void take_keyboard() {
+    if (ImGui::GetIO().WantTextInput) ImGui::ClearActiveID();
 }
 
 void clipped_text(const Ui& ui, const std::string& words, Paint colour, float width) {

@@ -67,4 +67,7 @@ void separator(const Ui& ui);
 /// A text that fits a width, ended by an ellipsis if needed.
 [[nodiscard]] std::string fitted(const std::string& words, float width);
 
+/// Takes the keyboard from a text field, which keeps what was typed.
+void take_keyboard();
+
 }  // namespace vesselbench

@@ -16,10 +16,6 @@ struct Places {
     float title_y = 0, detail_y = 0, icon_x = 0, text_x = 0, text_end = 0;
 };
 
-float height_of(const Ui& ui, const RowLook& look) {
-    return look.detail.empty() ? ui.em * 1.87F : ui.em * 3.07F;
-}
-
 float width_of(ImFont* font, const std::string& words) {
     return font->CalcTextSizeA(font->FontSize, 1e6F, 0.0F, words.c_str()).x;
 }
@@ -70,9 +66,14 @@ void draw_texts(const Ui& ui, const RowLook& look, const Places& places) {
 
 }  // namespace
 
+float row_height(const Ui& ui, bool detail) {
+    return detail ? ui.em * 3.07F : ui.em * 1.87F;
+}
+
 bool row(Ui& ui, const std::string& name, const RowLook& look) {
     const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x);
-    const bool clicked = ImGui::InvisibleButton(name.c_str(), {width, height_of(ui, look)});
+    const bool clicked =
+        ImGui::InvisibleButton(name.c_str(), {width, row_height(ui, !look.detail.empty())});
     ui.item(name, look.enabled);
     if (ImGui::IsItemVisible()) {
         const Places places = places_of(ui, look);

@@ -23,6 +23,9 @@ struct RowLook {
 /// Draws a row over the width that is left. \return true when it is clicked
 bool row(Ui& ui, const std::string& name, const RowLook& look);
 
+/// [pixels] \param detail whether it has a second line
+[[nodiscard]] float row_height(const Ui& ui, bool detail);
+
 /// True if the last row was clicked twice.
 [[nodiscard]] bool row_double_clicked();
 
