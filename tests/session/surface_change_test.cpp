@@ -60,7 +60,7 @@ SCENARIO("The figures of a change", "[session][surface_change]") {
 }
 
 SCENARIO("Changed vertices are those that differ", "[session][surface_change]") {
-    const Surface before = icosphere(5.0, 2);
+    const Surface before = test::icosphere(5.0, 2);
     CHECK(changed_vertices(before, before).empty());
     Positions points = before.points();
     points[3].x() += 0.1;

@@ -26,7 +26,7 @@ constexpr std::array<StepText, 9> kSteps = {
      {"Deformation", "Pose branches for a print"},
      {"Remeshing", "Make well-shaped triangles"},
      {"Product", "Fill with tetrahedra, or check for printing"},
-     {"Review", "Collect experts' verdicts, export"}}};
+     {"Review", "Check, compare, export"}}};
 
 bool is_shown(const EditPlace& place, const std::string& variant) {
     return place.variant.empty() || place.variant == variant;

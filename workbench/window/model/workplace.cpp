@@ -139,6 +139,7 @@ void Workplace::follow(const Message& message) {
 void Workplace::look_at(const Vec3& place) {
     slices_.set_cross(place);
     looked_at_ = place;
+    ++looks_;
 }
 
 void Workplace::choose_edit(EditId edit) {
@@ -169,6 +170,7 @@ void Workplace::reset_form() {
 }
 
 void Workplace::leave_form() {
+    looked_at_.reset();
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();

@@ -82,8 +82,11 @@ public:
     /// Moves the slices and the view to a place [mm].
     void look_at(const Vec3& place);
 
-    /// The place of the last look_at(), once.
-    [[nodiscard]] std::optional<Vec3> take_look() { return std::exchange(looked_at_, {}); }
+    /// The place of the last look_at(), which is marked until a form or a case is left.
+    [[nodiscard]] const std::optional<Vec3>& looked_at() const { return looked_at_; }
+
+    /// Counts calls of look_at().
+    [[nodiscard]] int looks() const { return looks_; }
 
     void set_field(const std::string& parameter, const std::string& text);
     void reset_form();
@@ -238,6 +241,7 @@ private:
     CompareMode compare_mode_ = CompareMode::SideBySide;
     std::optional<EditId> pointed_, next_pointed_;
     std::optional<Vec3> looked_at_;
+    int looks_ = 0;
     std::optional<OperationForm> before_drag_;
     std::optional<PatchMeasures> opening_;  ///< whose role is asked for
 };

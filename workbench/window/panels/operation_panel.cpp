@@ -41,9 +41,26 @@ void draw_group(PanelContext& c, const std::string& title, Step step, bool usual
         any = true;
         draw_operation_row(c, operation);
     }
-    if (any || !usual) return;
+    if (any || !usual || step == Step::Review) return;
     ImGui::SetCursorPosX(c.ui.grid(2));
     wrapped(c.ui, "No operation of this version belongs to this step.", c.ui.theme.muted);
+}
+
+/// What the last step is for is no operation: it changes nothing.
+void draw_review(PanelContext& c) {
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    wrapped(c.ui,
+            "Compare the model with its earlier states below, in the history, and check its "
+            "outline in the slices. Notes on edits are kept with the project.",
+            c.ui.theme.muted);
+    space(c.ui, 1);
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    const float width = ImGui::GetContentRegionAvail().x - c.ui.grid(2);
+    if (button(c.ui, "review.export", "Export the model",
+               {.icon = icons::kExport,
+                .enabled = c.place.document.can(RequestKind::Output),
+                .width = width}))
+        c.place.ask(FileQuestion::Export);
 }
 
 void draw_list(PanelContext& c, const ScreenRect& rect) {
@@ -58,6 +75,7 @@ void draw_list(PanelContext& c, const ScreenRect& rect) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
     draw_group(c, "", step.step, true);
     draw_group(c, "Also allowed here", step.step, false);
+    if (step.step == Step::Review) draw_review(c);
     ImGui::PopStyleVar();
     end_frame();
 }

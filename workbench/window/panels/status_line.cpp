@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -70,12 +71,25 @@ void draw_progress(PanelContext& c, const Activity& activity, float width) {
     if (icon_button(c.ui, "status.cancel", icons::kClose, "Cancel  Esc")) c.place.document.cancel();
 }
 
-void draw_device(const PanelContext& c) {
+/// The newest message, in the room that the figures leave.
+void draw_news(const PanelContext& c, float width) {
+    const auto& messages = c.place.document.messages();
+    if (messages.empty() || width < c.ui.em * 10) return;
+    const Message& newest = messages.back();
+    text(c.ui, icon_of(newest.kind), colour_of(c.ui.theme, newest.kind));
+    ImGui::SameLine(0, c.ui.grid(0.75F));
+    text(c.ui, fitted(newest.text, width - c.ui.em * 2), c.ui.theme.muted);
+    help_on_hover(c.ui, newest.text);
+    c.ui.item("status.news");
+}
+
+/// The newest message and the device.
+void draw_idle(const PanelContext& c, float width) {
     const Ui& ui = c.ui;
     const std::string words = fitted("mm    " + c.device, ui.em * 20);
-    ImGui::SetCursorPos(
-        {ImGui::GetWindowWidth() - ImGui::CalcTextSize(words.c_str()).x - ui.grid(2),
-         text_top(ui)});
+    const float device = width - ImGui::CalcTextSize(words.c_str()).x - ui.grid(2);
+    if (c.place.document.is_open()) draw_news(c, device - ImGui::GetCursorPosX() - ui.grid(3));
+    ImGui::SetCursorPos({device, text_top(ui)});
     text(ui, words, ui.theme.muted);
     help_on_hover(ui, "Lengths are in millimetres. OpenGL device: " + c.device);
 }
@@ -90,7 +104,7 @@ void draw_status_line(PanelContext& c, const ScreenRect& rect) {
     if (const auto activity = c.place.document.activity())
         draw_progress(c, *activity, rect.width * 0.55F);
     else
-        draw_device(c);
+        draw_idle(c, rect.width);
     ImGui::PopFont();
     end_frame();
 }

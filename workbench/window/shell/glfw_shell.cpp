@@ -83,6 +83,18 @@ GLFWwindow* create(int api) {
     return glfwCreateWindow(kWidth, kHeight, "vesselbench", nullptr, nullptr);
 }
 
+/// A window larger than the screen would hide its buttons where no window manager keeps it inside.
+void fit_to_screen(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return;
+    int x = 0, y = 0, wide = 0, high = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &wide, &high);
+    glfwGetWindowSize(window, &width, &height);
+    if (wide <= 0 || high <= 0 || (width <= wide && height <= high)) return;
+    glfwSetWindowSize(window, std::min(width, wide), std::min(height, high));
+    glfwSetWindowPos(window, x, y);
+}
+
 /// EGL first: contexts of other threads can share with it (gpu/context.h).
 Window make_window() {
     GLFWwindow* window = create(GLFW_EGL_CONTEXT_API);
@@ -92,6 +104,7 @@ Window make_window() {
     glfwMakeContextCurrent(window);
     glfwSwapInterval(1);
     glfwSetWindowSizeLimits(window, 800, 560, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    fit_to_screen(window);
     return Window(window);
 }
 

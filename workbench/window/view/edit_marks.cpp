@@ -46,6 +46,11 @@ void draw_edit_marks(PanelContext& c, const OnScreen& screen, bool over) {
     for (const RailStep& step : c.place.rail())
         for (const RailEdit& edit : step.edits)
             if (c.place.pointed_edit() == edit.id) draw_marks(c, screen, edit);
+    if (!c.place.looked_at()) return;
+    if (const auto at = screen.place(*c.place.looked_at())) {
+        draw_mark(c.ui, *at, MarkLook::Lit, "here");
+        c.ui.item("view.looked_at", ScreenRect{at->x(), at->y(), 1, 1});
+    }
 }
 
 }  // namespace vesselbench

@@ -42,6 +42,7 @@ constexpr double kTurnPerHeight = 3.5;   ///< a drag over the view's height turn
 constexpr double kZoomPerNotch = 1.15;   ///< of the wheel
 constexpr double kClipPerNotch = 0.02;   ///< of the way through the model [-]
 constexpr double kFlightPerNotch = 0.5;  ///< [local radii]
+constexpr double kLookHeight = 8.0;      ///< around a place that is looked at [mm]
 constexpr double kMargin = 0.12;         ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 constexpr double kLinePull = 0.01;   ///< of lines on the surface, by half the view's height [-]
@@ -135,6 +136,7 @@ struct Viewport::Impl {
     void take_choices(PanelContext& c);
     void handle_mouse(PanelContext& c);
     void handle_drag(const Eigen::Vector2d& moved);
+    void take_look(const Workplace& place);
     void handle_wheel(PanelContext& c, float notches);
     void handle_keys(const PanelContext& c, bool over_view);
     void request_centre();
@@ -157,6 +159,7 @@ struct Viewport::Impl {
     }
 
     ModelDrawing model;
+    int seen_looks = 0;
     ComparisonView compared;
     Renderer renderer;
     DrawingGuard guard;
@@ -472,6 +475,13 @@ void Viewport::Impl::handle_drag(const Eigen::Vector2d& moved) {
         camera = turned(camera, turn * io.MouseDelta.x, -turn * io.MouseDelta.y);
 }
 
+/// Turns to the place that a message names.
+void Viewport::Impl::take_look(const Workplace& place) {
+    if (std::exchange(seen_looks, place.looks()) == place.looks() || !place.looked_at()) return;
+    camera.centre = *place.looked_at();
+    camera.half_height = std::min(camera.half_height, kLookHeight);
+}
+
 void Viewport::Impl::handle_wheel(PanelContext& c, float notches) {
     ClipChoice& plane = c.place.view.clip;
     if (plane.on && ImGui::GetIO().KeyCtrl)
@@ -650,6 +660,7 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     begin_frame(c.ui, "view", rect,
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
     view.take_centre();
+    view.take_look(c.place);
     view.take_comparison(c);
     view.take_scene(c);
     view.guard.run([&] { view.take_slices(c); });
