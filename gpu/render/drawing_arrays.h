@@ -65,10 +65,6 @@ std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions
                                                       std::size_t vertex_count,
                                                       std::span<const VertexId> vertices);
 
-/// Whether a surface is closed, its triangles all run the same way round, and every part of it
-/// encloses a positive volume: its inner side is then seen from inside only.
-[[nodiscard]] bool is_solid_surface(const Surface& surface);
-
 /// Every edge once, as drawn vertices, for GL_LINES.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology);
 

@@ -108,18 +108,6 @@ SCENARIO("A surface without shape changes keeps its layout", "[gpu][render][arra
     CHECK_THROWS_AS(prepare_drawing(Surface{}), InvalidInput);
 }
 
-SCENARIO("A surface is solid if its inner side is seen from inside only", "[gpu][render][arrays]") {
-    CHECK(is_solid_surface(icosphere(3.0, 3, Vec3(9, 8, 7))));
-    CHECK(is_solid_surface(closed_tube(2.0, 20.0, 24, 20)));
-    CHECK_FALSE(is_solid_surface(open_tube(2.0, 20.0, 24, 20)));
-    CHECK_FALSE(is_solid_surface(flipped(icosphere(3.0, 3))));
-    CHECK_FALSE(is_solid_surface(sphere_shell(8.0, 2.0, 3)));
-    const Surface sphere = icosphere(3.0, 3);
-    std::vector<Triangle> triangles(sphere.triangles().begin(), sphere.triangles().end());
-    std::swap(triangles[5][0], triangles[5][1]);
-    CHECK_FALSE(is_solid_surface(make_surface(sphere.points(), triangles)));
-}
-
 SCENARIO("Every edge is listed once", "[gpu][render][arrays]") {
     const Surface surface = icosphere(3.0, 3);
     CHECK(unique_edges(*surface.topology).size() == surface.triangle_count() * 3 / 2);

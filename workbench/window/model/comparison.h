@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/job.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/document.h"
 
 namespace vesselbench {

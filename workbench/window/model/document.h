@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"
 #include "workbench/window/model/stroke_queue.h"

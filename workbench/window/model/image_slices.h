@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/image/slices.h"
 #include "workbench/case/scene.h"
 #include "workbench/window/model/latest_task.h"
-#include "workbench/window/model/slices.h"
 
 namespace vesselbench {
 

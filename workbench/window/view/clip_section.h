@@ -7,8 +7,8 @@
 
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
+#include "meshing/tetrahedra/volume_section.h"
 #include "workbench/window/model/background_search.h"
-#include "workbench/window/model/volume_section.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_strips.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/vessel/centerlines/flight_path.h"
 #include "gpu/render/view_camera.h"
-#include "workbench/window/model/flight_path.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_strips.h"
 

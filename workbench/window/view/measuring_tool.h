@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/vessel/centerlines/vessel_diameter.h"
 #include "gpu/render/pick.h"
 #include "workbench/window/model/background_search.h"
-#include "workbench/window/model/measuring.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/view/view_strips.h"
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/deviation_map.h"
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
 #include "workbench/window/model/colourings.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/live_stroke.h"
 

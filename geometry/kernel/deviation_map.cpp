@@ -1,4 +1,4 @@
-#include "workbench/window/model/deviation_map.h"
+#include "geometry/kernel/deviation_map.h"
 
 #include <algorithm>
 #include <cmath>

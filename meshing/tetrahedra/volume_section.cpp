@@ -1,4 +1,4 @@
-#include "workbench/window/model/volume_section.h"
+#include "meshing/tetrahedra/volume_section.h"
 
 #include <algorithm>
 #include <array>
