@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/parallel.h"
+#include "geometry/kernel/solid_surface.h"
 
 namespace vesselbench {
 
@@ -54,6 +56,8 @@ public:
             layout.triangles[t] = split(surface_.triangles()[t], (*surface_.patch_labels)[t]);
         sort_extras(layout);
         layout.solid = is_solid_surface(surface_);
+        layout.topology = surface_.topology;
+        layout.patch_labels = surface_.patch_labels;
         return layout;
     }
 
@@ -168,9 +172,8 @@ Sphere sphere_around(const Positions& points) {
     return sphere;
 }
 
-bool same_layout(const Surface& surface, const DrawingArrays* previous) {
-    return previous != nullptr && previous->surface.topology == surface.topology &&
-           previous->surface.patch_labels == surface.patch_labels;
+bool fits(const DrawingLayout& layout, const Surface& surface) {
+    return layout.topology == surface.topology && layout.patch_labels == surface.patch_labels;
 }
 
 /// The moved vertices and all corners of their triangles, ascending.
@@ -183,19 +186,6 @@ std::vector<VertexId> affected_by(const Topology& topology, std::span<const Vert
     std::ranges::sort(affected);
     affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
     return affected;
-}
-
-/// Whether every connected part of a closed surface encloses a positive volume.
-bool all_parts_outward(const Surface& surface) {
-    const Components parts = connected_components(*surface.topology);
-    std::vector<double> volumes(parts.count(), 0.0);
-    const Vec3 origin = surface.points().front();
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
-        const auto& [a, b, c] = surface.triangles()[t];
-        const auto from_origin = [&](VertexId v) { return Vec3(surface.points()[v] - origin); };
-        volumes[parts.of_triangle[t]] += from_origin(a).dot(from_origin(b).cross(from_origin(c)));
-    }
-    return std::ranges::all_of(volumes, [](double volume) { return volume > 0.0; });
 }
 
 }  // namespace
@@ -223,11 +213,11 @@ std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout, std::size_t
     return copies;
 }
 
-DrawingArrays prepare_drawing(const Surface& surface, const DrawingArrays* previous) {
+DrawingArrays prepare_drawing(const Surface& surface, std::shared_ptr<const DrawingLayout> known) {
     if (surface.empty()) throw InvalidInput("there is no surface to draw");
     DrawingArrays drawing{surface, nullptr, {}, sphere_around(surface.points())};
-    drawing.layout = same_layout(surface, previous)
-                         ? previous->layout
+    drawing.layout = known && fits(*known, surface)
+                         ? std::move(known)
                          : std::make_shared<const DrawingLayout>(Splitter(surface).layout());
     drawing.vertices.resize(drawing.layout->tags.size());
     static_cast<void>(surface.topology->triangles_at());
@@ -250,21 +240,6 @@ std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions
         drawing.bounds.radius =
             std::max(drawing.bounds.radius, (positions[v] - drawing.bounds.centre).norm());
     return changed;
-}
-
-bool is_solid_surface(const Surface& surface) {
-    // Every half-edge has one opposite: sums of hashes of both kinds cancel, else by chance only.
-    const auto hashed = [](VertexId from, VertexId to) {
-        std::uint64_t x = (std::uint64_t{from} << 32 | to) * 0x9E3779B97F4A7C15U;
-        x = (x ^ x >> 29) * 0xBF58476D1CE4E5B9U;
-        return x ^ x >> 32;
-    };
-    std::uint64_t sum = 0;
-    for (const auto& [a, b, c] : surface.triangles()) {
-        sum += hashed(a, b) + hashed(b, c) + hashed(c, a);
-        sum -= hashed(b, a) + hashed(c, b) + hashed(a, c);
-    }
-    return sum == 0 && all_parts_outward(surface);
 }
 
 std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology) {

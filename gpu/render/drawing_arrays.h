@@ -29,7 +29,9 @@ struct DrawingLayout {
     /// Drawn vertex v < #V is the surface's vertex v; drawn vertex #V + i is another copy of vertex
     /// extras[i]. Ascending.
     std::vector<VertexId> extras;
-    bool solid = false;  ///< is_solid_surface of the surface it was made for
+    bool solid = false;                        ///< is_solid_surface of the surface it was made for
+    std::shared_ptr<const Topology> topology;  ///< of that surface
+    std::shared_ptr<const PatchLabels> patch_labels;  ///< of that surface
 
     /// Drawn vertices #V + first ... #V + last - 1 are the further copies of a vertex.
     [[nodiscard]] std::array<std::size_t, 2> extras_of(VertexId v) const;
@@ -44,11 +46,11 @@ struct DrawingArrays {
 };
 
 /// Smooth normals are those of a vertex's triangles of the same patch, weighted by area.
-/// \param previous drawing of a surface of the same topology and patches: its layout is shared,
-///        only positions and normals are computed
+/// \param known layout, which is shared if it was made for the same topology and patches: only
+///        positions and normals are computed then
 /// \throw InvalidInput if the surface is empty
 [[nodiscard]] DrawingArrays prepare_drawing(const Surface& surface,
-                                            const DrawingArrays* previous = nullptr);
+                                            std::shared_ptr<const DrawingLayout> known = nullptr);
 
 /// Moves some vertices: recomputes their copies and the normals of their triangles' corners. Centre
 /// and layout stay. \param positions #V; those of `moved` are read, and of their neighbours \return
@@ -64,10 +66,6 @@ std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions
 [[nodiscard]] std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout,
                                                       std::size_t vertex_count,
                                                       std::span<const VertexId> vertices);
-
-/// Whether a surface is closed, its triangles all run the same way round, and every part of it
-/// encloses a positive volume: its inner side is then seen from inside only.
-[[nodiscard]] bool is_solid_surface(const Surface& surface);
 
 /// Every edge once, as drawn vertices, for GL_LINES.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology);

@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include "geometry/kernel/solid_surface.h"
 #include "gpu/render/drawing_arrays.h"
 #include "gpu/render/vertex_buffers.h"
 

@@ -132,13 +132,15 @@ struct Picker::Impl {
         glBindFramebuffer(GL_FRAMEBUFFER, static_cast<unsigned>(before));
     }
 
-    [[nodiscard]] bool complete(GLuint64 nanoseconds) const {
+    /// None: it takes longer.
+    [[nodiscard]] std::optional<Picked> result_within(GLuint64 nanoseconds) {
         const unsigned state = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
-        return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+        if (state == GL_TIMEOUT_EXPIRED) return std::nullopt;
+        forget();
+        return state == GL_WAIT_FAILED ? Picked{} : read();
     }
 
-    [[nodiscard]] Picked read() {
-        forget();
+    [[nodiscard]] Picked read() const {
         FoundPixels pixels{};
         glBindBuffer(GL_PIXEL_PACK_BUFFER, readback.id());
         glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, sizeof pixels, pixels.data());
@@ -160,20 +162,23 @@ void Picker::request(const SceneView& view, const Layers& layers, int x, int y, 
     impl_->start(layers);
 }
 
+void Picker::forget() {
+    impl_->forget();
+}
+
 bool Picker::pending() const {
     return impl_->fence != nullptr;
 }
 
 std::optional<Picked> Picker::result() {
-    if (!pending() || !impl_->complete(0)) return std::nullopt;
-    return impl_->read();
+    return pending() ? impl_->result_within(0) : std::nullopt;
 }
 
 Picked Picker::pick(const SceneView& view, const Layers& layers, int x, int y, int radius) {
     request(view, layers, x, y, radius);
-    while (!impl_->complete(1'000'000'000)) {
-    }
-    return impl_->read();
+    std::optional<Picked> found;
+    while (!found) found = impl_->result_within(1'000'000'000);
+    return *found;
 }
 
 }  // namespace vesselbench

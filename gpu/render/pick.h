@@ -29,10 +29,14 @@ public:
     /// radius further pixels to each side that are searched, 0 to 4
     void request(const SceneView& view, const Layers& layers, int x, int y, int radius = 2);
 
+    /// Drops the request.
+    void forget();
+
     /// True from a request to its result.
     [[nodiscard]] bool pending() const;
 
-    /// The result of the request, once, when the device has it.
+    /// The result of the request, once, when the device has it; nothing is there if the device was
+    /// lost.
     [[nodiscard]] std::optional<Picked> result();
 
     /// request() and its result, after waiting for it.

@@ -270,4 +270,16 @@ VolumeQuality volume_quality(const VolumeMesh& mesh) {
     return quality;
 }
 
+std::vector<double> smallest_dihedral_angles(const VolumeMesh& mesh, const Progress& progress) {
+    constexpr std::size_t kBetweenChecks = 1 << 14;
+    std::vector<double> values(mesh.tetrahedra.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i % kBetweenChecks == 0) progress.check_cancelled();
+        const Tetrahedron& t = mesh.tetrahedra[i];
+        values[i] = std::ranges::min(dihedral_angles(mesh.points[t[0]], mesh.points[t[1]],
+                                                     mesh.points[t[2]], mesh.points[t[3]]));
+    }
+    return values;
+}
+
 }  // namespace vesselbench

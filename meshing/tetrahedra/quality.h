@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
@@ -55,5 +56,9 @@ struct VolumeQuality {
 /// The six inner angles between the faces of a tetrahedron [deg].
 [[nodiscard]] std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& c,
                                                     const Vec3& d);
+
+/// The smallest of these angles of each tetrahedron [deg], #tetrahedra. \throw Cancelled
+[[nodiscard]] std::vector<double> smallest_dihedral_angles(const VolumeMesh& mesh,
+                                                           const Progress& progress = {});
 
 }  // namespace vesselbench

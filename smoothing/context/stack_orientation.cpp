@@ -151,4 +151,14 @@ StackOrientation estimate_stack_orientation(const Surface& surface,
     return estimate(face_normals(*surface.topology, surface.points(), wall), parameters);
 }
 
+StackOrientation estimate_stack_orientation(const Surface& surface, std::span<const Cap> caps,
+                                            const StackOrientationParameters& parameters) {
+    require_usable(parameters);
+    if (surface.empty()) return {};
+    std::vector<std::uint8_t> wall(surface.triangle_count(), 1);
+    for (const Cap& cap : caps)
+        for (const TriangleId t : cap.triangles) wall[t] = 0;
+    return estimate(face_normals(*surface.topology, surface.points(), wall), parameters);
+}
+
 }  // namespace vesselbench

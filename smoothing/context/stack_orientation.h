@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "geometry/kernel/surface.h"
+#include "smoothing/context/caps.h"
 
 namespace vesselbench {
 
@@ -41,5 +44,10 @@ struct StackOrientationParameters {
 /// The same for a surface's wall only: the caps of its openings are no trace of slices.
 [[nodiscard]] StackOrientation estimate_stack_orientation(
     const Surface& surface, const StackOrientationParameters& parameters = {});
+
+/// The same without caps, however they were found.
+[[nodiscard]] StackOrientation estimate_stack_orientation(
+    const Surface& surface, std::span<const Cap> caps,
+    const StackOrientationParameters& parameters = {});
 
 }  // namespace vesselbench

@@ -18,6 +18,7 @@
 #include "gpu/context.h"
 #include "gpu/render/drawn_surface.h"
 #include "workbench/operations/table.h"
+#include "workbench/session/surface_change.h"
 #include "workbench/window/model/live_stroke.h"
 
 namespace vesselbench::bench {

@@ -192,7 +192,7 @@ void time_surface(std::size_t triangles) {
     DrawingArrays arrays = prepare_drawing(surface);
     const double prepared = 1e3 * watch.seconds();
     watch = {};
-    const DrawingArrays again = prepare_drawing(surface, &arrays);
+    const DrawingArrays again = prepare_drawing(surface, arrays.layout);
     const double reshaped = 1e3 * watch.seconds();
     const std::size_t extras = arrays.layout->extras.size();
     watch = {};

@@ -6,10 +6,12 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/branch_part.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
@@ -112,4 +114,27 @@ SCENARIO("The sac of the ideal bifurcation is removed", "[geometry][remove-branc
     CHECK(removal.surface.topology->boundary_loops().size() == 3);
     CHECK(farthest > 3.0);
     CHECK(largest < 0.2);
+}
+
+SCENARIO("A branch is named by a point at its tip", "[geometry][remove-branch]") {
+    const Vec3 tip(16, 0, 20);
+    const Surface surface = branched(tip, 3.0, 1.5, 0.5);
+    const NamedBranch branch = branch_at_tip(surface, tip + Vec3(0.5, 0.5, 0));
+    CHECK((branch.graph->nodes[branch.tip].position - tip).norm() < 1.5);
+    THEN("its part is what its removal cuts off") {
+        const Surface part = branch_part(surface, tip, 0.4);
+        const BranchRemoval removal =
+            remove_branch(surface, *branch.graph, branch.tip, {.margin = 0.4});
+        CHECK(measure(part).area == Approx(removal.removed_area));
+        CHECK(bounds(part).min.x() > -3.0);
+        CHECK(bounds(part).max.x() > 15.0);
+    }
+    THEN("a point that is far from the vessels names none") {
+        CHECK_THROWS(branch_at_tip(surface, Vec3(40, 0, 20)));
+        CHECK_THROWS(branch_part(surface, Vec3(40, 0, 20), 0.4));
+    }
+    THEN("a vessel without a parent has no part") {
+        CHECK_THROWS_WITH(branch_part(fine_tube(4, 30, 24), Vec3(0, 0, 30), 0.4),
+                          Catch::Contains("no parent"));
+    }
 }

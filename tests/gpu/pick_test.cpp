@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <catch2/catch.hpp>
+#include <epoxy/gl.h>
 
 #include "tests/gpu/render_support.h"
 #include "tests/support/shapes.h"
@@ -126,4 +127,21 @@ SCENARIO("Marks and lines near the cursor win over surfaces", "[gpu][render][pic
     CHECK(near_line.layer == 2);
     CHECK(near_line.element == 1);
     CHECK(picker.pick(view, layers, middle.x + 40, middle.y).layer == 1);
+}
+
+SCENARIO("A search on a lost device ends without a result", "[gpu][render][pick]") {
+    const auto test = render_test(kSide);
+    if (!test) return;
+    const Layers layers{.surfaces = {layer_of(icosphere(8.0, 2, kCentre))}};
+    Picker picker(test->renderer);
+    const auto before = epoxy_glClientWaitSync;
+    epoxy_glClientWaitSync = [](GLsync, GLbitfield, GLuint64) -> GLenum { return GL_WAIT_FAILED; };
+    picker.request(view_of_sphere(false), layers, kSide / 2, kSide / 2);
+    const auto asked = picker.result();
+    const Picked waited = picker.pick(view_of_sphere(false), layers, kSide / 2, kSide / 2);
+    epoxy_glClientWaitSync = before;
+    REQUIRE(asked);
+    CHECK(asked->layer == 0);
+    CHECK(waited.layer == 0);
+    CHECK_FALSE(picker.pending());
 }

@@ -295,7 +295,7 @@ SCENARIO("Source files are embedded, their folders are not", "[session]") {
         Session session = Session::create(file, options());
         session.apply("load-sphere", {{"file", source}});
         CHECK(session.log()[0].edit.given.text("file") == "radius.txt");
-        CHECK(session.replay()[0].replayed == false);
+        CHECK(session.replay()[0].replayed);
     }
     std::ifstream stream(file, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
@@ -316,6 +316,31 @@ SCENARIO("Source files are embedded, their folders are not", "[session]") {
         session.change_edit(1, session.log()[0].edit.given);
         std::ofstream(folder + "/radius.txt") << 8.5;
         CHECK_FALSE(session.replay()[0].replayed);
+    }
+}
+
+SCENARIO("An edit whose file was read in this session can be changed", "[session]") {
+    const std::string folder = test::temporary_folder();
+    std::filesystem::create_directory(folder + "/elsewhere");
+    const std::string source = folder + "/elsewhere/radius.txt";
+    std::ofstream(source) << 7.5;
+    Session session = Session::create(folder + "/case.vbench", options());
+    session.apply("load-sphere", {{"file", source}});
+    const Arguments given = session.log()[0].edit.given;
+    REQUIRE(given.text("file") == "radius.txt");
+    WHEN("it is there") {
+        session.change_edit(1, given);
+        CHECK(session.replay()[0].replayed);
+        CHECK(top_of(session.scene()) == Approx(7.5));
+    }
+    WHEN("another file has taken its name") {
+        std::ofstream(source) << 8.5;
+        CHECK_THROWS_WITH(session.change_edit(1, given),
+                          Catch::Contains("has changed since it was read"));
+    }
+    WHEN("it is gone") {
+        std::filesystem::remove(source);
+        CHECK_THROWS_WITH(session.change_edit(1, given), Catch::Contains("is missing"));
     }
 }
 

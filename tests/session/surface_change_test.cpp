@@ -7,6 +7,7 @@
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
+using namespace vesselbench::test;
 
 namespace {
 
@@ -56,4 +57,19 @@ SCENARIO("The figures of a change", "[session][surface_change]") {
         CHECK(surface_change(sphere, {}).triangles_after == 0);
         CHECK(surface_change(sphere, sphere).largest_deviation.value() == 0.0);
     }
+}
+
+SCENARIO("Changed vertices are those that differ", "[session][surface_change]") {
+    const Surface before = icosphere(5.0, 2);
+    CHECK(changed_vertices(before, before).empty());
+    Positions points = before.points();
+    points[3].x() += 0.1;
+    points[17].z() -= 0.1;
+    const Surface moved = before.with_positions(points);
+    CHECK(changed_vertices(before, moved) == std::vector<VertexId>{3, 17});
+    Surface painted = before;
+    std::vector<double> weights(before.vertex_count(), 0.0);
+    weights[5] = 1.0;
+    painted.attributes["plaque"] = std::make_shared<const std::vector<double>>(weights);
+    CHECK(changed_vertices(before, painted) == std::vector<VertexId>{5});
 }

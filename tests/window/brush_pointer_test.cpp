@@ -7,6 +7,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
+#include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/keys.h"
 
@@ -156,6 +157,27 @@ SCENARIO("A click on the surface makes one dab", "[window][strokes]") {
     painting.shell->click(painting.x, painting.y);
     REQUIRE(painting.wait_for_edits(2));
     CHECK(painting.document().snapshot()->log.back().edit.given.list("dabs").size() == 10);
+}
+
+SCENARIO("Presses count that are faster than the device", "[window][strokes]") {
+    Painting painting("brush-inflate");
+    if (!painting.shell) return;
+    OffscreenShell& shell = *painting.shell;
+    {
+        const SlowDevice slow;
+        shell.click(painting.x, painting.y);
+        shell.click(painting.x + 20, painting.y + 20);
+        shell.move_mouse(painting.x - 30, painting.y - 30);
+        shell.press(MouseButton::Left);
+        shell.move_mouse(painting.x + 30, painting.y - 30);
+        shell.release(MouseButton::Left);
+    }
+    REQUIRE(painting.wait_for_edits(4));
+    const auto& log = painting.document().snapshot()->log;
+    const auto dabs = [&](std::size_t edit) { return log[edit].edit.given.list("dabs").size(); };
+    CHECK(dabs(1) == 10);
+    CHECK(dabs(2) == 10);
+    CHECK(dabs(3) > 10);
 }
 
 SCENARIO("A drag on the background turns the view", "[window][strokes]") {

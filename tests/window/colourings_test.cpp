@@ -11,7 +11,6 @@
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "workbench/window/model/view_choice.h"
-#include "workbench/window/model/volume_section.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -53,13 +52,6 @@ VolumeMesh cube_mesh() {
         mesh.tetrahedra.push_back(cell);
     } while (std::ranges::next_permutation(axes).found);
     return mesh;
-}
-
-double area_of(const Surface& surface) {
-    double area = 0.0;
-    for (const Triangle& t : surface.triangles())
-        area += area_normal(surface.points(), t).norm() / 2;
-    return area;
 }
 
 }  // namespace
@@ -143,25 +135,13 @@ SCENARIO("The automatic range leaves out outliers", "[window][colours]") {
     CHECK(shown_range({}) == ValueRange{0, 1});
 }
 
-SCENARIO("A section through tetrahedra has their values", "[window][colours]") {
+SCENARIO("Tetrahedra have their smallest angles as colours", "[window][colours]") {
     Scene scene = scene_of(cube(1));
     CHECK_THAT(why_no_colours(ColouringKind::TetrahedraQuality, scene), Contains("volume mesh"));
     scene.volume_mesh = std::make_shared<const VolumeMesh>(cube_mesh());
     const auto values = coloured(ColouringKind::TetrahedraQuality, scene).values;
     REQUIRE(values.size() == 6);
     for (const double angle : values) CHECK(angle == Approx(45));
-    WHEN("the plane is across the cube") {
-        const Plane plane{{0, 0, 0.3}, Vec3::UnitZ()};
-        const VolumeSection section = section_of(*scene.volume_mesh, values, plane, {});
-        CHECK(section.cells.size() == 6);
-        CHECK(area_of(section.surface()) == Approx(1));
-        CHECK(section.vertex_values().size() == section.surface().vertex_count());
-    }
-    WHEN("the plane misses it") {
-        const Plane plane{{0, 0, 3}, Vec3::UnitZ()};
-        CHECK(section_of(*scene.volume_mesh, values, plane, {}).cells.empty());
-    }
-    CHECK_THROWS_AS(section_of(*scene.volume_mesh, {}, Plane{}, {}), InvalidInput);
 }
 
 SCENARIO("The clip plane goes through the model", "[window][colours]") {

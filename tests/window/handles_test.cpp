@@ -1,17 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
-#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/remove_branch.h"
-#include "tests/support/paths.h"
-#include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/branch_part.h"
 #include "workbench/window/model/crop_handles.h"
 #include "workbench/window/model/cut_handles.h"
 #include "workbench/window/model/handle.h"
@@ -48,6 +43,11 @@ struct TubeCut {
         return find_cut(tube, cut_question(form).value(), known);
     }
 };
+
+/// The text of `names`.
+std::string names_in(const std::vector<FieldText>& texts) {
+    return std::ranges::find(texts, "names", &FieldText::parameter)->text;
+}
 
 double tilt_of(const std::vector<double>& planes) {
     return std::acos(planes.at(8)) * 180 / std::numbers::pi;
@@ -110,7 +110,7 @@ SCENARIO("The handle under the cursor is the nearest one within reach", "[window
 
 SCENARIO("A crop box is dragged by its faces and corners", "[window][handles]") {
     OperationForm form(find_operation("crop"));
-    REQUIRE(has_region(form));
+    REQUIRE(has_field(form, Meaning::Box));
     GIVEN("no region yet") {
         const FormShape offered = crop_shape(form, kModel);
         REQUIRE(offered.handles.size() == 14);
@@ -163,7 +163,7 @@ SCENARIO("A crop ball is dragged by its centre and its outline", "[window][handl
           std::vector<FieldText>{{"centre", "4,4,4"}, {"radius", "5"}});
     form.set("radius", "-5");
     CHECK(crop_shape(form, kModel).lines.front().faint);
-    CHECK_FALSE(has_region(OperationForm(find_operation("smooth"))));
+    CHECK_FALSE(has_field(OperationForm(find_operation("smooth")), Meaning::Box));
 }
 
 SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[window][handles]") {
@@ -172,7 +172,7 @@ SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[w
     const std::vector<PatchMeasures> openings(patches.begin() + 1, patches.end());
     const double diameter = 2 * std::sqrt(openings[1].area / std::numbers::pi);
     REQUIRE(diameter == Approx(8).epsilon(0.002));
-    REQUIRE(has_lengths(form));
+    REQUIRE(has_field(form, Meaning::Openings));
     const FormShape shape = length_shape(form, openings);
     REQUIRE(shape.handles.size() == 2);
     CHECK(shape.handles[1].name == "length.outlet_1");
@@ -180,19 +180,26 @@ SCENARIO("A cap is dragged along its axis, with whole diameters as detents", "[w
     CHECK_THAT(shape.notes[1].text, Contains("3 diameters"));
     WHEN("it is dragged to 12.345 mm") {
         fill(form, length_texts(form, openings, 1, {0.5, 0, 42.345}, 0.3));
-        CHECK(form.arguments().real("length") == Approx(12.35).margin(0.0051));
-        CHECK(form.field("diameters").text.empty());
-        CHECK(length_shape(form, openings).handles[0].point.z() == Approx(-12.35).margin(0.0051));
+        THEN("only its own length changes") {
+            CHECK(form.field("opening").text == "inlet,outlet_1");
+            const std::vector<double> lengths = form.arguments().list("lengths");
+            CHECK(lengths.at(0) == Approx(3 * diameter).margin(0.0051));
+            CHECK(lengths.at(1) == Approx(12.35).margin(0.0051));
+            const auto handles = length_shape(form, openings).handles;
+            CHECK(handles.at(0).point.z() == Approx(-3 * diameter).margin(0.0051));
+            CHECK(handles.at(1).point.z() == Approx(42.35).margin(0.0051));
+        }
     }
     WHEN("it is dragged near two diameters") {
         form.set("length", "5");
         fill(form, length_texts(form, openings, 1, {0, 0, 30 + 2 * diameter + 0.2}, 0.3));
-        CHECK(form.field("diameters").text == "2");
-        CHECK(form.field("length").text.empty());
+        const std::vector<double> lengths = form.arguments().list("lengths");
+        CHECK(lengths.at(0) == 5.0);
+        CHECK(lengths.at(1) == Approx(2 * diameter).margin(0.0051));
     }
     WHEN("it is dragged into the vessel") {
         fill(form, length_texts(form, openings, 1, {0, 0, 10}, 0.3));
-        CHECK(form.arguments().real("length") == Approx(0.8).margin(0.01));
+        CHECK(form.arguments().list("lengths").at(1) == Approx(0.8).margin(0.01));
     }
     WHEN("one opening is named") {
         form.set("opening", "inlet");
@@ -249,6 +256,12 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
         CHECK(tilt_of(planes) == Approx(30).margin(0.01));
         CHECK(tube.form.field("names").text == "outlet:outlet_1");
         CHECK(tube.form.valid());
+        THEN("a typed role and name are those of the opening, as without the tilt") {
+            tube.form.set("kind", "inlet");
+            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:outlet_1");
+            tube.form.set("name", "neck");
+            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:neck");
+        }
         const Cut tilted = tube.find(cut.branch);
         CHECK(tilted.tilt_deg == Approx(30).margin(1));
         CHECK(tilted.area ==
@@ -283,25 +296,11 @@ SCENARIO("A cut that is not possible says why", "[window][handles]") {
     CHECK_FALSE(cut_question(tube.form));
 }
 
-SCENARIO("The lit part of a branch is what its removal cuts off", "[window][handles]") {
-    const std::string folder = temporary_folder();
-    REQUIRE(run_program(program_path(), {"phantom", "y", "--out", folder}).exit_code == 0);
-    const Surface y = read_surface(folder + "/exact.vtp").surface;
-    const auto graph = lines_to(y, {12, 0, 18}, 4, {});
-    const std::size_t tip = nearest_tip(*graph, {12, 0, 18}).value();
-    const Surface part = branch_part(y, graph->nodes[tip].position, kUsualMargin, {});
-    REQUIRE_FALSE(part.empty());
-    CHECK(measure(part).area == Approx(remove_branch(y, *graph, tip).removed_area));
-    CHECK(bounds(part).min.x() > -4);
-    CHECK(bounds(part).max.x() > 10);
-    CHECK(branch_part(fine_tube(4, 30, 24), {0, 0, 30}, kUsualMargin, {}).empty());
-}
-
 SCENARIO("An opening's role is text of the form", "[window][handles]") {
     const Surface tube = closed_tube(4, 30, 24, 10);
     const auto patches = measure_patches(tube);
     OperationForm form(find_operation("clip-opening"));
-    REQUIRE(has_roles(form));
+    REQUIRE(has_field(form, Meaning::Inlet));
     WHEN("the outlet becomes the inlet") {
         form.set("kind", "outlet");
         fill(form, role_texts(patches.at(2), PatchKind::Inlet, tube.patches));

@@ -3,6 +3,7 @@
 #include "workbench/window/model/latest_task.h"
 
 #include <future>
+#include <new>
 #include <optional>
 
 #include <catch2/catch.hpp>
@@ -67,6 +68,26 @@ SCENARIO("The last question is answered", "[window]") {
             gate.open();
             CHECK(answer_of(task) == 2);
         }
+    }
+}
+
+SCENARIO("Work that fails gives a problem instead of an answer", "[window]") {
+    LatestTask<int> task(nullptr);
+    const auto problem_of = [&](LatestTask<int>::Work work) {
+        task.begin(std::move(work));
+        while (task.pending()) CHECK_FALSE(task.take());
+        return task.take_problem();
+    };
+    CHECK(problem_of([](const Progress&) -> int { throw std::bad_alloc(); }) ==
+          "there is not enough memory");
+    CHECK(problem_of([](const Progress&) -> int { throw InvalidInput("no such vessel"); }) ==
+          "no such vessel");
+    CHECK(problem_of([](const Progress&) -> int { throw 5; }) == "an unknown error");
+    CHECK(problem_of([](const Progress&) -> int { throw Cancelled(); }).empty());
+    THEN("the next question is answered") {
+        task.begin([](const Progress&) { return 7; });
+        CHECK(answer_of(task) == 7);
+        CHECK(task.take_problem().empty());
     }
 }
 

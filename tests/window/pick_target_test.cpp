@@ -1,5 +1,7 @@
 #include "workbench/window/model/pick_target.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "workbench/operations/table.h"
@@ -9,8 +11,7 @@ using namespace vesselbench;
 namespace {
 
 std::optional<PickTarget> target_of(const std::string& operation, const std::string& parameter) {
-    const Operation& row = find_operation(operation);
-    return pick_target(row, find_parameter(row, parameter));
+    return pick_target(find_parameter(find_operation(operation), parameter));
 }
 
 }  // namespace
@@ -23,6 +24,16 @@ SCENARIO("Parameters that are places can be picked", "[window][picking]") {
     CHECK(target_of("brush-smooth", "at") == PickTarget::Surface);
     CHECK(target_of("crop", "centre") == PickTarget::Surface);
     CHECK(target_of("crop", "box") == PickTarget::Corners);
+}
+
+SCENARIO("Every place that an operation takes says what it means", "[window][picking]") {
+    for (const Operation& operation : operation_table())
+        for (const Parameter& parameter : operation.parameters) {
+            const bool place = parameter.type == ParameterType::Point && parameter.unit == "mm" &&
+                               !std::isfinite(parameter.minimum);
+            INFO(operation.name << " " << parameter.name);
+            CHECK((!place || parameter.meaning != Meaning::None));
+        }
 }
 
 SCENARIO("Other parameters cannot be picked", "[window][picking]") {
@@ -48,15 +59,15 @@ SCENARIO("Seeds and labels are picked in slices", "[window][picking]") {
 
 SCENARIO("A picked place is a short text of the command line", "[window][picking]") {
     const std::string text = picked_text(PickTarget::Tip, "", Vec3(1.23456789, -0.00001, 40));
-    CHECK(text == "1.2346,0,40");
+    CHECK(text == "1.23,0,40");
     OperationForm form(find_operation("remove-branch"));
     CHECK_FALSE(form.valid());
     form.set("tip", text);
     CHECK(form.valid());
-    CHECK(form.arguments().point("tip") == Vec3(1.2346, 0, 40));
+    CHECK(form.arguments().point("tip") == Vec3(1.23, 0, 40));
     REQUIRE(places_in(form).size() == 1);
     CHECK(places_in(form)[0].name == "Tip");
-    CHECK(places_in(form)[0].point == Vec3(1.2346, 0, 40));
+    CHECK(places_in(form)[0].point == Vec3(1.23, 0, 40));
     CHECK(wants_tips(form));
 }
 

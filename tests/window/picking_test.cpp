@@ -60,7 +60,7 @@ std::string text_of(OffscreenShell& shell, const std::string& parameter) {
 /// text that it should have now
 std::string pick_left_end(OffscreenShell& shell, const std::string& parameter) {
     const Workplace& place = shell.app().place();
-    REQUIRE(shell.click_item("field." + parameter + ".pick"));
+    if (place.armed().empty()) REQUIRE(shell.click_item("field." + parameter + ".pick"));
     CHECK(place.armed() == parameter);
     const auto& tips = place.surface_places().tips;
     REQUIRE(tips.size() == 3);
@@ -125,7 +125,7 @@ SCENARIO("Escape stops picking, then closes the form", "[window][picking]") {
     if (!shell) return;
     open_and_wait(*shell, tube_file());
     choose(*shell, "branches", "remove-branch");
-    REQUIRE(shell->click_item("field.tip.pick"));
+    CHECK(shell->app().place().armed() == "tip");  // it is required
     shell->press_key(keys::kEscape);
     CHECK(shell->app().place().armed().empty());
     CHECK(shell->app().place().form());

@@ -112,18 +112,3 @@ SCENARIO("A form of a brush says what a stroke does", "[window][stroke]") {
         CHECK(stroke_of(weights, tip, {}).given == Arguments{{"attribute", "plaque"}});
     }
 }
-
-SCENARIO("The vertices that a dab changed are those that differ", "[window][stroke]") {
-    const Surface before = icosphere(5.0, 2);
-    CHECK(changed_vertices(before, before).empty());
-    Positions points = before.points();
-    points[3].x() += 0.1;
-    points[17].z() -= 0.1;
-    const Surface moved = before.with_positions(points);
-    CHECK(changed_vertices(before, moved) == std::vector<VertexId>{3, 17});
-    Surface painted = before;
-    std::vector<double> weights(before.vertex_count(), 0.0);
-    weights[5] = 1.0;
-    painted.attributes["plaque"] = std::make_shared<const std::vector<double>>(weights);
-    CHECK(changed_vertices(before, painted) == std::vector<VertexId>{5});
-}

@@ -8,6 +8,7 @@
 #include "gpu/render/view_camera.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
+#include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/view/screen_places.h"
@@ -266,6 +267,47 @@ SCENARIO("A click measures a vessel's diameter", "[window][view]") {
     const auto plain = seen.pixels();
     seen.click({0, -4, 15});
     CHECK(seen.pixels() != plain);
+}
+
+SCENARIO("Every click measures a diameter, also before the last one is known", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    seen.key('D');
+    {
+        const SlowDevice slow;
+        for (const double z : {10.0, 15.0, 20.0}) {
+            const Eigen::Vector2f where = seen.at({0, -4, z});
+            seen.shell->click(where.x(), where.y());
+        }
+    }
+    REQUIRE(seen.shell->settle(30s));
+    for (const int number : {0, 1, 2})
+        CHECK(seen.shell->has("measure.diameter." + std::to_string(number)));
+    CHECK_FALSE(seen.shell->has("measure.diameter.3"));
+}
+
+SCENARIO("Openings have the colours of reports", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto colour_at = [&](const Vec3& point) {
+        const Eigen::Vector2f where = seen.at(point);
+        const Picture picture = seen.shell->picture();
+        const auto first = static_cast<std::size_t>(
+            (static_cast<int>(where.y()) * picture.width + static_cast<int>(where.x())) * 3);
+        return std::vector<int>(picture.rgb.begin() + static_cast<std::ptrdiff_t>(first),
+                                picture.rgb.begin() + static_cast<std::ptrdiff_t>(first) + 3);
+    };
+    const ScreenRect view = seen.view();
+    seen.shell->move_mouse(view.middle_x(), view.y + view.height - 40);
+    seen.shell->press_key(keys::k0 + 7, {.control = true});
+    REQUIRE(seen.shell->settle(30s));
+    const auto inlet = colour_at({1.5, 0, 0});  // seen from below
+    CHECK(inlet[1] > inlet[0] + 30);
+    CHECK(inlet[1] > inlet[2] + 30);
+    seen.shell->press_key(keys::k0 + 7);
+    REQUIRE(seen.shell->settle(30s));
+    const auto outlet = colour_at({1.5, 0, 30});
+    CHECK(outlet[2] > outlet[0] + 30);
 }
 
 SCENARIO("A picture of the view is saved", "[window][view]") {

@@ -60,9 +60,9 @@ const std::map<std::string, Names> kDoors = {
       "workbench/worker", "workbench/session", "workbench/operations"}},
     {"workbench/window",
      {"geometry/kernel", "geometry/image", "geometry/formats", "geometry/vessel", "smoothing/brush",
-      "smoothing/context", "gpu", "meshing/tetrahedra", "workbench/case", "workbench/session",
-      "workbench/operations", "workbench/export", "workbench/phantoms", "workbench/report",
-      "workbench/prepare"}},
+      "smoothing/context", "gpu", "meshing/remeshing", "meshing/tetrahedra", "workbench/case",
+      "workbench/session", "workbench/operations", "workbench/export", "workbench/phantoms",
+      "workbench/report", "workbench/prepare"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};

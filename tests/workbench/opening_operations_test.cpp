@@ -14,6 +14,7 @@
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/case/operation.h"
+#include "workbench/operations/shared/opening_arguments.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -183,4 +184,24 @@ SCENARIO("remove-branch names the branch by a point", "[workbench][openings]") {
     const Surface tube = open_tube(2.0, 30.0, 40, 90);
     CHECK_THROWS_AS(run("remove-branch", tube, {}), UsageError);
     CHECK_THROWS_AS(run("remove-branch", tube, {{"tip", Vec3(0, 0, 30)}}), AlgorithmFailure);
+}
+
+SCENARIO("The decisions of clip-opening are read back from its arguments", "[operations]") {
+    const std::vector<PlannedOpening> openings = {
+        {.place = {.tip = {1, 2, 3}, .plane = {{4, 5, 6}, {0, 0, 1}}}, .keep = true},
+        {.place = {.tip = {7, 8, 9}, .plane = {{10, 11, 12}, {0, -1, 0}}}}};
+    const std::vector<double> planes = planes_argument(openings);
+    const auto read = openings_in(planes);
+    REQUIRE(read.size() == 2);
+    CHECK(read[0].keep);
+    CHECK_FALSE(read[1].keep);
+    CHECK(read[1].place.tip == Vec3(7, 8, 9));
+    CHECK(read[1].place.plane.point == Vec3(10, 11, 12));
+    CHECK(planes_argument(read) == planes);
+    CHECK(openings_in({1, 2, 3}).empty());
+    CHECK(openings_in({0, 0, 0, 0, 0, 0, 0, 0, 2, 0}).empty());
+    const std::vector<Patch> patches = {{"inlet", PatchKind::Inlet}, {"a:b", PatchKind::Outlet}};
+    CHECK(names_argument(patches) == "inlet:inlet,outlet:a:b");
+    CHECK(patches_in("inlet:inlet,outlet:a:b") == patches);
+    CHECK(patches_in("inlet:inlet,outlet").size() == 1);
 }

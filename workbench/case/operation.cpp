@@ -40,6 +40,11 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
                      did_you_mean(name, names) + " (" + takes + ")");
 }
 
+const Parameter* parameter_of(const Operation& operation, Meaning meaning) {
+    const auto found = std::ranges::find(operation.parameters, meaning, &Parameter::meaning);
+    return found == operation.parameters.end() ? nullptr : &*found;
+}
+
 Outcome run_here(const Operation& operation, const Scene& scene, const CheckedArguments& arguments,
                  Progress& progress) {
     if (operation.run != nullptr) return operation.run(scene, arguments, progress);

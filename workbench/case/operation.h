@@ -68,6 +68,9 @@ struct Operation {
 /// \throw UsageError that lists similar names and all names if the operation has no such parameter
 [[nodiscard]] const Parameter& find_parameter(const Operation& operation, const std::string& name);
 
+/// The operation's first parameter of a meaning; null: none.
+[[nodiscard]] const Parameter* parameter_of(const Operation& operation, Meaning meaning);
+
 /// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
 /// \param resolved the arguments that the operation finally ran with
 [[nodiscard]] std::vector<std::string> arguments_without_effect(const Operation& operation,

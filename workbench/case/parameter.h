@@ -11,6 +11,21 @@ namespace vesselbench {
 
 enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
 
+/// What a value names in the model or the image, so that a user can point at it.
+enum class Meaning {
+    None,
+    Place,     ///< point on the surface
+    Tip,       ///< point at a vessel's end or in a dome
+    Branch,    ///< the same, of a branch that goes
+    Inlet,     ///< point at the opening that is the inlet
+    Seed,      ///< point in the image
+    Box,       ///< opposite corners
+    Labels,    ///< of a label image
+    Openings,  ///< names of openings, separated by commas
+    Planes,    ///< openings as planes
+    Dabs       ///< of a brush
+};
+
 /// An argument without which another one has no effect: "distance=margin".
 struct Condition {
     std::string parameter;
@@ -34,6 +49,7 @@ struct Parameter {
     bool required = false;
     bool above_minimum = false;               ///< the minimum itself is not allowed
     std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
+    Meaning meaning = Meaning::None;
 };
 
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a

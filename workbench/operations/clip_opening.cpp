@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -9,10 +8,10 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/openings/planned_cut.h"
+#include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
@@ -22,9 +21,6 @@ namespace vesselbench {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Numbers of one opening in `planes`: tip, point, normal, 1 if a cap is kept.
-constexpr std::size_t kNumbers = 10;
 
 void check_arguments(const Arguments& arguments) {
     if ((arguments.has("name") || arguments.has("kind")) && !arguments.has("tip") &&
@@ -36,59 +32,28 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: give planes and names together");
 }
 
-/// The centerlines of all vessel ends; if none of them is at the tip, those to the tip.
-std::shared_ptr<const CenterlineGraph> lines_with_tip(const Surface& surface,
-                                                      const std::optional<Vec3>& tip,
-                                                      const Progress& progress) {
-    auto lines = centerlines_of(surface, {}, progress.part(0.0, 0.7));
-    if (!tip) return lines;
-    const auto nearest = nearest_tip(*lines, *tip);
-    if (nearest &&
-        (lines->nodes[*nearest].position - *tip).norm() <= 2.0 * tip_radius(*lines, *nearest))
-        return lines;
-    // A stub or a sac that the automatic search leaves out.
-    return centerlines_of(surface, {.ends = {*tip}}, progress.part(0.7, 0.9));
-}
-
 OpeningPlan decide(const Surface& surface, const Arguments& arguments, const Progress& progress) {
     const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                      .distance = arguments.optional_real("distance"),
                                      .radii = arguments.optional_real("radii")};
     OpeningPlan plan =
-        plan_openings(surface, *lines_with_tip(surface, options.tip, progress), options);
+        plan_openings(surface, *lines_for_openings(surface, options.tip, progress), options);
     const auto kind = arguments.optional_text("kind");
     const auto name = arguments.optional_text("name");
     if (kind || name)
-        for (auto& opening : plan.openings) {
-            if (!opening.patch) opening.patch = Patch{"", PatchKind::Outlet};
-            if (kind) opening.patch->kind = patch_kind_from(*kind);
-            if (name || opening.patch->name.empty())
-                opening.patch->name = name.value_or(to_string(opening.patch->kind));
-        }
+        for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
     return plan;
 }
 
 /// The plan resolved by an earlier run.
 OpeningPlan stored(const Arguments& arguments) {
-    const auto& numbers = arguments.list("planes");
-    std::istringstream names(arguments.text("names"));
-    OpeningPlan plan;
-    for (std::size_t i = 0; i + kNumbers <= numbers.size(); i += kNumbers) {
-        const auto at = [&](std::size_t k) { return Eigen::Map<const Vec3>(&numbers[i + k]); };
-        PlannedOpening opening{.place = {.tip = at(0), .plane = {at(3), at(6)}},
-                               .keep = numbers[i + 9] != 0.0,
-                               .patch = std::nullopt};
-        std::string entry;
-        const bool given = static_cast<bool>(std::getline(names, entry, ','));
-        const auto colon = entry.find(':');
-        if (!given || colon == std::string::npos || std::abs(at(6).norm() - 1.0) > 1e-6) break;
-        opening.patch = Patch{entry.substr(colon + 1), patch_kind_from(entry.substr(0, colon))};
-        plan.openings.push_back(std::move(opening));
-    }
-    if (plan.openings.empty() || plan.openings.size() * kNumbers != numbers.size())
+    OpeningPlan plan{.openings = openings_in(arguments.list("planes")), .warnings = {}};
+    const std::vector<Patch> patches = patches_in(arguments.text("names"));
+    if (plan.openings.empty() || patches.size() < plan.openings.size())
         throw UsageError(
             "clip-opening: planes needs 10 numbers per opening (tip, point, unit normal, 1 for a "
             "kept cap), and names as many entries kind:name");
+    for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
     return plan;
 }
 
@@ -108,21 +73,18 @@ ordered_json figures_of(const Surface& surface, const std::vector<PatchMeasures>
 
 Resolved describe(const Surface& surface, const OpeningPlan& plan) {
     const std::vector<PatchMeasures> patches = measure_patches(surface);
-    Resolved resolved;
+    std::vector<Patch> made;
+    Resolved resolved{.planes = planes_argument(plan.openings)};
     for (const auto& opening : plan.openings) {
         const auto& place = opening.place;
         const std::size_t p = nearest_opening(surface, place.plane.point).value_or(0);
-        const Patch& patch = surface.patches[p];
-        for (const Vec3& v : {place.tip, place.plane.point, place.plane.normal})
-            resolved.planes.insert(resolved.planes.end(), {v.x(), v.y(), v.z()});
-        resolved.planes.push_back(opening.keep ? 1.0 : 0.0);
-        resolved.names +=
-            (resolved.names.empty() ? "" : ",") + to_string(patch.kind) + ":" + patch.name;
+        made.push_back(surface.patches[p]);
         ordered_json figures = figures_of(surface, patches, p);
         figures["distance_from_tip_mm"] = place.distance;
         figures["kept"] = opening.keep;
         resolved.openings.push_back(std::move(figures));
     }
+    resolved.names = names_argument(made);
     return resolved;
 }
 
@@ -140,8 +102,9 @@ void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
 Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
-    OpeningPlan plan =
-        arguments.has("planes") ? stored(arguments) : decide(surface, arguments, progress);
+    OpeningPlan plan = arguments.has("planes")
+                           ? stored(arguments)
+                           : decide(surface, arguments, progress.part(0.0, 0.9));
     std::vector<std::size_t> left_out;
     Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out,
                                     progress.part(0.9, 1.0));
@@ -192,7 +155,8 @@ Operation clip_opening_operation() {
             {{.name = "tip",
               .type = Point,
               .unit = "mm",
-              .help = "a point near the tip of the branch to open; default: every vessel end"},
+              .help = "a point near the tip of the branch to open; default: every vessel end",
+              .meaning = Meaning::Tip},
              {.name = "distance",
               .unit = "mm",
               .help = "distance of the cut from the tip along the centerline; default: the nearest "
@@ -208,7 +172,8 @@ Operation clip_opening_operation() {
               .type = Point,
               .unit = "mm",
               .help = "a point near the opening where the blood flows in; default: the largest "
-                      "opening"},
+                      "opening",
+              .meaning = Meaning::Inlet},
              {.name = "name",
               .type = Text,
               .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size"},
@@ -221,7 +186,8 @@ Operation clip_opening_operation() {
               .unit = "mm",
               .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
                       "plane, unit normal out of the vessel, 1 if a good cap was kept; they are "
-                      "used as they are"},
+                      "used as they are",
+              .meaning = Meaning::Planes},
              {.name = "names",
               .type = Text,
               .help = "with planes: kind:name of each opening, separated by commas"}},

@@ -215,7 +215,8 @@ std::vector<Parameter> source_parameters() {
         {.name = "labels",
          .type = List,
          .help = "labels of the vessel, as 1,2,3; default: every label above 0",
-         .minimum = 1},
+         .minimum = 1,
+         .meaning = Meaning::Labels},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",
@@ -231,7 +232,8 @@ std::vector<Parameter> source_parameters() {
         {.name = "seed",
          .type = Point,
          .unit = "mm",
-         .help = "point inside the vessel to keep (LPS)"}};
+         .help = "point inside the vessel to keep (LPS)",
+         .meaning = Meaning::Seed}};
 }
 
 std::vector<Parameter> cleaning_parameters() {

@@ -99,7 +99,8 @@ Operation extrude_opening_operation() {
             .parameters =
                 {{.name = "opening",
                   .type = Text,
-                  .help = "names of the openings, separated by commas; default: all"},
+                  .help = "names of the openings, separated by commas; default: all",
+                  .meaning = Meaning::Openings},
                  {.name = "diameters",
                   .unit = "-",
                   .default_value = 3.0,

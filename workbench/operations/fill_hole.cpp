@@ -72,7 +72,8 @@ Operation fill_hole_operation() {
               .type = Point,
               .unit = "mm",
               .help = "a point near the hole's border; default: every hole, including open vessel "
-                      "ends"},
+                      "ends",
+              .meaning = Meaning::Place},
              {.name = "continuity",
               .type = Integer,
               .unit = "-",

@@ -63,7 +63,8 @@ Operation keep_component_operation() {
                             .type = Point,
                             .unit = "mm",
                             .help = "keep the part nearest to this point; default: the parts with "
-                                    "the most triangles"},
+                                    "the most triangles",
+                            .meaning = Meaning::Place},
                            {.name = "count",
                             .type = Integer,
                             .unit = "-",

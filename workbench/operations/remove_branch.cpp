@@ -1,14 +1,10 @@
 #include "geometry/vessel/openings/remove_branch.h"
 
-#include <limits>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
-#include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/branch_part.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
 
@@ -18,37 +14,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A branch's name survives an edit before it if its tip moves by less than this [radii of the
-/// tip].
-constexpr double kTipReach = 3.0;
-
-struct NamedBranch {
-    std::shared_ptr<const CenterlineGraph> graph;
-    std::size_t tip = 0;
-};
-
-double distance_to_tip(const CenterlineGraph& graph, const Vec3& point) {
-    const auto tip = nearest_tip(graph, point);
-    return tip ? (graph.nodes[*tip].position - point).norm()
-               : std::numeric_limits<double>::infinity();
-}
-
-/// The branch with its tip at a point; one that the automatic search leaves out (a sac) gets its
-/// own line.
-NamedBranch branch_at(const Surface& surface, const Vec3& point, Progress& progress) {
-    auto graph = centerlines_of(surface, {}, progress.part(0.0, 0.4));
-    const auto found = nearest_tip(*graph, point);
-    if (!found || distance_to_tip(*graph, point) > tip_radius(*graph, *found))
-        graph = centerlines_of(surface, {.ends = {point}}, progress.part(0.4, 0.8));
-    const auto tip = nearest_tip(*graph, point);
-    if (!tip || distance_to_tip(*graph, point) > kTipReach * tip_radius(*graph, *tip))
-        throw AlgorithmFailure("remove-branch: no branch has its tip near " + place_text(point));
-    return {std::move(graph), *tip};
-}
-
 Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
-    const NamedBranch branch = branch_at(surface, arguments.point("tip"), progress);
+    const NamedBranch branch =
+        branch_at_tip(surface, arguments.point("tip"), progress.part(0.0, 0.8));
     progress.report(0.8, "removing the branch");
     const BranchRemoval removal =
         remove_branch(surface, *branch.graph, branch.tip,
@@ -78,7 +47,8 @@ Operation remove_branch_operation() {
                         .type = Point,
                         .unit = "mm",
                         .help = "a point near the tip of the branch, or in the aneurysm's dome",
-                        .required = true},
+                        .required = true,
+                        .meaning = Meaning::Branch},
                        {.name = "margin",
                         .unit = "-",
                         .default_value = 0.4,

@@ -26,13 +26,19 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, error);
 }
 
-std::string found_again(const SourceFile& source, const fs::path& folder) {
+std::vector<fs::path> candidates_for(const SourceFile& source, const FilePlaces& places) {
     std::vector<fs::path> candidates;
-    if (!source.place.empty()) candidates.push_back(folder / source.place);
-    if (!folder.empty()) candidates.push_back(folder / source.name);
+    if (!source.place.empty()) candidates.push_back(places.folder / source.place);
+    if (!places.folder.empty()) candidates.push_back(places.folder / source.name);
     candidates.emplace_back(source.name);
+    const auto read = places.read.find(source.hash);
+    if (read != places.read.end()) candidates.push_back(read->second);
+    return candidates;
+}
+
+std::string found_again(const SourceFile& source, const FilePlaces& places) {
     bool other_content = false;
-    for (const fs::path& candidate : candidates) {
+    for (const fs::path& candidate : candidates_for(source, places)) {
         if (!is_there(candidate)) continue;
         if (hash_of_file(candidate) == source.hash) return candidate.string();
         other_content = true;
@@ -43,6 +49,11 @@ std::string found_again(const SourceFile& source, const fs::path& folder) {
 }
 
 }  // namespace
+
+void remember(ReadFiles& read, const std::vector<SourceFile>& sources, const Arguments& located) {
+    for (const SourceFile& source : sources)
+        read[source.hash] = fs::absolute(located.text(source.parameter));
+}
 
 Arguments without_folders(const Operation& operation, const Arguments& arguments) {
     Arguments bare = arguments;
@@ -65,13 +76,13 @@ std::vector<SourceFile> source_files(const Operation& operation, const Arguments
 }
 
 Arguments with_found_files(const Operation& operation, const Arguments& arguments,
-                           const std::vector<SourceFile>& sources, const fs::path& folder) {
+                           const std::vector<SourceFile>& sources, const FilePlaces& places) {
     Arguments found = arguments;
     for_each_file(operation, arguments, [&](const std::string& name, const std::string& path) {
         const auto source = std::find_if(sources.begin(), sources.end(), [&](const auto& s) {
             return s.parameter == name && s.name == path;
         });
-        if (source != sources.end()) found.set(name, found_again(*source, folder));
+        if (source != sources.end()) found.set(name, found_again(*source, places));
     });
     return found;
 }

@@ -1,12 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "workbench/case/operation.h"
 #include "workbench/project/project.h"
 
 namespace vesselbench {
+
+/// Paths of files that were read, by their SHA-256.
+using ReadFiles = std::map<std::string, std::filesystem::path>;
+
+/// Where files may be.
+struct FilePlaces {
+    std::filesystem::path folder;  ///< of the project; empty: none
+    ReadFiles read = {};           ///< by this process
+};
+
+/// Adds the sources of an edit.
+/// \param located the arguments with which they were read
+void remember(ReadFiles& read, const std::vector<SourceFile>& sources, const Arguments& located);
 
 /// The arguments with file names without their folders, as they may enter a project.
 [[nodiscard]] Arguments without_folders(const Operation& operation, const Arguments& arguments);
@@ -18,12 +33,12 @@ namespace vesselbench {
                                                    const Arguments& arguments,
                                                    const std::filesystem::path& folder);
 
-/// Finds recorded files again: in their old place, beside the project, or in the current folder;
-/// only the same content counts. Existing paths are kept.
+/// Finds recorded files again: in their old place, beside the project, in the current folder, or
+/// where this process has read them; only the same content counts. Existing paths are kept.
 /// \throw IoError that names the file if there is none
 [[nodiscard]] Arguments with_found_files(const Operation& operation, const Arguments& arguments,
                                          const std::vector<SourceFile>& sources,
-                                         const std::filesystem::path& folder);
+                                         const FilePlaces& places);
 
 /// True if the operation reads files with these arguments.
 [[nodiscard]] bool reads_files(const Operation& operation, const Arguments& arguments);

@@ -38,8 +38,11 @@ std::string change_text(const SurfaceChange& change) {
     } else if (change.volume_after && !change.volume_before) {
         add_part(text, formatted(*change.volume_after, "volume %.1f mm\u00B3"));
     }
+    // Between surfaces of other triangles, the distance may be that to a part which has gone.
     if (change.largest_deviation && *change.largest_deviation >= 0.0005)
-        add_part(text, formatted(*change.largest_deviation, "moved up to %.3f mm"));
+        add_part(text, formatted(*change.largest_deviation, change.moved_vertices > 0
+                                                                ? "moved up to %.3f mm"
+                                                                : "differs by up to %.3f mm"));
     if (change.triangles_before != change.triangles_after)
         add_part(
             text,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "workbench/project/project.h"
+#include "workbench/project/source_files.h"
 #include "workbench/session/scene_cache.h"
 #include "workbench/session/snapshot.h"
 
@@ -47,6 +48,14 @@ public:
 
     [[nodiscard]] std::shared_ptr<const ResultRecord> record(ResultId id);
 
+    /// Where the files of edits may be.
+    [[nodiscard]] FilePlaces files() const { return {project_.folder(), read_}; }
+
+    /// Remembers the files that an edit or a preview has read as long as the session lives.
+    void keep_places(const std::vector<SourceFile>& sources, const Arguments& located) {
+        vesselbench::remember(read_, sources, located);
+    }
+
     /// The scene of a result if it is in memory.
     [[nodiscard]] std::optional<Scene> at_hand(ResultId id);
 
@@ -63,6 +72,7 @@ private:
     ProjectFile project_;
     std::shared_ptr<const History> history_;
     SceneCache cache_;
+    ReadFiles read_;
     std::map<EditRef, EditRecord> edits_;  ///< those read or created so far
     std::map<ResultId, std::shared_ptr<const ResultRecord>> records_;
     std::map<ResultId, std::optional<Scene>> own_scenes_;  ///< none: a stale result

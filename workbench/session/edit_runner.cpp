@@ -1,9 +1,12 @@
 #include "workbench/session/edit_runner.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/project/source_files.h"
 
 namespace vesselbench {
@@ -20,6 +23,41 @@ Progress part_of(const Progress& progress, std::size_t i, std::size_t count) {
     return progress.part(static_cast<double>(i) / whole, static_cast<double>(i + 1) / whole);
 }
 
+/// True if one of two amounts is more than twice the other, by more than a little.
+bool differ_much(double a, double b, double little) {
+    const double small = std::min(std::abs(a), std::abs(b));
+    return std::max(std::abs(a), std::abs(b)) > 2.0 * small && std::abs(a - b) > little;
+}
+
+/// Of the volume before the edit [-]; none: unknown.
+std::optional<double> volume_change(const SurfaceChange& change) {
+    if (!change.volume_before || !change.volume_after || !(*change.volume_before > 0.0))
+        return std::nullopt;
+    return *change.volume_after / *change.volume_before - 1.0;
+}
+
+/// An edit that ran on other input may no longer do what it was made for, unnoticed.
+void note_difference(ResultRecord& record, const SurfaceChange& before) {
+    constexpr double kLittleWay = 0.1;       // [mm]
+    constexpr double kLittleVolume = 0.002;  // of the volume [-]
+    const SurfaceChange& now = record.change;
+    const auto volume = volume_change(now), volume_before = volume_change(before);
+    const bool other_way =
+        now.largest_deviation && before.largest_deviation &&
+        differ_much(*now.largest_deviation, *before.largest_deviation, kLittleWay);
+    if (volume && volume_before && differ_much(*volume, *volume_before, kLittleVolume))
+        record.warnings.push_back(
+            formatted(100.0 * *volume, "it changes the volume by %+.2f %%, ") +
+            formatted(100.0 * *volume_before, "by %+.2f %% before an earlier edit was changed: ") +
+            "check that it still does what it was made for");
+    else if (other_way)
+        record.warnings.push_back(
+            formatted(*now.largest_deviation, "it changes the surface by up to %.3f mm, ") +
+            formatted(*before.largest_deviation,
+                      "by up to %.3f mm before an earlier edit was changed: ") +
+            "check that it still does what it was made for");
+}
+
 }  // namespace
 
 EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedArguments& located,
@@ -33,9 +71,9 @@ EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedAr
 
 CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
                                      const Arguments& stored) const {
-    const ProjectFile& project = store_->project();
     return checked_arguments(
-        operation, with_found_files(operation, stored, project.sources(edit), project.folder()));
+        operation,
+        with_found_files(operation, stored, store_->project().sources(edit), store_->files()));
 }
 
 EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progress) {
@@ -45,7 +83,10 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
         earlier != nullptr ? store_->record(earlier->id)->resolved : edit.given;
     try {
         const Operation& operation = options_->find(edit.operation);
-        return run(operation, input, located(operation, ref, arguments), progress);
+        EditRun done = run(operation, input, located(operation, ref, arguments), progress);
+        if (earlier != nullptr && earlier->stale_reason.empty())
+            note_difference(done.record, store_->record(earlier->id)->change);
+        return done;
     } catch (const AlgorithmFailure& error) {
         return stale_run(std::move(input), error.what());
     } catch (const InvalidInput& error) {

@@ -84,9 +84,8 @@ struct Session::Parts {
         const EditRef old = store.history().find(id).value();
         EditRecord edit = store.edit(old);
         const Operation& operation = options.find(edit.operation);
-        const ProjectFile& project = store.project();
         const Arguments located =
-            with_found_files(operation, given, project.sources(old), project.folder());
+            with_found_files(operation, given, store.project().sources(old), store.files());
         edit.given = without_folders(operation, given);
         describe(edit, how);
         return {&operation, std::move(edit), checked_arguments(operation, located),
@@ -95,9 +94,9 @@ struct Session::Parts {
 
     /// The files that a run has read, with their hashes.
     [[nodiscard]] std::vector<SourceFile> sources(const Operation& operation,
-                                                  const Arguments& located,
-                                                  const Scene& scene) const {
+                                                  const Arguments& located, const Scene& scene) {
         auto sources = source_files(operation, located, store.project().folder());
+        store.keep_places(sources, located);
         if (!refers_to_image(scene, options.embed_limit))
             for (SourceFile& source : sources) source.place.clear();
         return sources;

@@ -93,6 +93,21 @@ void add_deviations(const Surface& before, const Surface& after, SurfaceChange& 
     change.mean_deviation = found.count > 0.0 ? found.sum / found.count : 0.0;
 }
 
+template <class Values>
+void add_differences(const Values& before, const Values& after, std::vector<VertexId>& changed) {
+    for (std::size_t v = 0; v < after.size(); ++v)
+        if (before[v] != after[v]) changed.push_back(static_cast<VertexId>(v));
+}
+
+using Values = std::shared_ptr<const std::vector<double>>;
+
+Values attribute(const Surface& surface, const std::string& name) {
+    const auto found = surface.attributes.find(name);
+    return found == surface.attributes.end()
+               ? std::make_shared<const std::vector<double>>(surface.vertex_count(), 0.0)
+               : found->second;
+}
+
 }  // namespace
 
 SurfaceChange surface_change(const Scene& before, const Scene& after, const Progress& progress) {
@@ -111,6 +126,17 @@ SurfaceChange surface_change(const Scene& before, const Scene& after, const Prog
     change.volume_after = same_shape ? change.volume_before : volume(*after.surface);
     if (had) add_deviations(*before.surface, *after.surface, change, progress);
     return change;
+}
+
+std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after) {
+    std::vector<VertexId> changed;
+    if (before.positions != after.positions)
+        add_differences(before.points(), after.points(), changed);
+    for (const auto& [name, values] : after.attributes) {
+        const Values old = attribute(before, name);
+        if (old != values) add_differences(*old, *values, changed);
+    }
+    return changed;
 }
 
 }  // namespace vesselbench

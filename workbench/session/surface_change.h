@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "geometry/kernel/progress.h"
 #include "workbench/case/edit_record.h"
 #include "workbench/case/scene.h"
@@ -14,5 +16,9 @@ namespace vesselbench {
 /// \throw Cancelled
 [[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
                                            const Progress& progress = {});
+
+/// Vertices that differ in place or in an attribute that only one surface has or both share;
+/// ascending. \param after of the same connectivity as `before`
+[[nodiscard]] std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after);
 
 }  // namespace vesselbench

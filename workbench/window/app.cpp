@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/window/model/user_folders.h"
 #include "workbench/window/panels/banners.h"
 #include "workbench/window/panels/bottom_panel.h"
@@ -64,6 +65,7 @@ struct App::Impl {
         return std::round(std::min(usual * static_cast<float>(place.settings.scale), most));
     }
 
+    void take_case();
     void draw_case(PanelContext& context, const Layout& layout);
 
     Workplace place;
@@ -72,6 +74,7 @@ struct App::Impl {
     Viewport viewport;
     Thumbnails thumbnails;
     FileDialog files;
+    std::filesystem::path seen_project;
     std::string device;
     double display_scale = 1.0;
     bool moved = true;  ///< the last update changed something
@@ -100,6 +103,16 @@ bool App::restyle() {
     return new_fonts;
 }
 
+/// What was typed for a case ends with it. An opening that fails or is cancelled ends none.
+void App::Impl::take_case() {
+    if (seen_project == place.document.project()) return;
+    seen_project = place.document.project();
+    shown.prepare = false;
+    shown.note.reset();
+    shown.least.clear();
+    shown.most.clear();
+}
+
 void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
     viewport.draw(context, layout.view);
     draw_rail(context, layout.rail);
@@ -112,6 +125,7 @@ void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
 void App::draw() {
     Impl& app = *impl_;
     app.moved = app.place.update();
+    app.take_case();
     app.thumbnails.update(app.place.document, app.viewport.renderer());
     app.ui.begin_frame();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -130,6 +144,7 @@ void App::draw() {
         app.draw_case(context, layout);
     } else {
         const float top = layout.rail.y;
+        app.viewport.rest(context);
         draw_start_screen(context, {0, top, size.x, layout.rail.height});
     }
     draw_status_line(context, layout.status);
@@ -156,10 +171,24 @@ bool App::is_settled() const {
     return !is_moving();
 }
 
+void App::rest() {
+    impl_->moved = impl_->place.update();
+}
+
 void App::open(const std::filesystem::path& path) {
     impl_->shown.help = impl_->shown.prepare = false;
     impl_->place.ask(FileQuestion::None);
     impl_->place.open(path);
+}
+
+void App::drop(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    open(files.front());
+    if (files.size() == 1) return;
+    impl_->place.document.tell(
+        make_message(MessageKind::Warning, counted(files.size(), "file") + " were dropped; " +
+                                               files.front().filename().string() +
+                                               " is opened: the window shows one case at a time"));
 }
 
 int App::drawings() const {

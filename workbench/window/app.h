@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu/render/view_camera.h"
 #include "workbench/window/model/workplace.h"
@@ -41,6 +42,10 @@ public:
     /// One frame, between ImGui::NewFrame and ImGui::Render.
     void draw();
 
+    /// In place of a frame while nothing can be seen: requests that have ended are followed by
+    /// those that wait for them.
+    void rest();
+
     /// True if the next frame would look different without any input: something has ended, or
     /// progress is shown.
     [[nodiscard]] bool is_moving() const;
@@ -49,8 +54,11 @@ public:
     /// comparison blink. None: never.
     [[nodiscard]] std::optional<double> next_change() const;
 
-    /// A file that was dropped on the window or named on the command line.
+    /// A file that was named on the command line, or chosen.
     void open(const std::filesystem::path& path);
+
+    /// Files that were dropped on the window: the first is opened, a message names the others.
+    void drop(const std::vector<std::filesystem::path>& files);
 
     /// True when nothing is being opened, read or measured, and it is drawn.
     [[nodiscard]] bool is_settled() const;

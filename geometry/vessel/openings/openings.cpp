@@ -25,8 +25,8 @@ constexpr double kKeptFlatness = 1e-5;
 constexpr double kKeptTiltDeg = 2.0;
 /// If a larger fraction of a branch is given up, a warning says so.
 constexpr double kNoticedShare = 0.4;
-/// A border or a cap belongs to a tip within this many of its diameters.
-constexpr double kTipReach = 1.5;
+/// A point this far from a tip does not mean it [radii of the tip].
+constexpr double kFarthestTip = 4.0;
 /// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
 constexpr double kSacToNeck = 1.4;
 constexpr double kSacLength = 2.5;
@@ -70,7 +70,7 @@ void match_tips(std::vector<End>& ends, const CenterlineGraph& graph) {
         for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
             if (!graph.nodes[n].is_tip()) continue;
             const double distance = (graph.nodes[n].position - ends[e].centre).norm();
-            if (distance < kTipReach * ends[e].diameter) pairs.push_back({distance, e, n});
+            if (distance < kEndReach * ends[e].diameter) pairs.push_back({distance, e, n});
         }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
@@ -143,7 +143,7 @@ public:
 
     OpeningPlan run() {
         if (options_.tip) {
-            plan_tip(near_tip(*options_.tip));
+            plan_tip(tip_to_open(graph_, *options_.tip));
         } else {
             plan_visible();
             if (all_ends_are_cuts() || plan_.openings.size() < 2) plan_blind();
@@ -155,16 +155,6 @@ public:
     }
 
 private:
-    std::size_t near_tip(const Vec3& point) const {
-        const auto tip = nearest_tip(graph_, point);
-        if (!tip) throw AlgorithmFailure("the vessels have no tip that could be opened");
-        const Vec3& found = graph_.nodes[*tip].position;
-        if ((found - point).norm() > 4.0 * tip_radius(graph_, *tip))
-            throw AlgorithmFailure("no branch has its tip near " + place_text(point) +
-                                   "; the nearest one is at " + place_text(found));
-        return *tip;
-    }
-
     void plan_visible() {
         for (const End& end : ends_) {
             if (end.tip)
@@ -293,6 +283,16 @@ bool takes_another_end(const Surface& before, const Surface& after, const Openin
 }
 
 }  // namespace
+
+std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
+    const auto tip = nearest_tip(graph, point);
+    if (!tip) throw AlgorithmFailure("the vessels have no tip that could be opened");
+    const Vec3& found = graph.nodes[*tip].position;
+    if ((found - point).norm() > kFarthestTip * tip_radius(graph, *tip))
+        throw AlgorithmFailure("no branch has its tip near " + place_text(point) +
+                               "; the nearest one is at " + place_text(found));
+    return *tip;
+}
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                           const OpeningPlanOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,15 @@ struct OpeningPlanOptions {
     std::optional<double> distance;  ///< from the tip [mm]; none: chosen automatically
     std::optional<double> radii;     ///< the same in radii of the tip's vessel
 };
+
+/// A border or a cap belongs to a tip within this many of its diameters [-].
+inline constexpr double kEndReach = 1.5;
+
+/// The tip that a point means.
+/// \param point at most 4 radii from it [mm]
+/// \return node of the graph
+/// \throw AlgorithmFailure if there is none; the text names the nearest one
+[[nodiscard]] std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point);
 
 /// Decides where the vessel ends are cut. All ends: the open borders and known caps at a tip; if
 /// there are fewer than two of these, or only cuts at an image's border, every other tip as well,

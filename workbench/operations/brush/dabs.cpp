@@ -122,11 +122,13 @@ std::vector<Parameter> dab_parameters(double weakest, const std::string& strengt
              .unit = "mm",
              .help = "the stroke, 10 numbers per dab: point x,y,z on the surface, outward normal "
                      "x,y,z, local radius of the vessel, radius of the brush along the surface, "
-                     "strength and falloff as below; or use at"},
+                     "strength and falloff as below; or use at",
+             .meaning = Meaning::Dabs},
             {.name = "at",
              .type = Point,
              .unit = "mm",
-             .help = "instead of dabs: one dab at the nearest point of the surface"},
+             .help = "instead of dabs: one dab at the nearest point of the surface",
+             .meaning = Meaning::Place},
             {.name = "radius",
              .unit = "mm",
              .help = "with at: radius of the brush along the surface",

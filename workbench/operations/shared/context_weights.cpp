@@ -8,8 +8,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/wording.h"
-#include "smoothing/context/stack_orientation.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/stack_axis.h"
 
 namespace vesselbench {
 
@@ -37,17 +37,6 @@ std::optional<Vec3> given_stack_axis(const Arguments& arguments, const std::stri
                      " has no direction: give three numbers, not all of them 0");
 }
 
-/// A flat end has a normal shared by many faces, but is no staircase.
-Surface without_caps(const Surface& surface, const std::vector<Cap>& caps) {
-    std::vector<std::uint8_t> on_cap(surface.triangle_count(), 0);
-    for (const Cap& cap : caps)
-        for (const TriangleId t : cap.triangles) on_cap[t] = 1;
-    std::vector<Triangle> wall;
-    for (TriangleId t = 0; t < on_cap.size(); ++t)
-        if (on_cap[t] == 0) wall.push_back(surface.triangles()[t]);
-    return make_surface(surface.points(), std::move(wall));
-}
-
 /// Source of the stack axis: the user, the image, or the surface itself.
 Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder& finder,
                 Arguments& arguments, ContextFigures& figures) {
@@ -55,22 +44,15 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder&
         figures.stack_axis_from = "argument";
         return *given;
     }
-    if (scene.sampling && scene.sampling->confidence > 0.0) {
-        const Vec3 axis = scene.sampling->axes.col(2);
-        figures.stack_axis_from = "image";
-        arguments.set("stack_axis", axis);
-        return axis;
-    }
-    const StackOrientation estimate =
-        estimate_stack_orientation(without_caps(surface_of(scene), finder.caps()));
-    figures.stack_axis_confidence = estimate.confidence;
-    if (!estimate.certain)
+    const auto found = stack_axis_of(scene, finder.caps());
+    if (!found)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases; give stack_axis=x,y,z, or staircase=false");
-    figures.stack_axis_from = "estimate";
-    arguments.set("stack_axis", estimate.direction);
-    return estimate.direction;
+    figures.stack_axis_confidence = found->confidence;
+    figures.stack_axis_from = found->confidence ? "estimate" : "image";
+    arguments.set("stack_axis", found->direction);
+    return found->direction;
 }
 
 std::vector<double> staircase_part(const Scene& scene, const WeightSettings& settings,

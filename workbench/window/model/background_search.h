@@ -29,47 +29,39 @@ public:
     /// As begin(), but the last result stays until there is a new one.
     void renew(Work work) {
         task_.begin([work = std::move(work)](const Progress& progress) {
-            Found found;
-            try {
-                found.result = std::make_shared<const Result>(work(progress));
-            } catch (const Cancelled&) {
-                throw;
-            } catch (const std::exception& error) {
-                found.problem = error.what();
-            }
-            return found;
+            return std::make_shared<const Result>(work(progress));
         });
     }
 
     /// Forgets the result and cancels the search.
     void forget() {
-        found_ = {};
+        result_.reset();
+        problem_.clear();
         task_.forget();
     }
 
     /// Takes a result that is ready. \return true if result() or problem() has changed
     bool update() {
-        auto found = task_.take();
-        if (found) found_ = std::move(*found);
-        return found.has_value();
+        auto result = task_.take();
+        std::string problem = task_.take_problem();
+        if (!result && problem.empty()) return false;
+        result_ = result ? std::move(*result) : nullptr;
+        problem_ = std::move(problem);
+        return true;
     }
 
     [[nodiscard]] bool pending() const { return task_.pending(); }
 
     /// Null while it is not known.
-    [[nodiscard]] const std::shared_ptr<const Result>& result() const { return found_.result; }
+    [[nodiscard]] const std::shared_ptr<const Result>& result() const { return result_; }
 
     /// Why there is no result; empty: no problem.
-    [[nodiscard]] const std::string& problem() const { return found_.problem; }
+    [[nodiscard]] const std::string& problem() const { return problem_; }
 
 private:
-    struct Found {
-        std::shared_ptr<const Result> result;
-        std::string problem;
-    };
-
-    LatestTask<Found> task_;
-    Found found_;
+    LatestTask<std::shared_ptr<const Result>> task_;
+    std::shared_ptr<const Result> result_;
+    std::string problem_;
 };
 
 }  // namespace vesselbench

@@ -19,10 +19,6 @@ double number_in(const OperationForm& form, const std::string& name, double othe
     return std::get<double>(checked_value(*field.parameter, Value(field.text)));
 }
 
-bool has_parameter(const Operation& operation, const std::string& name) {
-    return std::ranges::count(operation.parameters, name, &Parameter::name) > 0;
-}
-
 bool can_invert(const Operation& operation) {
     return find_parameter(operation, "strength").minimum < 0.0;
 }
@@ -38,7 +34,7 @@ Arguments lasting(const OperationForm& form) {
 }  // namespace
 
 bool is_brush(const Operation& operation) {
-    return operation.start != nullptr && has_parameter(operation, "dabs");
+    return operation.start != nullptr && parameter_of(operation, Meaning::Dabs) != nullptr;
 }
 
 BrushTip tip_of(const OperationForm& form, const BrushTip& otherwise) {
@@ -67,9 +63,10 @@ StrokeRequest stroke_of(const OperationForm& form, const BrushTip& tip, StrokeKe
 }
 
 std::string painted_attribute(const OperationForm& form) {
-    if (!has_parameter(form.operation(), "attribute")) return "";
-    const FormField& field = form.field("attribute");
-    return field.text.empty() ? to_text(*field.parameter->default_value) : field.text;
+    const auto field = std::ranges::find(
+        form.fields(), "attribute", [](const FormField& each) { return each.parameter->name; });
+    if (field == form.fields().end()) return "";
+    return field->text.empty() ? to_text(*field->parameter->default_value) : field->text;
 }
 
 }  // namespace vesselbench

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/statistics.h"
-#include "geometry/kernel/surface_distance.h"
-#include "geometry/kernel/triangle_shape.h"
+#include "geometry/kernel/triangle_quality.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/centerlines/line_radii.h"
 #include "meshing/tetrahedra/quality.h"
 #include "smoothing/context/context_finder.h"
-#include "smoothing/context/stack_orientation.h"
+#include "smoothing/context/distance_weights.h"
+#include "workbench/operations/shared/stack_axis.h"
 
 namespace vesselbench {
 
@@ -43,20 +43,15 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]
 constexpr double kLeastSpread = 0.02;              ///< of a range, relative to its values [-]
 
-Vec3 stack_axis(const Scene& scene) {
-    if (scene.sampling && scene.sampling->confidence > 0.0) return scene.sampling->axes.col(2);
-    const StackOrientation estimate = estimate_stack_orientation(*scene.surface);
-    if (!estimate.certain)
+std::vector<double> staircase_values(const Scene& scene) {
+    const auto finder = make_cpu_finder(*scene.surface);
+    const auto axis = stack_axis_of(scene, finder->caps());
+    if (!axis)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases");
-    return estimate.direction;
-}
-
-std::vector<double> staircase_values(const Scene& scene) {
-    const auto finder = make_cpu_finder(*scene.surface);
     const auto caps = cap_vertices(finder->caps(), scene.surface->vertex_count());
-    return finder->staircases(stack_axis(scene), {.caps = caps}).weights;
+    return finder->staircases(axis->direction, {.caps = caps}).weights;
 }
 
 std::vector<double> neighbour_values(const Scene& scene) {
@@ -64,28 +59,6 @@ std::vector<double> neighbour_values(const Scene& scene) {
     for (const auto& [name, surface] : scene.neighbours)
         if (!surface.empty()) neighbours.push_back(surface);
     return neighbour_distances(scene.surface->points(), neighbours);
-}
-
-std::vector<double> triangle_values(const Surface& surface) {
-    std::vector<double> worst(surface.vertex_count(), std::numeric_limits<double>::quiet_NaN());
-    const Positions& x = surface.points();
-    for (const Triangle& t : surface.triangles()) {
-        const double ratio = radius_ratio(x[t[0]], x[t[1]], x[t[2]]);
-        for (const VertexId v : t) worst[v] = std::fmin(worst[v], ratio);
-    }
-    return worst;
-}
-
-std::vector<double> tetrahedra_values(const VolumeMesh& mesh, const Progress& progress) {
-    constexpr std::size_t kBetweenChecks = 1 << 14;
-    std::vector<double> values(mesh.tetrahedra.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i % kBetweenChecks == 0) progress.check_cancelled();
-        const Tetrahedron& t = mesh.tetrahedra[i];
-        values[i] = std::ranges::min(dihedral_angles(mesh.points[t[0]], mesh.points[t[1]],
-                                                     mesh.points[t[2]], mesh.points[t[3]]));
-    }
-    return values;
 }
 
 std::vector<double> values_of(ColouringKind kind, const Scene& scene, const Progress& progress) {
@@ -97,12 +70,12 @@ std::vector<double> values_of(ColouringKind kind, const Scene& scene, const Prog
         case NeighbourDistance:
             return neighbour_values(scene);
         case TriangleQuality:
-            return triangle_values(*scene.surface);
+            return worst_triangle_quality(*scene.surface);
         case LocalRadius:
-            return local_radii(*centerlines_of(*scene.surface, {}, progress),
-                               scene.surface->points());
+            return radii_of_nearest_lines(*centerlines_of(*scene.surface, {}, progress),
+                                          scene.surface->points());
         case TetrahedraQuality:
-            return tetrahedra_values(*scene.volume_mesh, progress);
+            return smallest_dihedral_angles(*scene.volume_mesh, progress);
         default:
             throw InvalidInput(std::string("'") + colouring_info(kind).name +
                                "' has no values of its own: choose another colouring");
@@ -148,28 +121,6 @@ ColourValues colour_values(ColouringKind kind, const Scene& scene, const Progres
         throw InvalidInput(reason);
     ColourValues found{.kind = kind, .values = values_of(kind, scene, progress)};
     found.range = shown_range(found.values);
-    return found;
-}
-
-std::vector<double> local_radii(const CenterlineGraph& graph, std::span<const Vec3> positions) {
-    // Segments as triangles without area, so that the surface's search tree finds the nearest.
-    Positions points;
-    std::vector<double> radii;
-    std::vector<Triangle> segments;
-    for (const CenterlineBranch& branch : graph.branches) {
-        const auto first = static_cast<VertexId>(points.size());
-        points.insert(points.end(), branch.points.begin(), branch.points.end());
-        radii.insert(radii.end(), branch.radii.begin(), branch.radii.end());
-        for (VertexId i = first; i + 1 < points.size(); ++i) segments.push_back({i, i + 1, i + 1});
-    }
-    const auto nearest = SurfaceDistance(points, segments).closest_points(positions);
-    std::vector<double> found(positions.size());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto& [from, to, again] = segments[nearest[i].triangle];
-        const double length = (points[to] - points[from]).norm();
-        const double share = length > 0.0 ? (nearest[i].point - points[from]).norm() / length : 0.0;
-        found[i] = radii[from] + share * (radii[to] - radii[from]);
-    }
     return found;
 }
 

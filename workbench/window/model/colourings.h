@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
-#include "geometry/vessel/centerlines/centerline_graph.h"
 #include "workbench/case/scene.h"
 
 namespace vesselbench {
@@ -62,9 +61,5 @@ struct ColourValues {
 /// AlgorithmFailure if centerlines or the direction of the image stack cannot be found; Cancelled
 [[nodiscard]] ColourValues colour_values(ColouringKind kind, const Scene& scene,
                                          const Progress& progress);
-
-/// The vessel's radius [mm] at the place of the centerlines that is nearest to each position.
-[[nodiscard]] std::vector<double> local_radii(const CenterlineGraph& graph,
-                                              std::span<const Vec3> positions);
 
 }  // namespace vesselbench

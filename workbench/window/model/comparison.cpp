@@ -19,12 +19,17 @@ SceneDifference difference_of(const Scene& reference, const Scene& shown,
     SceneDifference difference{.change = surface_change(reference, shown, progress), .map = {}};
     progress.check_cancelled();
     if (has_triangles(reference) && has_triangles(shown))
-        difference.map =
-            std::make_shared<const DeviationMap>(deviation_map(*shown.surface, *reference.surface));
+        difference.map = std::make_shared<const DeviationMap>(
+            deviation_map(*shown.surface, *reference.surface, progress));
     return difference;
 }
 
 }  // namespace
+
+Comparison::~Comparison() {
+    if (reading_) reading_->cancel();
+    if (measuring_) measuring_->cancel();
+}
 
 bool Comparison::update(Document& document) {
     bool changed = take_scene();

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/job.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/document.h"
 
 namespace vesselbench {
@@ -31,6 +31,12 @@ public:
 
     explicit Comparison(StateId reference, CompareMode mode = CompareMode::SideBySide)
         : reference_(reference), mode_(mode) {}
+
+    /// Cancels what runs.
+    ~Comparison();
+
+    Comparison(const Comparison&) = delete;
+    Comparison& operator=(const Comparison&) = delete;
 
     /// Collects what is ready and requests what is missing, once a frame while the case is open.
     /// \return true if something has changed

@@ -146,10 +146,6 @@ Ball dragged(Ball ball, std::size_t handle, const Vec3& to) {
 
 }  // namespace
 
-bool has_region(const OperationForm& form) {
-    return has_field(form, "box") && has_field(form, "centre") && has_field(form, "radius");
-}
-
 FormShape crop_shape(const OperationForm& form, const Bounds& model) {
     FormShape shape;
     const Region region = region_of(form, model);

@@ -5,9 +5,6 @@
 
 namespace vesselbench {
 
-/// True for operations with a region: a box, or a ball by centre and radius.
-[[nodiscard]] bool has_region(const OperationForm& form);
-
 /// The region with its handles. Of a box: the middles of its faces (x, y, z of the low corner, then
 /// of the high one), then its corners; of a ball: its centre, then six places on it. Where nothing
 /// is given yet, a faint box around the model is offered, or the missing part of a ball.

@@ -8,12 +8,12 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_names.h"
+#include "workbench/operations/shared/opening_arguments.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kNumbers = 10;     ///< of a plane in `planes`
 constexpr std::size_t kSlides = 0;       ///< index of the handle
 constexpr double kArm = 1.0;             ///< of the tilting handle, in diameters [-]
 constexpr double kSnapDeg = 2.5;         ///< a smaller tilt is none
@@ -26,12 +26,20 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-/// The only plane that the form gives.
+/// The only opening that the form gives as a plane.
+std::optional<OpeningPlace> typed_place(const OperationForm& form) {
+    const std::vector<PlannedOpening> openings = openings_in(list_of(form, "planes"));
+    return openings.size() == 1 ? std::optional(openings.front().place) : std::nullopt;
+}
+
 std::optional<Plane> typed_plane(const OperationForm& form) {
-    const std::vector<double> numbers = list_of(form, "planes");
-    if (numbers.size() != kNumbers) return std::nullopt;
-    return Plane{{numbers[3], numbers[4], numbers[5]},
-                 Vec3(numbers[6], numbers[7], numbers[8]).normalized()};
+    const auto place = typed_place(form);
+    return place ? std::optional(place->plane) : std::nullopt;
+}
+
+std::optional<std::string> given_text(const OperationForm& form, const std::string& parameter) {
+    const std::string text = text_of(form, parameter);
+    return text.empty() ? std::nullopt : std::optional(text);
 }
 
 Vec3 turned(const Vec3& direction, const Vec3& from, const Vec3& to) {
@@ -40,33 +48,26 @@ Vec3 turned(const Vec3& direction, const Vec3& from, const Vec3& to) {
 
 /// The kind and name of the opening: as typed, as they are, or by size.
 Patch patch_of(const OperationForm& form, const Cut& cut) {
+    const auto kind = given_text(form, "kind"), name = given_text(form, "name");
+    if (kind || name) return chosen_patch(cut.branch->patch, kind, name);
+    if (cut.branch->patch) return *cut.branch->patch;
     const std::vector<Patch>& patches = cut.branch->surface.patches;
     const bool has_inlet = std::ranges::count(patches, PatchKind::Inlet, &Patch::kind) > 0;
-    Patch patch{.name = "", .kind = has_inlet ? PatchKind::Outlet : PatchKind::Inlet};
-    if (cut.branch->patch) patch = *cut.branch->patch;
-    const std::string kind = text_of(form, "kind");
-    if (!kind.empty() && to_string(patch.kind) != kind)
-        patch = {.name = "", .kind = patch_kind_from(kind)};
-    if (const std::string name = text_of(form, "name"); !name.empty()) patch.name = name;
-    const bool inlet = patch.kind == PatchKind::Inlet;
-    if (patch.name.empty())
-        patch.name = free_patch_name(to_string(patch.kind), inlet ? 0 : 1, patches);
-    return patch;
+    const PatchKind missing = has_inlet ? PatchKind::Outlet : PatchKind::Inlet;
+    return {free_patch_name(to_string(missing), has_inlet ? 1 : 0, patches), missing};
 }
 
 std::vector<FieldText> plane_texts(const OperationForm& form, const Cut& cut, const Plane& plane) {
-    const Vec3 tip = rounded_place(cut.branch->graph->nodes[cut.branch->tip].position);
-    const Vec3 point = rounded_place(plane.point);
     const Vec3 normal = (plane.normal * kNormalSteps).array().round() / kNormalSteps + 0.0;
-    std::vector<double> numbers;
-    for (const Vec3& part : {tip, point, normal})
-        numbers.insert(numbers.end(), {part.x(), part.y(), part.z()});
-    numbers.push_back(0.0);
-    const Patch patch = patch_of(form, cut);
+    const PlannedOpening opening{
+        .place = {.tip = rounded_place(cut.branch->graph->nodes[cut.branch->tip].position),
+                  .plane = {rounded_place(plane.point), normal}},
+        .keep = false,
+        .patch = patch_of(form, cut)};
     return {{"distance", ""},
             {"radii", ""},
-            {"planes", to_text(Value(numbers))},
-            {"names", to_string(patch.kind) + ":" + patch.name}};
+            {"planes", to_text(Value(planes_argument({&opening, 1})))},
+            {"names", names_argument({&*opening.patch, 1})}};
 }
 
 std::vector<FieldText> distance_texts(const Cut& cut, double distance) {
@@ -117,18 +118,12 @@ std::string cut_text(const Cut& cut) {
 
 }  // namespace
 
-bool has_cut(const OperationForm& form) {
-    return has_field(form, "tip") && has_field(form, "distance") && has_field(form, "planes");
-}
-
 std::optional<CutQuestion> cut_question(const OperationForm& form) {
     if (!text_of(form, "planes").empty()) {
-        const std::vector<double> numbers = list_of(form, "planes");
-        const auto plane = typed_plane(form);
-        if (!plane) return std::nullopt;
-        return CutQuestion{
-            .tip = point_of(form, "tip").value_or(Vec3(numbers[0], numbers[1], numbers[2])),
-            .plane = plane};
+        const auto place = typed_place(form);
+        if (!place) return std::nullopt;
+        return CutQuestion{.tip = point_of(form, "tip").value_or(place->tip),
+                           .plane = place->plane};
     }
     const auto tip = point_of(form, "tip");
     if (!tip) return std::nullopt;

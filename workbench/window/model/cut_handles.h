@@ -5,9 +5,6 @@
 
 namespace vesselbench {
 
-/// True for operations that cut a vessel near its tip.
-[[nodiscard]] bool has_cut(const OperationForm& form);
-
 /// Where the form cuts; none if it names no tip, or planes of several vessels.
 [[nodiscard]] std::optional<CutQuestion> cut_question(const OperationForm& form);
 

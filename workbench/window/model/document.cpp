@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/window/model/rail.h"
+#include "workbench/window/model/readable.h"
 
 namespace vesselbench {
 
@@ -33,9 +36,22 @@ std::string newest_variant(const Snapshot& snapshot) {
     return newest == nullptr ? kDefaultVariant : newest->edit.place.variant;
 }
 
-std::string entered_text(const LogEntry& entry) {
-    const std::string change = entry.result ? change_text(entry.result->change) : "";
-    return entry.edit.operation + (change.empty() ? "" : ": " + change);
+/// "Remesh: volume -0.1 %, ..."
+std::string changed_text(const EditRecord& edit, const ResultRecord& result) {
+    const std::string change = change_text(result.change);
+    return readable(edit.operation) + (change.empty() ? "" : ": " + change);
+}
+
+/// The edits that were pending in one snapshot and have run in the other.
+std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
+    std::set<EditId> pending;
+    for (const LogEntry& entry : before.log)
+        if (entry.status == EditStatus::Pending) pending.insert(entry.edit.edit.id);
+    std::vector<LogEntry> run;
+    for (const LogEntry& entry : now.log)
+        if (entry.status != EditStatus::Pending && pending.contains(entry.edit.edit.id))
+            run.push_back(entry);
+    return run;
 }
 
 RequestLabel history_label(const std::string& what) {
@@ -43,7 +59,7 @@ RequestLabel history_label(const std::string& what) {
 }
 
 RequestLabel edit_label(const std::string& operation) {
-    return {.what = operation, .kind = RequestKind::Edit, .operation = operation};
+    return {.what = readable(operation), .kind = RequestKind::Edit, .operation = operation};
 }
 
 RequestLabel preview_label(const std::string& what, const std::string& operation) {
@@ -141,6 +157,7 @@ void Document::take_opened() {
         Opened opened = ended->take();
         close();
         ++opened_;
+        messages_.clear();  // they were about the other case
         project_ = opened.project;
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
@@ -218,11 +235,32 @@ void Document::enter(const LogEntry& entry) {
 }
 
 void Document::tell_entered(const LogEntry& entry) {
-    tell(make_message(MessageKind::Success, entered_text(entry)));
     if (!entry.result) return;
-    for (const std::string& warning : entry.result->warnings)
-        tell(make_message(MessageKind::Warning, entry.edit.operation + ": " + warning,
-                          entry.edit.operation));
+    tell(make_message(MessageKind::Success, changed_text(entry.edit, *entry.result)));
+    tell_warnings(entry.edit, *entry.result);
+}
+
+void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result) {
+    for (const std::string& warning : result.warnings) {
+        Message message = make_message(MessageKind::Warning,
+                                       readable(edit.operation) + ": " + warning, edit.operation);
+        if (edit.edit.id != 0) message.edit = edit.edit.id;
+        tell(std::move(message));
+    }
+}
+
+/// After pending edits were run.
+void Document::tell_run(const Snapshot& before) {
+    const std::vector<LogEntry> run = run_since(before, *snapshot_);
+    for (const LogEntry& entry : run)
+        if (entry.status == EditStatus::Stale)
+            tell(
+                make_message(MessageKind::Warning,
+                             readable(entry.edit.operation) + " no longer applies: " + entry.reason,
+                             entry.edit.operation));
+        else
+            tell_entered(entry);
+    tell(make_message(MessageKind::Success, "Ran " + counted(run.size(), "pending edit")));
 }
 
 void Document::apply(const std::string& operation, Arguments given, Step step) {
@@ -264,9 +302,11 @@ void Document::jump(StateId state) {
 
 void Document::run_pending() {
     if (!begin_request(RequestKind::Edit)) return;
-    watch(runner_->scene(variant_), {.what = "Running pending edits"}, [this](const Scene& scene) {
-        if (pending_count(*snapshot_, variant_) == 0) shown_.set(scene);
-    });
+    watch(runner_->scene(variant_), {.what = "Running pending edits"},
+          [this, before = snapshot_](const Scene& scene) {
+              if (pending_count(*snapshot_, variant_) == 0) shown_.set(scene);
+              tell_run(*before);
+          });
 }
 
 void Document::set_note(EditRef edit, const std::string& note) {
@@ -311,7 +351,8 @@ void Document::save_copy(const std::filesystem::path& project) {
 void Document::preview(const std::string& operation, Arguments given, Step step) {
     if (!begin_request(RequestKind::Preview)) return;
     watch(runner_->preview(operation, std::move(given), {.step = step, .variant = variant_}),
-          preview_label(operation, operation), [this](const Preview& preview) { show(preview); });
+          preview_label(readable(operation), operation),
+          [this](const Preview& preview) { show(preview); });
 }
 
 void Document::preview_change(EditId edit, Arguments given) {
@@ -323,8 +364,9 @@ void Document::preview_change(EditId edit, Arguments given) {
 
 void Document::show(const Preview& preview) {
     shown_.show_preview(preview);
-    tell(make_message(MessageKind::Remark, "Preview of " + preview.edit().operation + ": " +
-                                               change_text(preview.result().change)));
+    tell(make_message(MessageKind::Remark,
+                      "Preview of " + changed_text(preview.edit(), preview.result())));
+    tell_warnings(preview.edit(), preview.result());
 }
 
 void Document::commit_preview() {
@@ -364,10 +406,7 @@ void Document::prepare(const std::string& purpose) {
 }
 
 void Document::prepare_next() {
-    if (preparation_->done()) {
-        tell(make_message(MessageKind::Success, "Prepared the model for " + preparation_->purpose));
-        return preparation_.reset();
-    }
+    if (preparation_->done()) return end_preparation();
     shown_.pause();
     const auto messages = std::make_shared<RecipeMessages>();
     watch(preparation_->start(*runner_, messages), edit_label(preparation_->operation()),
@@ -375,9 +414,24 @@ void Document::prepare_next() {
 }
 
 void Document::end_entry(RecipeMessages& messages) {
-    for (const Message& message : messages.take()) tell(message);
+    for (const Message& message : messages.take()) {
+        tell(message);
+        if (message.kind == MessageKind::Warning) ++preparation_->warnings;
+    }
     ++preparation_->next;
     prepare_next();
+}
+
+/// Edits that were made before it may follow the recipe's.
+void Document::end_preparation() {
+    const Preparation done = *std::exchange(preparation_, std::nullopt);
+    const std::string text = "Prepared the model for " + done.purpose;
+    if (done.warnings == 0)
+        tell(make_message(MessageKind::Success, text));
+    else
+        tell(make_message(MessageKind::Warning,
+                          text + " with " + counted(done.warnings, "warning") + ", see above"));
+    if (pending_count(*snapshot_, variant_) > 0) run_pending();
 }
 
 // --- strokes of a brush

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"
@@ -193,6 +194,8 @@ private:
     void end(const EndedStroke& stroke);
     void enter(const LogEntry& entry);
     void tell_entered(const LogEntry& entry);
+    void tell_warnings(const EditRecord& edit, const ResultRecord& result);
+    void tell_run(const Snapshot& before);
     void show(const Preview& preview);
     void cancel_preview();
     [[nodiscard]] Step stroke_step(const std::string& operation) const;
@@ -200,6 +203,7 @@ private:
     void take_snapshot();
     void prepare_next();
     void end_entry(RecipeMessages& messages);
+    void end_preparation();
     void fail(const std::string& text, const std::string& operation);
 
     DocumentOptions options_;

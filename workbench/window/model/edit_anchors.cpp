@@ -2,43 +2,21 @@
 
 #include <algorithm>
 
-#include "workbench/operations/table.h"
-#include "workbench/window/model/pick_target.h"
+#include "workbench/window/model/edit_places.h"
 #include "workbench/window/model/readable.h"
 
 namespace vesselbench {
-
-namespace {
-
-/// The arguments of an edit, those that it decided by itself too.
-Arguments arguments_of(const LogEntry& entry) {
-    Arguments all = entry.edit.given;
-    if (!entry.result) return all;
-    for (const auto& [name, value] : entry.result->resolved.values())
-        if (!all.has(name)) all.set(name, value);
-    return all;
-}
-
-}  // namespace
 
 std::vector<NamedPlace> edit_anchors(const Snapshot& snapshot, const std::string& variant) {
     std::vector<NamedPlace> anchors;
     for (const LogEntry& entry : snapshot.log) {
         const std::string& own = entry.edit.place.variant;
-        const Operation* operation = known_operation(entry.edit.operation);
-        if (operation == nullptr || (!own.empty() && own != variant)) continue;
+        if (!own.empty() && own != variant) continue;
         const std::string name =
-            std::to_string(entry.edit.edit.id) + "  " + readable(operation->name);
-        const Arguments arguments = arguments_of(entry);
-        for (const Parameter& parameter : operation->parameters) {
-            if (!arguments.has(parameter.name) || !pick_target(*operation, parameter)) continue;
-            const Value& value = arguments.values().at(parameter.name);
-            const auto* point = std::get_if<Vec3>(&value);
-            const auto same = [&](const NamedPlace& place) {
-                return point != nullptr && place.point == *point && place.name == name;
-            };
-            if (point != nullptr && std::ranges::none_of(anchors, same))
-                anchors.push_back({.point = *point, .name = name});
+            std::to_string(entry.edit.edit.id) + "  " + readable(entry.edit.operation);
+        for (const Vec3& point : places_of_edit(entry)) {
+            const NamedPlace anchor{.point = point, .name = name};
+            if (std::ranges::count(anchors, anchor) == 0) anchors.push_back(anchor);
         }
     }
     return anchors;

@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// The places that the edits of a variant and of the trunk are about: every argument that a click
-/// could name, given or decided by the operation; "3 Clip opening". In the order of the edits.
+/// places_of_edit of the edits of a variant and of the trunk, in their order, each with the edit's
+/// id and operation: "3  Clip opening".
 [[nodiscard]] std::vector<NamedPlace> edit_anchors(const Snapshot& snapshot,
                                                    const std::string& variant);
 

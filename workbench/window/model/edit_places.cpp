@@ -1,5 +1,6 @@
 #include "workbench/window/model/edit_places.h"
 
+#include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/pick_target.h"
 
@@ -7,15 +8,14 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kNumbers = 10;  ///< of a dab in `dabs`, and of an opening in `planes`
-constexpr std::size_t kPlanePoint = 3;
+constexpr std::size_t kDabNumbers = 10;  ///< of a dab in `dabs`
 
-const std::vector<double>* list_in(const Arguments& arguments, const std::string& name) {
-    return arguments.has(name) ? &arguments.list(name) : nullptr;
-}
-
-Vec3 point_in(const std::vector<double>& numbers, std::size_t from) {
-    return {numbers.at(from), numbers.at(from + 1), numbers.at(from + 2)};
+/// Empty if it is not given.
+std::vector<double> list_in(const Operation& operation, const Arguments& arguments,
+                            Meaning meaning) {
+    const Parameter* parameter = parameter_of(operation, meaning);
+    return parameter != nullptr && arguments.has(parameter->name) ? arguments.list(parameter->name)
+                                                                  : std::vector<double>();
 }
 
 /// Points that the user can pick.
@@ -23,7 +23,7 @@ Positions points_in(const Operation& operation, const Arguments& arguments) {
     Positions points;
     for (const Parameter& parameter : operation.parameters)
         if (parameter.type == ParameterType::Point && arguments.has(parameter.name) &&
-            pick_target(operation, parameter))
+            pick_target(parameter))
             points.push_back(arguments.point(parameter.name));
     return points;
 }
@@ -31,16 +31,20 @@ Positions points_in(const Operation& operation, const Arguments& arguments) {
 }  // namespace
 
 Positions places_of_edit(const LogEntry& entry) {
+    const Operation* known = known_operation(entry.edit.operation);
+    if (known == nullptr) return {};
+    const Operation& operation = *known;
     const Arguments& arguments = entry.result ? entry.result->resolved : entry.edit.given;
-    if (const auto* dabs = list_in(arguments, "dabs"); dabs != nullptr && dabs->size() >= kNumbers)
-        return {point_in(*dabs, dabs->size() / kNumbers / 2 * kNumbers)};
+    const std::vector<double> dabs = list_in(operation, arguments, Meaning::Dabs);
+    if (dabs.size() >= kDabNumbers) {
+        const std::size_t middle = dabs.size() / kDabNumbers / 2 * kDabNumbers;
+        return {{dabs[middle], dabs[middle + 1], dabs[middle + 2]}};
+    }
     Positions places;
-    if (const auto* planes = list_in(arguments, "planes"))
-        for (std::size_t i = 0; i + kNumbers <= planes->size(); i += kNumbers)
-            places.push_back(point_in(*planes, i + kPlanePoint));
-    if (!places.empty()) return places;
-    const Operation* operation = known_operation(entry.edit.operation);
-    return operation == nullptr ? places : points_in(*operation, arguments);
+    for (const PlannedOpening& opening :
+         openings_in(list_in(operation, arguments, Meaning::Planes)))
+        places.push_back(opening.place.plane.point);
+    return places.empty() ? points_in(operation, arguments) : places;
 }
 
 }  // namespace vesselbench

@@ -15,10 +15,19 @@ const FormField* find(const OperationForm& form, const std::string& parameter) {
     return found == form.fields().end() ? nullptr : &*found;
 }
 
+double number_in(const Value& value) {
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+    return std::get<double>(value);
+}
+
 }  // namespace
 
-bool has_field(const OperationForm& form, const std::string& parameter) {
-    return find(form, parameter) != nullptr;
+bool has_field(const OperationForm& form, Meaning meaning) {
+    return parameter_of(form.operation(), meaning) != nullptr;
+}
+
+const std::string& name_of(const OperationForm& form, Meaning meaning) {
+    return parameter_of(form.operation(), meaning)->name;
 }
 
 std::optional<Value> value_of(const OperationForm& form, const std::string& parameter) {
@@ -30,9 +39,12 @@ std::optional<Value> value_of(const OperationForm& form, const std::string& para
 
 std::optional<double> number_of(const OperationForm& form, const std::string& parameter) {
     const auto value = value_of(form, parameter);
-    if (!value) return std::nullopt;
-    if (const auto* whole = std::get_if<std::int64_t>(&*value)) return static_cast<double>(*whole);
-    return std::get<double>(*value);
+    return value ? std::optional(number_in(*value)) : std::nullopt;
+}
+
+double used_number(const OperationForm& form, const std::string& parameter) {
+    const auto given = number_of(form, parameter);
+    return given ? *given : number_in(form.field(parameter).parameter->default_value.value());
 }
 
 std::optional<Vec3> point_of(const OperationForm& form, const std::string& parameter) {

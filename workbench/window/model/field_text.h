@@ -16,8 +16,12 @@ struct FieldText {
     bool operator==(const FieldText&) const = default;
 };
 
-/// True if the form's operation has the parameter.
-[[nodiscard]] bool has_field(const OperationForm& form, const std::string& parameter);
+/// True if the form's operation has a parameter of this meaning.
+[[nodiscard]] bool has_field(const OperationForm& form, Meaning meaning);
+
+/// The name of the parameter of this meaning.
+/// \pre has_field
+[[nodiscard]] const std::string& name_of(const OperationForm& form, Meaning meaning);
 
 /// The value of a field; none if there is no such field, or it is empty, wrong or without effect.
 [[nodiscard]] std::optional<Value> value_of(const OperationForm& form,
@@ -25,6 +29,11 @@ struct FieldText {
 
 [[nodiscard]] std::optional<double> number_of(const OperationForm& form,
                                               const std::string& parameter);
+
+/// The number that the operation uses: the field's, or the parameter's default.
+/// \pre the parameter has a default
+[[nodiscard]] double used_number(const OperationForm& form, const std::string& parameter);
+
 [[nodiscard]] std::optional<Vec3> point_of(const OperationForm& form, const std::string& parameter);
 
 /// Empty if it is not given.
@@ -33,8 +42,8 @@ struct FieldText {
 /// The typed text, or an empty one.
 [[nodiscard]] std::string text_of(const OperationForm& form, const std::string& parameter);
 
-/// A length or a coordinate as a drag fills it in: in steps of 0.01 mm, finer than a pixel of most
-/// views and short enough to be read.
+/// A length or a coordinate as a click or a drag fills it in: in steps of 0.01 mm, finer than a
+/// pixel of most views and short enough to be read.
 [[nodiscard]] double rounded_length(double millimetres);
 [[nodiscard]] Vec3 rounded_place(const Vec3& point);
 

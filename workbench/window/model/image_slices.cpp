@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "workbench/window/model/same_surface.h"
+#include "geometry/kernel/same_surface.h"
 
 namespace vesselbench {
 
@@ -56,8 +56,9 @@ void ImageSlices::clear() {
     figures_.reset();
     contents_ = {};
     had_ = {};
+    problem_.clear();
     ++image_version_;
-    row_ = typed_grey_ = false;
+    row_ = typed_grey_ = was_shown_ = until_surface_ = false;
     space_.fill(false);
 }
 
@@ -69,14 +70,23 @@ bool ImageSlices::update(const Scene* scene) {
         else if (!same_voxels(image_, *scene->image) || !same_mask(mask_, scene->mask))
             take_image(*scene->image, *scene);
         take_surface(scene->surface);
-        if (!had_image && has_image() && !surface_) {
-            row_ = true;
-            space_.fill(true);
-        }
+        show_first_image();
     }
     const bool changed = take_made();
     if (!task_.pending()) start();
     return changed || had_image != has_image();
+}
+
+/// Of a case that has no surface yet; once, so that what the user hides stays hidden. The first
+/// surface is not hidden by the planes.
+void ImageSlices::show_first_image() {
+    if (!has_image()) return;
+    if (!std::exchange(was_shown_, true) && !surface_) {
+        row_ = true;
+        space_.fill(true);
+        until_surface_ = true;
+    }
+    if (surface_ && std::exchange(until_surface_, false)) space_.fill(false);
 }
 
 void ImageSlices::take_image(const Image& image, const Scene& scene) {
@@ -150,6 +160,9 @@ ImageSlices::Made ImageSlices::made(Task task) {
 
 bool ImageSlices::take_made() {
     const auto made = task_.take();
+    const std::string problem = task_.take_problem();
+    if (made || !problem.empty()) problem_ = problem;
+    if (!problem.empty()) return true;
     if (!made || made->image != image_version_) return false;
     take_figures(made->figures);
     for (const auto& content : made->contents) contents_[number(content->plane)] = content;

@@ -3,11 +3,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "geometry/image/slices.h"
 #include "workbench/case/scene.h"
 #include "workbench/window/model/latest_task.h"
-#include "workbench/window/model/slices.h"
 
 namespace vesselbench {
 
@@ -45,6 +46,9 @@ public:
     /// True while a shown slice is not made yet.
     [[nodiscard]] bool pending() const;
 
+    /// Why the last slices could not be made; empty: they were.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
+
     /// Of the image.
     [[nodiscard]] const SliceGrid& grid() const { return grid_; }
 
@@ -75,10 +79,16 @@ public:
 
     [[nodiscard]] bool any_in_space() const;
 
-    void show_in_space(SlicePlane plane, bool shown) { space_[number(plane)] = shown; }
+    void show_in_space(SlicePlane plane, bool shown) {
+        space_[number(plane)] = shown;
+        until_surface_ = false;
+    }
 
     /// All planes.
-    void show_in_space(bool shown) { space_.fill(shown); }
+    void show_in_space(bool shown) {
+        space_.fill(shown);
+        until_surface_ = false;
+    }
 
     bool mask_shown = true;
     bool outline_shown = true;
@@ -136,6 +146,7 @@ private:
     }
 
     [[nodiscard]] static Made made(Task task);
+    void show_first_image();
     void take_image(const Image& image, const Scene& scene);
     void take_surface(const std::optional<Surface>& surface);
     void take_figures(const ImageFigures& figures);
@@ -153,11 +164,14 @@ private:
     std::array<std::optional<Wish>, 3> had_;  ///< what the contents were made for
     int image_version_ = 0, surface_version_ = 0;
     bool row_ = false;
+    bool was_shown_ = false;      ///< the image of this case
+    bool until_surface_ = false;  ///< the planes were not asked for
     std::array<bool, 3> space_ = {false, false, false};
     Vec3 cross_ = Vec3::Zero();
     GreyWindow grey_;
     bool typed_grey_ = false;  ///< grey_ is the user's
     LatestTask<Made> task_;
+    std::string problem_;
 };
 
 }  // namespace vesselbench

@@ -21,17 +21,24 @@ std::vector<std::string> named_in(const std::string& text) {
     return names;
 }
 
-double default_diameters(const OperationForm& form) {
-    const auto& otherwise = form.field("diameters").parameter->default_value;
-    if (!otherwise) return 0.0;
-    const auto* whole = std::get_if<std::int64_t>(&*otherwise);
-    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(*otherwise);
+/// Of each opening [mm].
+std::vector<double> lengths_of(const OperationForm& form,
+                               const std::vector<PatchMeasures>& openings) {
+    std::vector<double> lengths = list_of(form, "lengths");
+    if (lengths.size() == openings.size()) return lengths;
+    lengths.clear();
+    const auto same = number_of(form, "length");
+    for (const PatchMeasures& opening : openings)
+        lengths.push_back(
+            same.value_or(used_number(form, "diameters") * diameter_of_area(opening.area)));
+    return lengths;
 }
 
-double length_at(const OperationForm& form, const PatchMeasures& opening) {
-    if (const auto length = number_of(form, "length")) return *length;
-    return number_of(form, "diameters").value_or(default_diameters(form)) *
-           diameter_of_area(opening.area);
+/// Whole diameters within `snap` [mm], and at least a little. \return [mm]
+double dragged_length(double length, double diameter, double snap) {
+    const double whole = std::round(length / diameter);
+    if (whole >= 1.0 && std::abs(length - whole * diameter) <= snap) return whole * diameter;
+    return std::max(length, kLeastShare * diameter);
 }
 
 /// "12 mm = 3 diameters"
@@ -53,10 +60,6 @@ void add_tube(std::vector<RegionLine>& lines, const PatchMeasures& opening, doub
 
 }  // namespace
 
-bool has_lengths(const OperationForm& form) {
-    return has_field(form, "opening") && has_field(form, "diameters") && has_field(form, "length");
-}
-
 std::vector<PatchMeasures> lengthened_openings(const OperationForm& form,
                                                const std::vector<PatchMeasures>& openings) {
     const std::vector<std::string> names = named_in(text_of(form, "opening"));
@@ -70,17 +73,18 @@ std::vector<PatchMeasures> lengthened_openings(const OperationForm& form,
 
 FormShape length_shape(const OperationForm& form, const std::vector<PatchMeasures>& openings) {
     FormShape shape;
-    if (!text_of(form, "lengths").empty()) return shape;
-    for (const PatchMeasures& opening : lengthened_openings(form, openings)) {
-        const double length = length_at(form, opening);
-        const Vec3 end = opening.centroid + length * opening.normal;
-        add_tube(shape.lines, opening, length);
+    const std::vector<PatchMeasures> chosen = lengthened_openings(form, openings);
+    const std::vector<double> lengths = lengths_of(form, chosen);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const PatchMeasures& opening = chosen[i];
+        const Vec3 end = opening.centroid + lengths[i] * opening.normal;
+        add_tube(shape.lines, opening, lengths[i]);
         shape.handles.push_back({.name = "length." + opening.name,
                                  .point = end,
                                  .path = HandlePath::Line,
                                  .direction = opening.normal,
                                  .help = "Lengthen " + opening.name + " along its axis"});
-        shape.notes.push_back({end, length_text(length, diameter_of_area(opening.area))});
+        shape.notes.push_back({end, length_text(lengths[i], diameter_of_area(opening.area))});
     }
     return shape;
 }
@@ -88,14 +92,15 @@ FormShape length_shape(const OperationForm& form, const std::vector<PatchMeasure
 std::vector<FieldText> length_texts(const OperationForm& form,
                                     const std::vector<PatchMeasures>& openings, std::size_t handle,
                                     const Vec3& to, double snap) {
-    const PatchMeasures opening = lengthened_openings(form, openings).at(handle);
+    const std::vector<PatchMeasures> chosen = lengthened_openings(form, openings);
+    const PatchMeasures& opening = chosen.at(handle);
     const double diameter = diameter_of_area(opening.area);
-    const double length =
-        std::max(opening.normal.dot(to - opening.centroid), kLeastShare * diameter);
-    const double whole = std::round(length / diameter);
-    if (whole >= 1.0 && std::abs(length - whole * diameter) <= snap)
-        return {{"diameters", to_text(Value(whole))}, {"length", ""}};
-    return {{"diameters", ""}, {"length", to_text(Value(rounded_length(length)))}};
+    std::vector<double> lengths = lengths_of(form, chosen);
+    lengths[handle] = dragged_length(opening.normal.dot(to - opening.centroid), diameter, snap);
+    std::string names;
+    for (const PatchMeasures& each : chosen) names += (names.empty() ? "" : ",") + each.name;
+    for (double& length : lengths) length = rounded_length(length);
+    return {{"opening", names}, {"lengths", to_text(Value(lengths))}};
 }
 
 }  // namespace vesselbench

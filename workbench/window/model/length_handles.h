@@ -5,9 +5,6 @@
 
 namespace vesselbench {
 
-/// True for operations that lengthen openings.
-[[nodiscard]] bool has_lengths(const OperationForm& form);
-
 /// The openings that the form names, else all inlets and outlets.
 [[nodiscard]] std::vector<PatchMeasures> lengthened_openings(
     const OperationForm& form, const std::vector<PatchMeasures>& openings);

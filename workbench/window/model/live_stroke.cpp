@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "workbench/operations/brush/dabs.h"
+#include "workbench/session/surface_change.h"
 
 namespace vesselbench {
 
@@ -12,33 +13,7 @@ namespace {
 /// are not on the way along it.
 constexpr double kBeside = 0.5;
 
-template <class Values>
-void add_differences(const Values& before, const Values& after, std::vector<VertexId>& changed) {
-    for (std::size_t v = 0; v < after.size(); ++v)
-        if (before[v] != after[v]) changed.push_back(static_cast<VertexId>(v));
-}
-
-using Values = std::shared_ptr<const std::vector<double>>;
-
-Values attribute(const Surface& surface, const std::string& name) {
-    const auto found = surface.attributes.find(name);
-    return found == surface.attributes.end()
-               ? std::make_shared<const std::vector<double>>(surface.vertex_count(), 0.0)
-               : found->second;
-}
-
 }  // namespace
-
-std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after) {
-    std::vector<VertexId> changed;
-    if (before.positions != after.positions)
-        add_differences(before.points(), after.points(), changed);
-    for (const auto& [name, values] : after.attributes) {
-        const Values old = attribute(before, name);
-        if (old != values) add_differences(*old, *values, changed);
-    }
-    return changed;
-}
 
 LiveStroke::LiveStroke(SessionRunner& runner, StrokeRequest request, const EditOptions& options)
     : runner_(runner), request_(std::move(request)) {

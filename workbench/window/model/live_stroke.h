@@ -19,10 +19,6 @@ struct SceneMove {
     std::vector<VertexId> changed;  ///< ascending
 };
 
-/// Vertices that differ in place or in an attribute that only one surface has or both share;
-/// ascending. \param after of the same connectivity as `before`
-[[nodiscard]] std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after);
-
 /// A stroke of a brush that a session's runner works on: requests return at once, poll() collects
 /// the results. One stroke makes one edit. The runner must outlive it.
 class LiveStroke {

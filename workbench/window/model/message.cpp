@@ -1,6 +1,7 @@
 #include "workbench/window/model/message.h"
 
 #include <cctype>
+#include <regex>
 
 #include "workbench/operations/table.h"
 #include "workbench/window/model/local_time.h"
@@ -38,8 +39,17 @@ std::string remedy_in(const std::string& text, const std::string& failed) {
     return first;
 }
 
+std::optional<Vec3> place_in(const std::string& text) {
+    static const std::regex place(
+        R"(\((-?[0-9][0-9.e+-]*), (-?[0-9][0-9.e+-]*), (-?[0-9][0-9.e+-]*)\) mm)");
+    std::smatch found;
+    if (!std::regex_search(text, found, place)) return std::nullopt;
+    return Vec3(std::stod(found[1]), std::stod(found[2]), std::stod(found[3]));
+}
+
 Message make_message(MessageKind kind, std::string text, const std::string& failed) {
     Message message{.kind = kind, .text = std::move(text), .time = local_time("%H:%M:%S")};
+    message.place = place_in(message.text);
     if (kind == MessageKind::Error || kind == MessageKind::Warning)
         message.remedy = remedy_in(message.text, failed);
     return message;

@@ -8,10 +8,6 @@
 
 namespace vesselbench {
 
-bool has_roles(const OperationForm& form) {
-    return has_field(form, "tip") && has_field(form, "inlet") && has_field(form, "kind");
-}
-
 std::vector<FieldText> role_texts(const PatchMeasures& opening, PatchKind role,
                                   const std::vector<Patch>& patches) {
     const std::string at = to_text(Value(rounded_place(opening.centroid)));

@@ -5,9 +5,6 @@
 
 namespace vesselbench {
 
-/// True for operations that can change the role of an opening.
-[[nodiscard]] bool has_roles(const OperationForm& form);
-
 /// Texts by which an opening becomes the inlet, and the inlet so far an outlet; or an outlet, with
 /// a free name if it was none.
 /// \param patches of the surface

@@ -1,22 +1,14 @@
 #include "workbench/window/model/pick_target.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// Far below what a click can tell apart, and short enough to be read.
-constexpr double kStepsPerMm = 1e4;
-
-Vec3 rounded(const Vec3& point) {
-    const Vec3 steps = (point * kStepsPerMm).array().round();
-    return steps.array() / kStepsPerMm + 0.0;  // 0 instead of -0
-}
 
 /// The numbers of a text of the command line; empty if it is none.
 std::vector<double> numbers_of(const std::string& text) {
@@ -34,12 +26,6 @@ std::optional<Vec3> point_of(const std::string& text) {
     return Vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-std::optional<PickTarget> target_in_image(const Parameter& parameter) {
-    if (parameter.type == ParameterType::Point && parameter.unit == "mm") return PickTarget::Voxel;
-    const bool labels = parameter.type == ParameterType::List && parameter.name == "labels";
-    return labels ? std::optional(PickTarget::Labels) : std::nullopt;
-}
-
 std::string box_text(const Vec3& a, const Vec3& b) {
     const Vec3 low = a.cwiseMin(b), high = a.cwiseMax(b);
     return to_text(Value(low)) + "," + to_text(Value(high));
@@ -51,17 +37,24 @@ bool is_in_slices(PickTarget target) {
     return target == PickTarget::Voxel || target == PickTarget::Labels;
 }
 
-std::optional<PickTarget> pick_target(const Operation& operation, const Parameter& parameter) {
-    // The surface to pick on is there later, or is another one.
-    if (operation.recipe.makes_source) return target_in_image(parameter);
-    if (parameter.unit != "mm") return std::nullopt;
-    if (parameter.type == ParameterType::List)
-        return parameter.name == "box" ? std::optional(PickTarget::Corners) : std::nullopt;
-    // A bounded vector, such as the size of a voxel, is no place.
-    if (parameter.type != ParameterType::Point || std::isfinite(parameter.minimum))
-        return std::nullopt;
-    if (parameter.name == "tip") return PickTarget::Tip;
-    return parameter.name == "inlet" ? PickTarget::Opening : PickTarget::Surface;
+std::optional<PickTarget> pick_target(const Parameter& parameter) {
+    switch (parameter.meaning) {
+        case Meaning::Place:
+            return PickTarget::Surface;
+        case Meaning::Tip:
+        case Meaning::Branch:
+            return PickTarget::Tip;
+        case Meaning::Inlet:
+            return PickTarget::Opening;
+        case Meaning::Seed:
+            return PickTarget::Voxel;
+        case Meaning::Box:
+            return PickTarget::Corners;
+        case Meaning::Labels:
+            return PickTarget::Labels;
+        default:
+            return std::nullopt;
+    }
 }
 
 std::string pick_instruction(PickTarget target) {
@@ -83,7 +76,7 @@ std::string pick_instruction(PickTarget target) {
 }
 
 std::string picked_text(PickTarget target, const std::string& text, const Vec3& point) {
-    const Vec3 now = rounded(point);
+    const Vec3 now = rounded_place(point);
     const std::optional<Vec3> before =
         target == PickTarget::Corners ? point_of(text) : std::nullopt;
     return before ? box_text(*before, now) : to_text(Value(now));
@@ -103,7 +96,7 @@ bool is_complete(PickTarget target, const std::string& text) {
 std::vector<NamedPlace> places_in(const OperationForm& form) {
     std::vector<NamedPlace> places;
     for (const FormField& field : form.fields()) {
-        const auto target = pick_target(form.operation(), *field.parameter);
+        const auto target = pick_target(*field.parameter);
         if (!field.active || !target || target == PickTarget::Labels) continue;
         if (const auto point = point_of(field.text))
             places.push_back({.point = *point, .name = readable(field.parameter->name)});
@@ -113,7 +106,7 @@ std::vector<NamedPlace> places_in(const OperationForm& form) {
 
 bool wants_tips(const OperationForm& form) {
     return std::ranges::any_of(form.fields(), [&](const FormField& field) {
-        const auto target = pick_target(form.operation(), *field.parameter);
+        const auto target = pick_target(*field.parameter);
         return target == PickTarget::Tip || target == PickTarget::Opening;
     });
 }

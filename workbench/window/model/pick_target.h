@@ -23,16 +23,14 @@ enum class PickTarget {
 /// True for what only slices offer.
 [[nodiscard]] bool is_in_slices(PickTarget target);
 
-/// None: its value is no place, or nothing shows it. By the parameter's type and name, which mean
-/// the same in the whole table.
-[[nodiscard]] std::optional<PickTarget> pick_target(const Operation& operation,
-                                                    const Parameter& parameter);
+/// None: its value is no place, or nothing shows it.
+[[nodiscard]] std::optional<PickTarget> pick_target(const Parameter& parameter);
 
 /// What to click, for the user: "Click a vessel end".
 [[nodiscard]] std::string pick_instruction(PickTarget target);
 
-/// A parameter's text after a click, as the command line takes it; coordinates are rounded to
-/// 0.0001 mm. Of two corners, the first click gives a point, the second one the box.
+/// A parameter's text after a click, as the command line takes it; coordinates are rounded
+/// (rounded_place). Of two corners, the first click gives a point, the second one the box.
 /// \param text before the click
 [[nodiscard]] std::string picked_text(PickTarget target, const std::string& text,
                                       const Vec3& point);

@@ -11,20 +11,16 @@ void PlaceSearch::begin(const Surface* surface, bool tips) {
     task_.forget();
     if (surface == nullptr || surface->empty()) return;
     task_.begin([surface = *surface, tips](const Progress& progress) {
-        try {
-            return places_of(surface, tips, progress);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::exception& error) {
-            return SurfacePlaces{.problem = error.what()};
-        }
+        return places_of(surface, tips, progress);
     });
 }
 
 bool PlaceSearch::update() {
     auto places = task_.take();
-    if (places) places_ = std::move(*places);
-    return places.has_value();
+    std::string problem = task_.take_problem();
+    if (!places && problem.empty()) return false;
+    places_ = places ? std::move(*places) : SurfacePlaces{.problem = std::move(problem)};
+    return true;
 }
 
 }  // namespace vesselbench

@@ -30,7 +30,8 @@ private:
 struct Preparation {
     Recipe recipe;
     std::string purpose;
-    std::size_t next = 0;  ///< the entry that runs
+    std::size_t next = 0;      ///< the entry that runs
+    std::size_t warnings = 0;  ///< so far
 
     [[nodiscard]] bool done() const { return next == recipe.size(); }
 

@@ -167,7 +167,7 @@ void ShownScene::request_deviation(SessionRunner& runner) {
         const Scene from = before ? *before : session.scene_after(*source, progress);
         progress.check_cancelled();
         return std::make_shared<const DeviationMap>(
-            deviation_map(surface_of(scene), surface_of(from)));
+            deviation_map(surface_of(scene), surface_of(from), progress));
     }));
 }
 

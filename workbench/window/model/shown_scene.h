@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/session_answer.h"
 
 namespace vesselbench {

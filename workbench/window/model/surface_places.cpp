@@ -6,6 +6,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/centerlines/tip_name.h"
 #include "workbench/case/measure_json.h"
 
 namespace vesselbench {
@@ -31,10 +32,6 @@ double reach_of(const PatchMeasures& opening) {
 }
 
 }  // namespace
-
-std::string tip_name(const CenterlineGraph& graph, std::size_t tip) {
-    return "Vessel end, " + formatted(2 * tip_radius(graph, tip), "%.1f mm");
-}
 
 SurfacePlaces places_of(const Surface& surface, bool tips, const Progress& progress) {
     SurfacePlaces places{.openings = measure_patches(surface)};

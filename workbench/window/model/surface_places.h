@@ -27,9 +27,6 @@ struct SurfacePlaces {
     std::string problem;                  ///< why the ends are not known; empty: no problem
 };
 
-/// "Vessel end, 4.5 mm", with the diameter at a tip node.
-[[nodiscard]] std::string tip_name(const CenterlineGraph& graph, std::size_t tip);
-
 /// \param tips whether vessel ends are wanted, whose centerlines may take seconds
 /// \throw Cancelled
 [[nodiscard]] SurfacePlaces places_of(const Surface& surface, bool tips, const Progress& progress);

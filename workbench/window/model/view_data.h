@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "geometry/vessel/centerlines/centerline_graph.h"
 #include "workbench/window/model/background_search.h"
 #include "workbench/window/model/colourings.h"
 #include "workbench/window/model/document.h"

@@ -110,7 +110,35 @@ void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     const std::vector<Step>& allowed = form_->operation().allowed;
     const bool fits = step && std::ranges::count(allowed, *step) > 0;
     step_ = fits ? *step : form_->operation().usual_step;
-    if (is_brush(form_->operation()) && tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
+    if (is_brush(form_->operation())) {
+        if (tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
+        return;
+    }
+    arm_required();
+}
+
+/// What has to be picked is picked at once.
+void Workplace::arm_required() {
+    for (const FormField& field : form_->fields())
+        if (field.parameter->required && pick_target(*field.parameter))
+            return arm(field.parameter->name);
+}
+
+void Workplace::follow(const Message& message) {
+    const auto& log = document.snapshot()->log;
+    const auto is = [&](const LogEntry& entry) {
+        return message.edit == entry.edit.edit.id ||
+               (!message.edit && message.remedy == entry.edit.operation &&
+                entry.edit.place.step == Step::Source);
+    };
+    const auto found = std::ranges::find_if(log, is);
+    if (found != log.end()) return choose_edit(found->edit.edit.id);
+    if (!message.remedy.empty()) choose(message.remedy);
+}
+
+void Workplace::look_at(const Vec3& place) {
+    slices_.set_cross(place);
+    looked_at_ = place;
 }
 
 void Workplace::choose_edit(EditId edit) {
@@ -218,7 +246,7 @@ void Workplace::arm(const std::string& parameter) {
 std::optional<PickTarget> Workplace::armed_target() const {
     if (!form_ || armed_.empty()) return std::nullopt;
     const FormField& field = form_->field(armed_);
-    return field.active ? pick_target(form_->operation(), *field.parameter) : std::nullopt;
+    return field.active ? pick_target(*field.parameter) : std::nullopt;
 }
 
 void Workplace::pick(const Vec3& point) {
@@ -267,11 +295,13 @@ void Workplace::cancel_drag() {
 
 void Workplace::click_opening(const PatchMeasures& opening) {
     forget_role_question();
-    const bool free = !form_ || (has_roles(*form_) && !form_->edit());
-    if (form_ && has_field(*form_, "opening"))
-        set_field("opening", with_name_switched(form_->field("opening").text, opening.name));
-    else if (free && can_change())
+    const bool free = !form_ || (has_field(*form_, Meaning::Inlet) && !form_->edit());
+    if (form_ && has_field(*form_, Meaning::Openings)) {
+        const std::string& names = name_of(*form_, Meaning::Openings);
+        set_field(names, with_name_switched(form_->field(names).text, opening.name));
+    } else if (free && can_change()) {
         opening_ = opening;
+    }
 }
 
 void Workplace::give_role(PatchKind role) {
@@ -279,7 +309,7 @@ void Workplace::give_role(PatchKind role) {
     const Scene* scene = document.shown();
     if (!opening || scene == nullptr || !scene->surface) return;
     const auto texts = role_texts(*opening, role, scene->surface->patches);
-    if (!form_ || !has_roles(*form_)) choose("clip-opening");
+    if (!form_ || !has_field(*form_, Meaning::Inlet)) choose("clip-opening");
     for (const FieldText& field : texts) set_field(field.parameter, field.text);
 }
 

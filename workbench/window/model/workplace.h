@@ -72,8 +72,18 @@ public:
     /// allowed there, else to its usual step. \throw UsageError if there is none of this name
     void choose(const std::string& operation, std::optional<Step> step = {});
 
-    /// Shows the form of an edit of the current state.
+    /// Shows the form of an edit of the current state. Ignored if the operation is of another
+    /// version.
     void choose_edit(EditId edit);
+
+    /// Shows the form that a message recommends: of the edit it is about, else of the operation.
+    void follow(const Message& message);
+
+    /// Moves the slices and the view to a place [mm].
+    void look_at(const Vec3& place);
+
+    /// The place of the last look_at(), once.
+    [[nodiscard]] std::optional<Vec3> take_look() { return std::exchange(looked_at_, {}); }
 
     void set_field(const std::string& parameter, const std::string& text);
     void reset_form();
@@ -203,6 +213,7 @@ public:
 private:
     void renew_lists();
     [[nodiscard]] bool update_places();
+    void arm_required();
     [[nodiscard]] bool preview_is_current() const;
     [[nodiscard]] bool can_change() const;
 
@@ -226,6 +237,7 @@ private:
     std::optional<Comparison> comparison_;
     CompareMode compare_mode_ = CompareMode::SideBySide;
     std::optional<EditId> pointed_, next_pointed_;
+    std::optional<Vec3> looked_at_;
     std::optional<OperationForm> before_drag_;
     std::optional<PatchMeasures> opening_;  ///< whose role is asked for
 };

@@ -74,7 +74,7 @@ void draw_failure(PanelContext& c, ScreenRect& place) {
     const Answer answer = draw_banner(c, "failure", banner, place);
     if (answer == Answer::None) return;
     c.place.document.forget_failure();
-    if (answer == Answer::Action) c.place.choose(failure.remedy);
+    if (answer == Answer::Action) c.place.follow(failure);
 }
 
 void draw_pending(PanelContext& c, ScreenRect& place, int count) {

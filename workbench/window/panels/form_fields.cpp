@@ -79,7 +79,7 @@ void edit_number(PanelContext& c, const FormField& field) {
 }
 
 void edit(PanelContext& c, const FormField& field) {
-    if (pick_target(c.place.form()->operation(), *field.parameter)) return edit_place(c, field);
+    if (pick_target(*field.parameter)) return edit_place(c, field);
     switch (field.parameter->type) {
         case ParameterType::Flag:
             return edit_flag(c, field);

@@ -40,11 +40,16 @@ Paint colour_of(const Theme& theme, MessageKind kind) {
 
 namespace {
 
+std::string label_of(const Message& message) {
+    if (message.edit) return "Go to edit " + std::to_string(*message.edit);
+    return message.remedy.empty() ? "" : "Go to " + readable(message.remedy);
+}
+
 constexpr float kTextLeft = 7.5F;  ///< [em]
 
 /// Room right of a message's text [pixels].
 float right_of(const Ui& ui, const Message& message) {
-    return message.remedy.empty() ? ui.grid(2) : ui.em * 12;
+    return label_of(message).empty() && !message.place ? ui.grid(2) : ui.em * 14;
 }
 
 float height_of(const Ui& ui, const Message& message) {
@@ -54,14 +59,20 @@ float height_of(const Ui& ui, const Message& message) {
 }
 
 void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
-    if (message.remedy.empty()) return;
-    const std::string label = "Go to " + readable(message.remedy);
-    const float width = ImGui::CalcTextSize(label.c_str()).x + c.ui.grid(3);
+    const std::string label = label_of(message);
+    const float button_width = label.empty() ? 0 : ImGui::CalcTextSize(label.c_str()).x;
+    const float target = message.place ? ImGui::GetFrameHeight() + c.ui.grid(1) : 0;
+    const float width = button_width + target + c.ui.grid(3);
     ImGui::SameLine(
         std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - c.ui.grid(2)));
-    if (button(c.ui, "message.remedy." + std::to_string(index), label,
-               {.quiet = true, .enabled = c.place.document.is_open()}))
-        c.place.choose(message.remedy);
+    const std::string number = std::to_string(index);
+    if (message.place && icon_button(c.ui, "message.place." + number, icons::kTarget,
+                                     "Show the place in the view and in the slices"))
+        c.place.look_at(*message.place);
+    if (message.place && !label.empty()) ImGui::SameLine(0, c.ui.grid(1));
+    if (!label.empty() && button(c.ui, "message.remedy." + number, label,
+                                 {.quiet = true, .enabled = c.place.document.is_open()}))
+        c.place.follow(message);
 }
 
 void draw_message(PanelContext& c, const Message& message, std::size_t index) {

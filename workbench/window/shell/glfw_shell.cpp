@@ -1,5 +1,6 @@
 #include "workbench/window/shell/glfw_shell.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "geometry/kernel/errors.h"
 #include "gpu/debug_output.h"
 #include "workbench/window/shell/drawing_session.h"
+#include "workbench/window/shell/key_layout.h"
 
 namespace vesselbench {
 
@@ -99,26 +101,26 @@ double content_scale(GLFWwindow* window) {
     return x;
 }
 
-/// The backend of ImGui, and our own reactions to the window's events.
+/// What the layout prints on a key.
+std::string key_name(int position) {
+    const char* name = glfwGetKeyName(position, 0);
+    return name == nullptr ? "" : name;
+}
+
+/// Hands the window's events to ImGui, and counts the frames that show what they cause.
 class Events {
 public:
     Events(GLFWwindow* window, App& app) : app_(app) {
         glfwSetWindowUserPointer(window, this);
-        glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
-            if (count > 0) self(from).app_.open(paths[0]);
-        });
-        glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { self(from).note(); });
-        glfwSetFramebufferSizeCallback(window,
-                                       [](GLFWwindow* from, int, int) { self(from).note(); });
-        ImGui_ImplGlfw_InitForOpenGL(window, true);
+        listen_to_input(window);
+        listen_to_window(window);
+        ImGui_ImplGlfw_InitForOpenGL(window, false);
     }
 
     ~Events() { ImGui_ImplGlfw_Shutdown(); }
 
     Events(const Events&) = delete;
     Events& operator=(const Events&) = delete;
-
-    void note() { frames_ = kFramesAfterInput; }
 
     /// Waits until a frame should be drawn.
     void wait() {
@@ -140,7 +142,57 @@ private:
         return *static_cast<Events*>(glfwGetWindowUserPointer(window));
     }
 
+    /// Something has come in.
+    static Events& noted(GLFWwindow* window) {
+        Events& events = self(window);
+        events.note();
+        return events;
+    }
+
+    static void listen_to_input(GLFWwindow* window) {
+        glfwSetCursorPosCallback(window, [](GLFWwindow* from, double, double) { noted(from); });
+        glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int button, int action, int held) {
+            noted(from);
+            ImGui_ImplGlfw_MouseButtonCallback(from, button, action, held);
+        });
+        glfwSetScrollCallback(window, [](GLFWwindow* from, double x, double y) {
+            noted(from);
+            ImGui_ImplGlfw_ScrollCallback(from, x, y);
+        });
+        glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int code, int action, int held) {
+            const int number = noted(from).number_of(key, action);
+            ImGui_ImplGlfw_KeyCallback(from, number, code, action, held);
+        });
+        glfwSetCharCallback(window, [](GLFWwindow* from, unsigned character) {
+            noted(from);
+            ImGui_ImplGlfw_CharCallback(from, character);
+        });
+    }
+
+    static void listen_to_window(GLFWwindow* window) {
+        glfwSetDropCallback(window, [](GLFWwindow* from, int count, const char** paths) {
+            noted(from).app_.drop({paths, paths + count});
+        });
+        glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { noted(from); });
+        glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { noted(from); });
+        glfwSetCursorEnterCallback(window, [](GLFWwindow* from, int entered) {
+            noted(from);
+            ImGui_ImplGlfw_CursorEnterCallback(from, entered);
+        });
+        glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int focused) {
+            noted(from);
+            ImGui_ImplGlfw_WindowFocusCallback(from, focused);
+        });
+    }
+
+    void note() { frames_ = kFramesAfterInput; }
+
+    [[nodiscard]] int number_of(int key, int action) {
+        return action == GLFW_RELEASE ? keys_.release(key) : keys_.press(key, key_name);
+    }
+
     App& app_;
+    PressedKeys keys_;
     int frames_ = kFramesAfterInput;
 };
 
@@ -194,7 +246,7 @@ struct GlfwShell::Impl {
     void draw() {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window.get(), &width, &height);
-        if (width <= 0 || height <= 0) return;  // it is minimised
+        if (width <= 0 || height <= 0) return app.rest();  // it is minimised
         app.set_display_scale(content_scale(window.get()));
         ImGui_ImplGlfw_NewFrame();
         count_in_pixels(window.get(), static_cast<float>(width), static_cast<float>(height));

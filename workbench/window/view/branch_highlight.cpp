@@ -1,6 +1,7 @@
 #include "workbench/window/view/branch_highlight.h"
 
-#include "workbench/window/model/branch_part.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/branch_part.h"
 #include "workbench/window/model/field_text.h"
 
 namespace vesselbench {
@@ -9,8 +10,17 @@ namespace {
 
 const Colour kLit(0.95F, 0.42F, 0.08F);
 
-bool removes_branch(const OperationForm& form) {
-    return has_field(form, "tip") && has_field(form, "margin") && has_field(form, "continuity");
+/// None if the operation would fail; it says why.
+std::optional<DrawingArrays> lit_part(const Surface& surface, const Vec3& tip, double margin,
+                                      const Progress& progress) {
+    try {
+        const Surface part = branch_part(surface, tip, margin, progress);
+        return part.empty() ? std::nullopt : std::optional(prepare_drawing(part));
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -23,9 +33,9 @@ void BranchHighlight::clear() {
 void BranchHighlight::update(const OperationForm* form, const Surface* surface,
                              const std::optional<Vec3>& hovered) {
     std::optional<Question> now;
-    if (form != nullptr && surface != nullptr && removes_branch(*form))
-        if (const auto tip = hovered ? hovered : point_of(*form, "tip"))
-            now = Question{*tip, number_of(*form, "margin").value_or(kUsualMargin)};
+    if (form != nullptr && surface != nullptr && has_field(*form, Meaning::Branch))
+        if (const auto tip = hovered ? hovered : point_of(*form, name_of(*form, Meaning::Branch)))
+            now = Question{*tip, used_number(*form, "margin")};
     if (!now) {
         if (asked_) task_.forget();
         asked_.reset();
@@ -41,12 +51,9 @@ void BranchHighlight::update(const OperationForm* form, const Surface* surface,
     if (positions_ != surface->positions) clear();
     asked_ = now;
     positions_ = surface->positions;
-    task_.begin(
-        [surface = *surface, ask = *now](const Progress& progress) -> std::optional<DrawingArrays> {
-            const Surface part = branch_part(surface, ask.tip, ask.margin, progress);
-            if (part.empty()) return std::nullopt;
-            return prepare_drawing(part);
-        });
+    task_.begin([surface = *surface, ask = *now](const Progress& progress) {
+        return lit_part(surface, ask.tip, ask.margin, progress);
+    });
 }
 
 void BranchHighlight::add_to(Layers& layers, double pull) const {

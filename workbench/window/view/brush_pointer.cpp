@@ -83,11 +83,16 @@ void BrushPointer::update(PanelContext& c, const Seen& seen) {
 /// Another operation, or none: what was painted counts.
 void BrushPointer::leave(PanelContext& c) {
     if (stroke_.state() == Stroke::State::Painting) c.place.document.end_stroke();
+    forget();
+}
+
+void BrushPointer::forget() {
     stroke_.end();
+    waiting_.clear();
     released_ = shown_ = false;
     place_.reset();
     asked_.reset();
-    static_cast<void>(picker_.result());
+    picker_.forget();
 }
 
 // --- the place under the cursor
@@ -123,11 +128,20 @@ void BrushPointer::take_answer(PanelContext& c, const Surface& surface) {
 
 void BrushPointer::handle_press(PanelContext& c) {
     if (!ImGui::IsItemActive() || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
-    if (released_) finish(c);
     const ImGuiIO& io = ImGui::GetIO();
-    keys_ = {.smooth = io.KeyShift, .invert = io.KeyCtrl};
+    const Press press{.at = mouse_pixel(), .keys = {.smooth = io.KeyShift, .invert = io.KeyCtrl}};
+    if (released_)
+        waiting_.push_back(press);
+    else
+        begin(c, press);
+}
+
+void BrushPointer::begin(const PanelContext& c, const Press& press) {
+    keys_ = press.keys;
     stroke_.begin(c.place.tip().radius);
-    pressed_at_ = mouse_pixel();
+    pressed_at_ = press.at;
+    released_ = press.released_at.has_value();
+    if (released_) released_at_ = *press.released_at;
     extended_.reset();
 }
 
@@ -144,17 +158,23 @@ void BrushPointer::extend(PanelContext& c) {
 void BrushPointer::handle_release(PanelContext& c) {
     using enum Stroke::State;
     const bool down = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (!down && !waiting_.empty() && !waiting_.back().released_at)
+        waiting_.back().released_at = mouse_pixel();
     if (stroke_.state() == Idle || (down && !released_)) return;
     if (!released_) released_at_ = mouse_pixel();
-    released_ = holds_left() && stroke_.state() != Dropped;
-    if (!released_) return stroke_.end();
-    if (stroke_.state() == Painting && extended_ == released_at_) finish(c);
+    released_ = true;
+    const bool painted = stroke_.state() == Painting && extended_ == released_at_;
+    if (painted || !holds_left() || stroke_.state() == Dropped) end_stroke(c);
 }
 
-void BrushPointer::finish(PanelContext& c) {
-    released_ = false;
+/// The next one begins if its press was waiting.
+void BrushPointer::end_stroke(PanelContext& c) {
+    if (stroke_.state() == Stroke::State::Painting) c.place.document.end_stroke();
     stroke_.end();
-    c.place.document.end_stroke();
+    released_ = false;
+    if (waiting_.empty()) return;
+    begin(c, waiting_.front());
+    waiting_.pop_front();
 }
 
 // --- radius and strength

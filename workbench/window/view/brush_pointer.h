@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -29,6 +30,9 @@ public:
     /// Once a frame, while the view's area is ImGui's last item.
     void update(PanelContext& c, const Seen& seen);
 
+    /// Drops the stroke and the search: the case is closed.
+    void forget();
+
     /// True if drags with the left button do not belong to the camera.
     [[nodiscard]] bool holds_left() const;
 
@@ -50,7 +54,16 @@ private:
         bool operator==(const Question&) const = default;
     };
 
+    /// The button goes down while the end of the stroke before is still searched.
+    struct Press {
+        Pixel at = Pixel::Zero();
+        StrokeKeys keys;
+        std::optional<Pixel> released_at;  ///< none: it is still down
+    };
+
     void leave(PanelContext& c);
+    void begin(const PanelContext& c, const Press& press);
+    void end_stroke(PanelContext& c);
     void take_answer(PanelContext& c, const Surface& surface);
     void ask(PanelContext& c, const Seen& seen, bool over);
     void handle_keys(PanelContext& c, bool over);
@@ -58,7 +71,6 @@ private:
     void handle_press(PanelContext& c);
     void handle_release(PanelContext& c);
     void extend(PanelContext& c);
-    void finish(PanelContext& c);
     [[nodiscard]] Pixel wanted_pixel() const;
 
     Picker picker_;
@@ -69,6 +81,7 @@ private:
     std::optional<Pixel> extended_;     ///< to where the stroke goes
     Pixel pressed_at_ = Pixel::Zero(), released_at_ = Pixel::Zero();
     bool released_ = false;          ///< the stroke ends at released_at_
+    std::deque<Press> waiting_;      ///< strokes to come
     std::optional<BrushTip> sized_;  ///< the tip when sizing began
     float sized_from_ = 0;           ///< [pixels]
     bool shown_ = false;

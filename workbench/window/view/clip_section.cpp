@@ -49,11 +49,16 @@ void ClipSection::choose_side(ClipChoice& choice, const ViewCamera& camera) {
     axis_ = now;
 }
 
+/// The box of the surface, from before a stroke while it is painted: the plane stays.
+void ClipSection::measure(const PanelContext& c, const Surface& surface) {
+    const bool painting = measured_ && c.place.document.is_painting();
+    if (painting || surface.positions == measured_) return;
+    measured_ = surface.positions;
+    box_ = bounds(surface.points());
+}
+
 void ClipSection::update(const PanelContext& c, const Surface* surface, const ViewCamera& camera) {
-    if (surface != nullptr && surface->positions != measured_) {
-        measured_ = surface->positions;
-        box_ = bounds(surface->points());
-    }
+    if (surface != nullptr && c.place.view.clip.on) measure(c, *surface);
     choose_side(c.place.view.clip, camera);
     std::optional<ClipPlane> now;
     if (surface != nullptr)
@@ -66,13 +71,24 @@ void ClipSection::update(const PanelContext& c, const Surface* surface, const Vi
     update_cells(c);
 }
 
+void ClipSection::forget() {
+    search_.forget();
+    plane_.reset();
+    measured_.reset();
+    axis_.reset();
+    asked_ = {};
+    cells_.reset();
+    outlines_.reset();
+}
+
 // --- the volume mesh
 
 ClipSection::Prepared ClipSection::prepared(const VolumeMesh& mesh, const ColourValues& colours,
-                                            const Plane& plane) {
-    const VolumeSection section = section_of(mesh, colours.values, plane, {});
+                                            const Plane& plane, const Progress& progress) {
+    const VolumeSection section = section_of(mesh, colours.values, plane, progress);
     Prepared ready;
     if (section.cells.empty()) return ready;
+    progress.check_cancelled();
     ready.arrays = prepare_drawing(section.surface());
     ready.values = section.vertex_values();
     for (const Positions& cell : section.cells) ready.outlines.push_back({cell, kOutline, true});
@@ -99,8 +115,10 @@ void ClipSection::update_cells(const PanelContext& c) {
     const Asked now{colours, plane_->point, plane_->normal};
     if (now == asked_ || search_.pending()) return;  // a dragged plane shows what is ready
     asked_ = now;
-    search_.renew([mesh = scene->volume_mesh, colours, plane = Plane{now.point, now.normal}](
-                      const Progress&) { return prepared(*mesh, *colours, plane); });
+    search_.renew([mesh = scene->volume_mesh, colours,
+                   plane = Plane{now.point, now.normal}](const Progress& progress) {
+        return prepared(*mesh, *colours, plane, progress);
+    });
 }
 
 void ClipSection::take_cells() {

@@ -7,8 +7,8 @@
 
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
+#include "meshing/tetrahedra/volume_section.h"
 #include "workbench/window/model/background_search.h"
-#include "workbench/window/model/volume_section.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_strips.h"
 
@@ -24,6 +24,9 @@ public:
     /// Once a frame, before anything is drawn; needs the window's OpenGL context.
     /// \param surface that is drawn; null: none
     void update(const PanelContext& context, const Surface* surface, const ViewCamera& camera);
+
+    /// Forgets the model: the case is closed.
+    void forget();
 
     [[nodiscard]] const std::optional<ClipPlane>& plane() const { return plane_; }
 
@@ -59,7 +62,8 @@ private:
     };
 
     [[nodiscard]] static Prepared prepared(const VolumeMesh& mesh, const ColourValues& colours,
-                                           const Plane& plane);
+                                           const Plane& plane, const Progress& progress);
+    void measure(const PanelContext& context, const Surface& surface);
     void choose_side(ClipChoice& choice, const ViewCamera& camera);
     void update_cells(const PanelContext& context);
     void take_cells();

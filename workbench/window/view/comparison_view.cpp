@@ -52,6 +52,7 @@ void ComparisonView::update(PanelContext& c) {
 }
 
 void ComparisonView::forget() {
+    static_cast<void>(model_.update());  // drops a layout that has ended meanwhile
     if (!mode_) return;
     mode_.reset();
     model_.show(nullptr);

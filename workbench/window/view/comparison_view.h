@@ -18,6 +18,9 @@ public:
     /// Follows the workplace's comparison; once a frame.
     void update(PanelContext& context);
 
+    /// Ends what is shown of a comparison.
+    void forget();
+
     /// The part of the view that is left for the shown model.
     [[nodiscard]] ScreenRect room_for_model(const ScreenRect& view) const;
 
@@ -35,6 +38,9 @@ public:
         return difference_;
     }
 
+    /// Why the reference cannot be drawn; empty: it can.
+    [[nodiscard]] const std::string& problem() const { return model_.problem(); }
+
     /// Counts changes of what draw() draws.
     [[nodiscard]] int version() const { return version_; }
 
@@ -48,7 +54,6 @@ public:
 
 private:
     void take(PanelContext& context, Comparison& comparison);
-    void forget();
 
     [[nodiscard]] bool is_split() const { return mode_ == CompareMode::SideBySide; }
 

@@ -19,6 +19,12 @@ constexpr double kKeyStep = 0.5;       ///< of the arrow keys [local radii]
 constexpr double kMostUp = 1.4;        ///< gaze up or down [rad]
 constexpr double kLongestFrame = 0.1;  ///< longer pauses are no part of a flight [s]
 
+bool same_openings(const std::vector<PatchMeasures>& a, const std::vector<PatchMeasures>& b) {
+    return std::ranges::equal(a, b, [](const PatchMeasures& one, const PatchMeasures& other) {
+        return one.name == other.name && one.kind == other.kind && one.centroid == other.centroid;
+    });
+}
+
 }  // namespace
 
 const FlightPath* Endoscope::path() const {
@@ -33,15 +39,23 @@ void Endoscope::update(const PanelContext& c, double seconds) {
         abscissa_ = 0.0;
         look_ahead();
     }
-    const auto& graph = c.place.view_data().centerlines();
-    if (flies_ && graph && graph != graph_) {
-        graph_ = graph;
-        paths_ = flight_paths(*graph, c.place.surface_places().openings);
-        if (chosen_ >= paths_.size()) chosen_ = 0;
-    }
+    if (flies_) find_paths(c);
     if (!moves()) return;
     advance(kSpeed * std::min(seconds, kLongestFrame));
     if (abscissa_ >= path()->length()) plays_ = false;
+}
+
+/// The openings may be known later than the centerlines: these say where flights begin and end.
+void Endoscope::find_paths(const PanelContext& c) {
+    const auto& graph = c.place.view_data().centerlines();
+    if (!graph || c.place.searches_places()) return;
+    const std::vector<PatchMeasures>& openings = c.place.surface_places().openings;
+    if (graph == graph_ && same_openings(openings, openings_)) return;
+    graph_ = graph;
+    openings_ = openings;
+    paths_ = flight_paths(*graph, openings);
+    if (chosen_ >= paths_.size()) chosen_ = 0;
+    if (path() != nullptr) abscissa_ = std::min(abscissa_, path()->length());
 }
 
 std::optional<ViewCamera> Endoscope::camera() const {
@@ -94,7 +108,8 @@ void Endoscope::draw_strip(PanelContext& c, ViewStrips& strips) {
     const float wide = strips.begin(ui, "flight", ui.em * 34);
     if (path() == nullptr) {
         const ViewData& data = c.place.view_data();
-        const std::string words = data.finds_centerlines() ? "Finding the centerlines"
+        const bool searches = data.finds_centerlines() || c.place.searches_places();
+        const std::string words = searches ? "Finding the centerlines"
                                   : !data.centerlines_problem().empty()
                                       ? data.centerlines_problem()
                                       : "No vessel to fly through";

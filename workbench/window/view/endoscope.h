@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/vessel/centerlines/flight_path.h"
 #include "gpu/render/view_camera.h"
-#include "workbench/window/model/flight_path.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_strips.h"
 
@@ -40,11 +40,13 @@ public:
     void draw_strip(PanelContext& context, ViewStrips& strips);
 
 private:
+    void find_paths(const PanelContext& context);
     [[nodiscard]] const FlightPath* path() const;
     void toggle_play();
     void draw_destination(PanelContext& context, float width);
 
     std::shared_ptr<const CenterlineGraph> graph_;  ///< whose paths these are
+    std::vector<PatchMeasures> openings_;           ///< that name them
     std::vector<FlightPath> paths_;
     std::size_t chosen_ = 0;
     bool flies_ = false;

@@ -52,37 +52,62 @@ void draw_line(const Ui& ui, const std::vector<ImVec2>& line, bool closed) {
 MeasuringTool::MeasuringTool(Renderer& renderer, std::function<void()> wake)
     : picker_(renderer), wake_(wake), search_(std::move(wake)) {}
 
-void MeasuringTool::clear() {
+void MeasuringTool::forget() {
     points_.clear();
     diameters_.clear();
+    clicks_.clear();
+    places_.clear();
+    picker_.forget();
     search_.forget();
 }
 
 void MeasuringTool::update(const PanelContext& c, const SeenModel& seen) {
     const Document& document = c.place.document;
-    if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) clear();
+    if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) forget();
     tool_ = c.place.view.tool;
     seen_scenes_ = document.scene_changes();
     if (search_.update() && search_.result()) diameters_.push_back(*search_.result());
-    if (const auto picked = picker_.result()) take(c, *picked);
-    if (tool_ == MeasureTool::None || seen.surface == nullptr || !c.place.armed().empty()) return;
-    if (seen.clicked) {
-        const ImVec2 mouse = ImGui::GetIO().MousePos;
-        picker_.request(seen.view, seen.layers, static_cast<int>(mouse.x - seen.rect.x),
-                        static_cast<int>(seen.rect.height - 1 - (mouse.y - seen.rect.y)));
-    }
+    if (const auto picked = picker_.result()) take(*picked);
+    const bool measures = tool_ != MeasureTool::None && c.place.armed().empty();
+    if (measures && seen.surface != nullptr && seen.clicked) add_click(seen);
+    search_click();
+    search_diameter(c);
     if (picker_.pending() && wake_) wake_();
 }
 
-void MeasuringTool::take(const PanelContext& c, const Picked& picked) {
-    if (picked.layer != kModelLayer || tool_ == MeasureTool::None) return;
-    if (tool_ == MeasureTool::Distance) return points_.push_back(picked.point);
-    const auto& lines = c.place.view_data().centerlines();
+void MeasuringTool::add_click(const SeenModel& seen) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    clicks_.push_back({seen.view,
+                       seen.layers,
+                       {static_cast<int>(mouse.x - seen.rect.x),
+                        static_cast<int>(seen.rect.height - 1 - (mouse.y - seen.rect.y))}});
+}
+
+/// One after the other: a request would forget the one before.
+void MeasuringTool::search_click() {
+    if (clicks_.empty() || picker_.pending()) return;
+    const Click& click = clicks_.front();
+    picker_.request(click.view, click.layers, click.pixel.x(), click.pixel.y());
+    clicks_.pop_front();
+}
+
+void MeasuringTool::take(const Picked& picked) {
+    if (picked.layer != kModelLayer) return;
+    if (tool_ == MeasureTool::Distance) points_.push_back(picked.point);
+    if (tool_ == MeasureTool::Diameter) places_.push_back(picked.point);
+}
+
+/// Those clicked before the centerlines are known wait for them.
+void MeasuringTool::search_diameter(const PanelContext& c) {
+    const ViewData& data = c.place.view_data();
     const Scene* scene = c.place.document.shown();
-    if (!lines || scene == nullptr || !scene->surface) return;
-    search_.begin([surface = *scene->surface, lines, point = picked.point](const Progress&) {
+    if (places_.empty() || search_.pending() || data.finds_centerlines()) return;
+    const auto& lines = data.centerlines();
+    if (!lines || scene == nullptr || !scene->surface) return places_.clear();
+    search_.begin([surface = *scene->surface, lines, point = places_.front()](const Progress&) {
         return diameter_or_throw(surface, *lines, point);
     });
+    places_.pop_front();
 }
 
 void MeasuringTool::draw_distance(const Ui& ui, const OnScreen& screen) const {
@@ -106,7 +131,11 @@ void MeasuringTool::draw_diameter(const Ui& ui, const OnScreen& screen,
 
 void MeasuringTool::draw(PanelContext& c, const OnScreen& screen) const {
     draw_distance(c.ui, screen);
-    for (const VesselDiameter& diameter : diameters_) draw_diameter(c.ui, screen, diameter);
+    for (std::size_t i = 0; i < diameters_.size(); ++i) {
+        draw_diameter(c.ui, screen, diameters_[i]);
+        if (const auto at = screen.place(diameters_[i].centre))
+            c.ui.item("measure.diameter." + std::to_string(i), ScreenRect{at->x(), at->y(), 1, 1});
+    }
 }
 
 std::string MeasuringTool::words(const PanelContext& c) const {
@@ -134,7 +163,8 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
     clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 3 * gap);
     ImGui::SameLine(left + wide - 2 * side - gap);
     const bool any = !points_.empty() || !diameters_.empty();
-    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Clear measurements", any)) clear();
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Clear measurements", any))
+        forget();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
         c.place.view.tool = MeasureTool::None;

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "geometry/vessel/centerlines/vessel_diameter.h"
 #include "gpu/render/pick.h"
 #include "workbench/window/model/background_search.h"
-#include "workbench/window/model/measuring.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/view/view_strips.h"
 
@@ -21,8 +22,13 @@ public:
     /// Once a frame, before the model is drawn.
     void update(const PanelContext& context, const SeenModel& seen);
 
+    /// Drops what was measured, and what is being measured.
+    void forget();
+
     /// True while a search runs.
-    [[nodiscard]] bool pending() const { return picker_.pending() || search_.pending(); }
+    [[nodiscard]] bool pending() const {
+        return picker_.pending() || search_.pending() || !clicks_.empty() || !places_.empty();
+    }
 
     /// Lines and figures in ImGui's current window.
     void draw(PanelContext& context, const OnScreen& screen) const;
@@ -35,8 +41,17 @@ public:
     [[nodiscard]] const std::vector<VesselDiameter>& diameters() const { return diameters_; }
 
 private:
-    void clear();
-    void take(const PanelContext& context, const Picked& picked);
+    /// A click whose place is not searched yet.
+    struct Click {
+        SceneView view;
+        Layers layers;
+        Eigen::Vector2i pixel;  ///< of the view's framebuffer
+    };
+
+    void add_click(const SeenModel& seen);
+    void search_click();
+    void take(const Picked& picked);
+    void search_diameter(const PanelContext& context);
     void draw_distance(const Ui& ui, const OnScreen& screen) const;
     void draw_diameter(const Ui& ui, const OnScreen& screen, const VesselDiameter& diameter) const;
     [[nodiscard]] std::string words(const PanelContext& context) const;
@@ -46,6 +61,8 @@ private:
     BackgroundSearch<VesselDiameter> search_;
     MeasureTool tool_ = MeasureTool::None;
     int seen_scenes_ = -1;
+    std::deque<Click> clicks_;
+    std::deque<Vec3> places_;  ///< where diameters are still to be measured [mm]
     Positions points_;
     std::vector<VesselDiameter> diameters_;
 };

@@ -3,27 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "workbench/window/model/same_surface.h"
+#include "geometry/kernel/same_surface.h"
+#include "gpu/picture.h"
 
 namespace vesselbench {
 
 namespace {
 
 constexpr double kTransparent = 0.35;  ///< opacity of a transparent model [-]
-
-/// Wall, then a colour for each opening: inlets blue, outlets and others in turn.
-std::vector<Colour> colours_of_patches(const Surface& surface) {
-    static const Colour inlet(0.08F, 0.25F, 0.60F);
-    std::vector<Colour> colours;
-    std::size_t next = 0;
-    for (const Patch& patch : surface.patches) {
-        if (patch.kind == PatchKind::Wall)
-            colours.push_back(kWallColour);
-        else
-            colours.push_back(patch.kind == PatchKind::Inlet ? inlet : category_colour(++next));
-    }
-    return colours;
-}
 
 }  // namespace
 
@@ -33,6 +20,7 @@ void ModelDrawing::show(const Scene* scene) {
     task_.forget();
     late_.clear();
     deviation_.reset();
+    problem_.clear();
     if (scene == nullptr || !scene->surface || scene->surface->empty())
         drawn_.reset();
     else
@@ -40,23 +28,47 @@ void ModelDrawing::show(const Scene* scene) {
 }
 
 void ModelDrawing::lay_out(const Surface& surface) {
-    std::optional<DrawingArrays> previous;
-    if (drawn_) previous = drawn_->arrays();
-    task_.begin([surface, previous](const Progress&) {
-        return prepare_drawing(surface, previous ? &*previous : nullptr);
+    task_.begin([surface, known = drawn_ ? drawn_->arrays().layout : nullptr](const Progress&) {
+        return prepare_drawing(surface, known);
     });
 }
 
 bool ModelDrawing::update() {
+    new_ = false;
     bool changed = std::exchange(moved_, false);
     if (auto arrays = task_.take()) {
-        take(std::move(*arrays));
+        upload([&] { take(std::move(*arrays)); });
+        changed = true;
+        new_ = drawn_ != nullptr;
+    }
+    if (const std::string problem = task_.take_problem(); !problem.empty()) {
+        fail(problem);
         changed = true;
     }
-    return upload_values() || changed;
+    upload([&] { changed = upload_values() || changed; });
+    return std::exchange(moved_, false) || changed;
+}
+
+/// What the device has no memory for is not drawn at all: half of it would be of another scene.
+template <class Work>
+void ModelDrawing::upload(const Work& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        fail(error.what());
+    }
+}
+
+void ModelDrawing::fail(const std::string& problem) {
+    drawn_.reset();
+    late_.clear();
+    problem_ = problem;
+    moved_ = true;
 }
 
 void ModelDrawing::take(DrawingArrays arrays) {
+    drawn_.reset();  // not both at once
+    problem_.clear();
     drawn_ = std::make_shared<DrawnSurface>(std::move(arrays));
     shown_ = drawn_->surface();
     uploaded_.reset();
@@ -87,13 +99,15 @@ void ModelDrawing::follow_late() {
 
 void ModelDrawing::follow(const SceneMove& move) {
     const Surface& after = surface_of(move.after);
-    if (shown_.positions != after.positions) drawn_->move(after.points(), move.changed);
-    const bool coloured = uploaded_ && uploaded_ == painted_values();
-    shown_ = after;
-    moved_ = true;
-    if (!coloured) return;
-    uploaded_ = painted_values();
-    drawn_->set_values(*uploaded_, move.changed);
+    upload([&] {
+        if (shown_.positions != after.positions) drawn_->move(after.points(), move.changed);
+        const bool coloured = uploaded_ && uploaded_ == painted_values();
+        shown_ = after;
+        moved_ = true;
+        if (!coloured) return;
+        uploaded_ = painted_values();
+        drawn_->set_values(*uploaded_, move.changed);
+    });
 }
 
 // --- colours
@@ -161,7 +175,7 @@ Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     Layers layers;
     if (!drawn_) return layers;
     SurfaceLayer layer{.source = drawn_, .id = kModelLayer, .colouring = Colouring::Patches};
-    layer.patch_colours = colours_of_patches(drawn_->surface());
+    layer.patch_colours = patch_colours(drawn_->surface());
     layer.flat = look.flat;
     layer.opacity = look.transparent ? kTransparent : 1.0;
     layer.edges = look.edges ? Edges::Over : Edges::Off;

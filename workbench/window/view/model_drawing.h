@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/deviation_map.h"
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
 #include "workbench/window/model/colourings.h"
-#include "workbench/window/model/deviation_map.h"
 #include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/live_stroke.h"
 
@@ -61,6 +61,13 @@ public:
     /// Uploads what is ready. \return true if the drawing has changed
     bool update();
 
+    /// True if the last update() began to show another surface, rather than moves or colours.
+    [[nodiscard]] bool is_new() const { return new_; }
+
+    /// Why the scene's surface cannot be drawn, as on a device without memory for it; empty: it
+    /// can. Otherwise surface() is null.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
+
     [[nodiscard]] bool pending() const { return task_.pending(); }
 
     /// The surface that is drawn, with the dabs so far; null: none.
@@ -86,6 +93,9 @@ private:
     using Values = std::shared_ptr<const std::vector<double>>;
 
     void lay_out(const Surface& surface);
+    template <class Work>
+    void upload(const Work& work);
+    void fail(const std::string& problem);
     void take(DrawingArrays arrays);
     void follow(const SceneMove& move);
     void follow_late();
@@ -99,6 +109,8 @@ private:
     LatestTask<DrawingArrays> task_;
     std::vector<SceneMove> late_;  ///< moves since a layout was asked for
     bool moved_ = false;           ///< since the last update
+    bool new_ = false;
+    std::string problem_;
     std::string painted_;
     std::shared_ptr<const DeviationMap> deviation_;
     std::shared_ptr<const ColourValues> colours_;

@@ -63,6 +63,16 @@ void OverlayLayers::update(PanelContext& c) {
     anchors_ = edit_anchors(*document.snapshot(), seen_variant_);
 }
 
+void OverlayLayers::forget() {
+    source_search_.forget();
+    asked_source_.reset();
+    source_.reset();
+    graph_.reset();
+    lines_.reset();
+    anchors_.clear();
+    seen_snapshots_ = -1;
+}
+
 void OverlayLayers::update_source(const PanelContext& c) {
     const auto& surface = c.place.document.source();
     const bool wanted = c.place.settings.layers.source && surface && !surface->empty();
@@ -87,6 +97,7 @@ void OverlayLayers::update_lines(const PanelContext& c) {
         c.place.settings.layers.centerlines ? c.place.view_data().centerlines() : nullptr;
     if (graph == graph_) return;
     graph_ = graph;
+    lines_.reset();
     lines_ = graph ? std::make_shared<const DrawnLines>(centerline_drawing(*graph)) : nullptr;
     ++version_;
 }

@@ -35,6 +35,9 @@ public:
     void add_to(Layers& layers, double line_width, bool dark) const;
 
     /// Names and places as marks in ImGui's current window.
+    /// Forgets what is shown: the case is closed.
+    void forget();
+
     void draw_marks(PanelContext& context, const OnScreen& screen) const;
 
 private:

@@ -27,6 +27,7 @@ void RegionDrawing::show(std::vector<RegionLine> lines) {
     if (lines == shown_) return;
     shown_ = std::move(lines);
     ++version_;
+    faint_ = front_ = lines_ = nullptr;  // should the device lack memory for the new ones
     faint_ = drawn(shown_, [](const RegionLine& line) { return line.faint; });
     front_ = drawn(shown_, [](const RegionLine& line) { return line.in_front; });
     lines_ = drawn(shown_, [](const RegionLine& line) { return !line.faint && !line.in_front; });

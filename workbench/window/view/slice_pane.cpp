@@ -166,6 +166,7 @@ void SlicePane::draw_picture(const Ui& ui, const PaneSource& source) {
     const Drawn now{camera_, source.planes.version(), width, height};
     if (drawn_ == now) return;
     if (!target_) target_.emplace(width, height);
+    drawn_.reset();
     target_->resize(width, height);
     target_->bind();
     const SceneView view{.camera = camera_,
@@ -200,6 +201,9 @@ void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
     shadowed(ui, {rect_.x + pad, rect_.y + pad}, {0, 0}, paint_of(plane_), axes_of(plane_).name);
     shadowed(ui, {rect_.x + pad, low - pad}, {0, 1}, colour,
              position_text(axes_of(plane_).normal, c.place.slices().position(plane_)));
+    if (const std::string& problem = c.place.slices().problem(); !problem.empty())
+        shadowed(ui, {rect_.middle_x(), rect_.middle_y()}, {0.5F, 0.5F}, colour,
+                 fitted("no slice: " + problem, rect_.width - 2 * pad));
     draw_scale_bar(ui, rect_, camera_);
 }
 
@@ -266,10 +270,11 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     c.ui.item(key + ".area");
     handle_mouse(c);
     place_camera(c.place.slices());
-    draw_picture(c.ui, source);
-    ImGui::GetWindowDrawList()->AddImage(
-        reinterpret_cast<ImTextureID>(std::uintptr_t{texture_}), {rect_.x, rect_.y},
-        {rect_.x + rect_.width, rect_.y + rect_.height}, {0, 1}, {1, 0});
+    if (!source.guard.run([&] { draw_picture(c.ui, source); })) texture_ = 0;
+    if (texture_ != 0)
+        ImGui::GetWindowDrawList()->AddImage(
+            reinterpret_cast<ImTextureID>(std::uintptr_t{texture_}), {rect_.x, rect_.y},
+            {rect_.x + rect_.width, rect_.y + rect_.height}, {0, 1}, {1, 0});
     const Ui overlay = overlay_of(c.ui);
     draw_cross(overlay, c.place.slices());
     draw_texts(c, overlay);

@@ -5,6 +5,7 @@
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
 #include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/drawing_guard.h"
 #include "workbench/window/view/slice_planes.h"
 
 namespace vesselbench {
@@ -17,6 +18,7 @@ namespace vesselbench {
 struct PaneSource {
     Renderer& renderer;
     const SlicePlanes& planes;
+    DrawingGuard& guard;
 };
 
 /// A slice as a 2D view: letters of the sides, position, scale, and the lines of the other planes.

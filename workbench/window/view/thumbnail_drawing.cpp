@@ -7,8 +7,8 @@
 #include <epoxy/gl.h>
 
 #include "gpu/picture.h"
-#include "gpu/render/coarse_surface.h"
 #include "gpu/render/drawn_surface.h"
+#include "meshing/remeshing/coarse_surface.h"
 
 namespace vesselbench {
 

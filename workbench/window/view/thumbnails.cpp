@@ -68,7 +68,7 @@ struct Thumbnails::Impl {
     std::optional<StateId> wanted;
     ResultId making_result = 0;  ///< what is read or laid out
     std::optional<Job<Scene>> reading;
-    LatestTask<std::optional<DrawingArrays>> arrays;
+    LatestTask<DrawingArrays> arrays;
     ResultId kept = 0;  ///< whose picture is the project's
     LatestTask<bool> writing;
     std::optional<ThumbnailDrawing> drawing;
@@ -152,23 +152,21 @@ void Thumbnails::Impl::lay_out(const Scene& scene) {
         made[making_result] = {};
         return;
     }
-    arrays.begin([surface = *scene.surface](const Progress&) -> std::optional<DrawingArrays> {
-        try {
-            return thumbnail_arrays(surface);
-        } catch (const std::exception&) {
-            return std::nullopt;  // no picture
-        }
-    });
+    arrays.begin([surface = *scene.surface](const Progress&) { return thumbnail_arrays(surface); });
 }
 
 void Thumbnails::Impl::take_arrays(Renderer& renderer) {
     auto ready = arrays.take();
+    if (!arrays.take_problem().empty()) made[making_result] = {};  // no picture
     if (!ready) return;
     Made& entry = made[making_result];
-    if (!*ready) return;
-    if (!drawing) drawing.emplace();
-    entry.picture = drawing->draw(renderer, std::move(**ready));
-    entry.texture = texture_of(entry.picture);
+    try {
+        if (!drawing) drawing.emplace();
+        entry.picture = drawing->draw(renderer, std::move(*ready));
+        entry.texture = texture_of(entry.picture);
+    } catch (const std::exception&) {
+        entry = {};  // no picture
+    }
 }
 
 /// Keeps the current state's picture as the project's, and asks for it if it is missing.

@@ -38,6 +38,15 @@ void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colo
 
 }  // namespace
 
+void ViewHandles::forget() {
+    search_.update(nullptr, std::nullopt);
+    shape_ = {};
+    positions_.reset();
+    openings_.clear();
+    state_ = State::Idle;
+    hot_.reset();
+}
+
 // --- what is shown
 
 void ViewHandles::take_model(const PanelContext& c) {
@@ -47,7 +56,8 @@ void ViewHandles::take_model(const PanelContext& c) {
         openings_.clear();
         return;
     }
-    if (positions_ != model->positions) {
+    const auto& form = c.place.form();
+    if (form && has_field(*form, Meaning::Box) && positions_ != model->positions) {
         positions_ = model->positions;
         bounds_ = bounds(*model);
     }
@@ -58,13 +68,13 @@ void ViewHandles::take_model(const PanelContext& c) {
 void ViewHandles::take_shape(const PanelContext& c) {
     const auto& form = c.place.form();
     const Surface* model = model_of(c);
-    const bool cuts = form && model != nullptr && has_cut(*form);
+    const bool cuts = form && model != nullptr && has_field(*form, Meaning::Planes);
     search_.update(model, cuts ? cut_question(*form) : std::nullopt);
     shape_ = {};
     if (!form || model == nullptr) return;
-    if (has_region(*form))
+    if (has_field(*form, Meaning::Box))
         shape_ = crop_shape(*form, bounds_);
-    else if (has_lengths(*form))
+    else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
     else if (search_.cut())
         shape_ = cut_shape(*form, *search_.cut());
@@ -92,8 +102,9 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
 
 std::vector<FieldText> ViewHandles::texts(const OperationForm& before, const Vec3& to,
                                           double snap) const {
-    if (has_region(before)) return crop_texts(before, bounds_, start_.index, to);
-    if (has_lengths(before)) return length_texts(before, openings_, start_.index, to, snap);
+    if (has_field(before, Meaning::Box)) return crop_texts(before, bounds_, start_.index, to);
+    if (has_field(before, Meaning::Openings))
+        return length_texts(before, openings_, start_.index, to, snap);
     return start_.cut ? cut_texts(before, *start_.cut, start_.index, to) : std::vector<FieldText>();
 }
 

@@ -23,6 +23,9 @@ public:
     /// mouse.
     void update(PanelContext& context, const OnScreen& screen);
 
+    /// Drops a drag and the search: the case is closed.
+    void forget();
+
     /// True if a drag with the left button does not belong to the camera.
     [[nodiscard]] bool holds_left() const { return state_ != State::Idle; }
 
@@ -67,9 +70,9 @@ private:
 
     CutSearch search_;
     FormShape shape_;
-    std::shared_ptr<const Positions> positions_;  ///< of the model
-    Bounds bounds_;
-    std::vector<PatchMeasures> openings_;  ///< of the model, without a preview
+    std::shared_ptr<const Positions> positions_;  ///< whose bounds these are
+    Bounds bounds_;                               ///< of the model, for regions
+    std::vector<PatchMeasures> openings_;         ///< of the model, without a preview
     State state_ = State::Idle;
     std::optional<std::size_t> hot_;
     Start start_;

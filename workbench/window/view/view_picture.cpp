@@ -62,16 +62,18 @@ bool ViewPicture::pending() const {
     return impl_->saving.pending();
 }
 
+void ViewPicture::collect(Document& document) {
+    const auto& saving = impl_->saving;
+    if (!impl_->saving.update()) return;
+    if (saving.result())
+        document.tell(make_message(MessageKind::Success, "Saved picture " + saving.result()->string()));
+    else
+        document.tell(make_message(MessageKind::Error, saving.problem()));
+}
+
 bool ViewPicture::update(PanelContext& c, const ScreenRect& view) {
     Impl& own = *impl_;
-    Document& document = c.place.document;
-    if (own.saving.update()) {
-        if (own.saving.result())
-            document.tell(make_message(MessageKind::Success,
-                                       "Saved picture " + own.saving.result()->string()));
-        else
-            document.tell(make_message(MessageKind::Error, own.saving.problem()));
-    }
+    collect(c.place.document);
     if (own.saving.pending()) return false;
     const fs::path file = c.place.take_picture_file();
     if (file.empty()) return false;

@@ -22,6 +22,9 @@ public:
     /// Once a frame. \return true if this frame is to be saved: it should show no controls
     [[nodiscard]] bool update(PanelContext& context, const ScreenRect& view);
 
+    /// Tells what became of a picture; part of update().
+    void collect(Document& document);
+
     [[nodiscard]] bool pending() const;
 
 private:

@@ -30,7 +30,7 @@ std::vector<NamedPlace> offered_for(PickTarget target, const SurfacePlaces& plac
 std::vector<NamedPlace> offered_in(const OperationForm& form, const SurfacePlaces& places) {
     std::vector<NamedPlace> offered;
     for (const FormField& field : form.fields()) {
-        const auto target = pick_target(form.operation(), *field.parameter);
+        const auto target = pick_target(*field.parameter);
         if (!target || !field.active) continue;
         for (NamedPlace& place : offered_for(*target, places))
             if (std::ranges::count(offered, place) == 0) offered.push_back(std::move(place));
@@ -69,6 +69,8 @@ std::optional<Vec3> ViewPlaces::hit() const {
 }
 
 void ViewPlaces::forget() {
+    picker_.forget();
+    clicked_.reset();
     answer_.reset();
     spot_.reset();
     lit_patch_.reset();
@@ -113,10 +115,7 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     const OnScreen screen{seen.view.camera, seen.rect};
     const bool wanted =
         !c.place.can_paint() && (target || may_be_over(screen, places.openings, cursor));
-    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) {
-        clicked_.reset();
-        return forget();
-    }
+    if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
     light_opening(c, seen);

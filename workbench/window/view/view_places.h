@@ -33,6 +33,9 @@ public:
     /// role of an opening.
     void update(PanelContext& context, const SeenModel& seen);
 
+    /// Drops the search and what it found.
+    void forget();
+
     /// Marks, hints and the figures of the opening under the cursor, over the model.
     void draw(PanelContext& context, const OnScreen& screen) const;
 
@@ -70,7 +73,6 @@ private:
     void find_spot(const SeenModel& seen, const Eigen::Vector2f& cursor, float reach);
     void light_opening(const PanelContext& context, const SeenModel& seen);
     void take_click(PanelContext& context);
-    void forget();
     void draw_offered(const PanelContext& context, const OnScreen& screen) const;
     void draw_spot(const PanelContext& context, const OnScreen& screen) const;
     void draw_opening(PanelContext& context) const;

@@ -17,6 +17,7 @@
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/clip_section.h"
 #include "workbench/window/view/comparison_view.h"
+#include "workbench/window/view/drawing_guard.h"
 #include "workbench/window/view/edit_marks.h"
 #include "workbench/window/view/endoscope.h"
 #include "workbench/window/view/measuring_tool.h"
@@ -118,15 +119,17 @@ struct Viewport::Impl {
           overlays(wake),
           picture(wake) {}
 
+    void rest(PanelContext& c);
     void take_scene(PanelContext& c);
     void take_comparison(PanelContext& c);
     void take_form(PanelContext& c);
     void take_slices(PanelContext& c);
     void pick_places(PanelContext& c, bool over, bool released);
     void frame_model();
-    void follow_model();
+    void follow_model(const Document& document);
     void follow_handles();
     void draw_model(const Ui& ui);
+    void draw_picture(const Ui& ui);
     void handle_brush(PanelContext& c);
     void fly(const PanelContext& c);
     void take_choices(PanelContext& c);
@@ -134,7 +137,8 @@ struct Viewport::Impl {
     void handle_drag(const Eigen::Vector2d& moved);
     void handle_wheel(PanelContext& c, float notches);
     void handle_keys(const PanelContext& c, bool over_view);
-    void set_centre();
+    void request_centre();
+    void take_centre();
     void draw_toolbar(PanelContext& c);
     void draw_legend(const PanelContext& c) const;
     void draw_overlays(PanelContext& c, bool over_view);
@@ -155,7 +159,9 @@ struct Viewport::Impl {
     ModelDrawing model;
     ComparisonView compared;
     Renderer renderer;
-    Picker picker;
+    DrawingGuard guard;
+    Picker picker;                       ///< for the centre of turns
+    std::optional<ViewCamera> centring;  ///< the camera whose centre is searched
     BrushPointer brush;
     ViewPlaces places;
     ViewHandles handles;
@@ -192,10 +198,10 @@ Viewport::~Viewport() = default;
 
 bool Viewport::pending() const {
     const Impl& view = *impl_;
-    return view.model.pending() || view.compared.pending() || view.brush.pending() ||
-           view.places.pending() || view.handles.pending() || view.branch.pending() ||
-           view.measuring.pending() || view.clip.pending() || view.overlays.pending() ||
-           view.endoscope.moves() || view.picture.pending();
+    return view.model.pending() || view.picker.pending() || view.compared.pending() ||
+           view.brush.pending() || view.places.pending() || view.handles.pending() ||
+           view.branch.pending() || view.measuring.pending() || view.clip.pending() ||
+           view.overlays.pending() || view.endoscope.moves() || view.picture.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -238,9 +244,37 @@ void Viewport::Impl::take_scene(PanelContext& c) {
         framed_project = document.project();
         camera = facing(camera, StandardView::Anterior);
         frame_model();
-    } else {
-        follow_model();
+    } else if (model.is_new()) {
+        follow_model(document);
     }
+}
+
+/// Parts that are destroyed with their case, or would stay pending without it.
+void Viewport::Impl::rest(PanelContext& c) {
+    model.show(nullptr);
+    static_cast<void>(model.update());
+    compared.forget();
+    picker.forget();
+    brush.forget();
+    places.forget();
+    handles.forget();
+    branch.update(nullptr, nullptr, {});
+    measuring.forget();
+    clip.forget();
+    overlays.forget();
+    endoscope = {};
+    region.show({});
+    planes.update(c.place.slices());
+    slice_row = {};
+    picture.collect(c.place.document);
+    target.reset();
+    texture = 0;
+    drawn.reset();
+    outside.reset();
+    framed_project.clear();
+    framed_camera.reset();
+    image_box.reset();
+    seen_scenes = -1;
 }
 
 /// What is compared, and the room that it leaves to the model.
@@ -250,7 +284,7 @@ void Viewport::Impl::take_comparison(PanelContext& c) {
     const bool resized = area.width != seen_width;
     seen_width = area.width;
     rect = compared.room_for_model(area);
-    if (before != rect.width && !resized) follow_model();
+    if (before != rect.width && !resized) follow_model(c.place.document);
 }
 
 ViewLook Viewport::Impl::model_look() const {
@@ -313,11 +347,13 @@ void Viewport::Impl::fly(const PanelContext& c) {
 
 /// What is chosen to be seen, before it is drawn.
 void Viewport::Impl::take_choices(PanelContext& c) {
-    take_form(c);
+    guard.run([&] { take_form(c); });
     follow_handles();
     fly(c);
-    clip.update(c, model.surface(), camera);
-    overlays.update(c);
+    guard.run([&] { clip.update(c, model.surface(), camera); });
+    guard.run([&] { overlays.update(c); });
+    guard.note(model.problem());
+    guard.note(compared.problem());
 }
 
 void Viewport::Impl::frame_model() {
@@ -329,9 +365,10 @@ void Viewport::Impl::frame_model() {
     framed_camera = camera;
 }
 
-/// Frames a model that has outgrown the view, or shrunk in it, unless the user moved the camera.
-void Viewport::Impl::follow_model() {
-    if (model.surface() == nullptr || framed_camera != camera) return;
+/// Frames a model that has outgrown the view, or shrunk in it, unless the user moved the camera or
+/// paints.
+void Viewport::Impl::follow_model(const Document& document) {
+    if (model.surface() == nullptr || framed_camera != camera || document.is_painting()) return;
     const ViewCamera fitting = framed(camera, model.surface()->points(), aspect(), kMargin);
     const double growth = fitting.half_height / camera.half_height;
     const double shift = (fitting.centre - camera.centre).norm() / camera.half_height;
@@ -374,6 +411,12 @@ SceneView Viewport::Impl::scene_view(const Ui& ui) const {
 }
 
 void Viewport::Impl::draw_model(const Ui& ui) {
+    if (guard.run([&] { draw_picture(ui); })) return;
+    drawn.reset();
+    texture = 0;
+}
+
+void Viewport::Impl::draw_picture(const Ui& ui) {
     const int width = std::max(1, static_cast<int>(area.width));
     const int height = std::max(1, static_cast<int>(area.height));
     const DrawnAs now{.camera = camera,
@@ -453,18 +496,23 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     }
     const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
                       outside.has_value() || places.took_click() || handles.has_cursor();
-    if (!busy && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) set_centre();
+    if (!busy && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) request_centre();
 }
 
-void Viewport::Impl::set_centre() {
+void Viewport::Impl::request_centre() {
     if (!target) return;
     Ui plain;  // ids do not depend on colours
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const Picked picked =
-        picker.pick(scene_view(plain), layers(plain),
-                    static_cast<int>(mouse.x + compared.shift_to_model(area, mouse.x) - rect.x),
-                    static_cast<int>(rect.height - 1 - (mouse.y - rect.y)));
-    if (picked.layer != 0) camera.centre = picked.point;
+    centring = camera;
+    picker.request(scene_view(plain), layers(plain),
+                   static_cast<int>(mouse.x + compared.shift_to_model(area, mouse.x) - rect.x),
+                   static_cast<int>(rect.height - 1 - (mouse.y - rect.y)));
+}
+
+/// The clicked place becomes the centre, unless the view has been moved since.
+void Viewport::Impl::take_centre() {
+    const auto picked = picker.result();
+    if (picked && picked->layer != 0 && centring == camera) camera.centre = picked->point;
 }
 
 void Viewport::Impl::handle_keys(const PanelContext& c, bool over_view) {
@@ -573,9 +621,10 @@ void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
 void Viewport::Impl::draw_empty(PanelContext& c) const {
     const Scene* scene = c.place.document.shown();
     const bool image = scene != nullptr && scene->image;
-    const std::string words = scene == nullptr || model.pending() ? "Reading the model"
-                              : image                             ? "The image has no surface yet"
-                                                                  : "The case is empty";
+    const std::string words = !model.problem().empty() ? "The model cannot be drawn: see Messages"
+                              : scene == nullptr || model.pending() ? "Reading the model"
+                              : image                               ? "The image has no surface yet"
+                                                                    : "The case is empty";
     const float width = ImGui::CalcTextSize(words.c_str()).x, wide = c.ui.em * 12;
     const float x = rect.x + rect.width / 2, y = rect.y + rect.height / 2;
     if (has_content()) {  // the image's planes; beside them
@@ -600,9 +649,10 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     view.area = rect;
     begin_frame(c.ui, "view", rect,
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
+    view.take_centre();
     view.take_comparison(c);
     view.take_scene(c);
-    view.take_slices(c);
+    view.guard.run([&] { view.take_slices(c); });
     ImGui::InvisibleButton("view.area", {rect.width, rect.height},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ImGui::SetItemAllowOverlap();
@@ -612,22 +662,28 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
                             view.compared.shift_to_model(rect, ImGui::GetIO().MousePos.x) == 0;
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (view.model.surface() != nullptr) view.handle_brush(c);
+    if (view.model.surface() != nullptr) view.guard.run([&] { view.handle_brush(c); });
     if (view.has_content()) {
         view.handles.update(c, {view.camera, view.rect});
         view.handle_mouse(c);
     }
     view.handle_keys(c, over);
     view.take_choices(c);
-    view.pick_places(c, over_model, released);
+    view.guard.run([&] { view.pick_places(c, over_model, released); });
     view.draw_model(c.ui);
+    view.guard.tell(c.place.document);
     const ImVec2 to{rect.x + rect.width, rect.y + rect.height};
-    ImGui::GetWindowDrawList()->AddImage(
-        reinterpret_cast<ImTextureID>(std::uintptr_t{view.texture}), {rect.x, rect.y}, to, {0, 1},
-        {1, 0});
+    if (view.texture != 0)
+        ImGui::GetWindowDrawList()->AddImage(
+            reinterpret_cast<ImTextureID>(std::uintptr_t{view.texture}), {rect.x, rect.y}, to,
+            {0, 1}, {1, 0});
     view.draw_overlays(c, over);
     end_frame();
-    if (sliced) view.slice_row.draw(c, {view.renderer, view.planes}, row);
+    if (sliced) view.slice_row.draw(c, {view.renderer, view.planes, view.guard}, row);
+}
+
+void Viewport::rest(PanelContext& c) {
+    impl_->rest(c);
 }
 
 }  // namespace vesselbench

@@ -23,6 +23,10 @@ public:
 
     void draw(PanelContext& context, const ScreenRect& whole);
 
+    /// In place of draw() while no case is open: forgets the last one, and frees what it had on the
+    /// device.
+    void rest(PanelContext& context);
+
     /// True while the shown scene is not drawn yet, or a search under the cursor runs.
     [[nodiscard]] bool pending() const;
 

@@ -10,8 +10,8 @@ namespace vesselbench {
 
 /// A way through the vessels along their centerlines, from one end to another.
 struct FlightPath {
-    std::string name;               ///< of its end: the opening's, or "Vessel end, 3.2 mm"
-    Positions points;               ///< [mm], no two neighbours equal
+    std::string name;  ///< of its end: the opening's, else "Vessel end, 3.2 mm" (its diameter)
+    Positions points;  ///< [mm], no two neighbours equal
     std::vector<double> radii;      ///< [mm] of the vessel at each point
     std::vector<double> abscissas;  ///< [mm] from the start to each point
     std::vector<Vec3> ups;          ///< unit, for a camera at each point; they turn no more than

@@ -1,4 +1,4 @@
-#include "workbench/window/model/measuring.h"
+#include "geometry/vessel/centerlines/vessel_diameter.h"
 
 #include <cmath>
 

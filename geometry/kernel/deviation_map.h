@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -12,7 +13,8 @@ struct DeviationMap {
     double full = 0.0;           ///< [mm] 98 % of the vertices are nearer
 };
 
-/// \throw InvalidInput if the reference has no triangle
-[[nodiscard]] DeviationMap deviation_map(const Surface& surface, const Surface& reference);
+/// \throw InvalidInput if the reference has no triangle; Cancelled
+[[nodiscard]] DeviationMap deviation_map(const Surface& surface, const Surface& reference,
+                                         const Progress& progress = {});
 
 }  // namespace vesselbench

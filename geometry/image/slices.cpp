@@ -1,4 +1,4 @@
-#include "workbench/window/model/slices.h"
+#include "geometry/image/slices.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,9 @@
-#include "workbench/window/model/deviation_map.h"
+#include "geometry/kernel/deviation_map.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 
 #include "geometry/kernel/surface_distance.h"
 
@@ -11,6 +13,9 @@ namespace {
 
 /// Fraction of the vertices whose deviation is within the colours' range [-].
 constexpr double kShownShare = 0.98;
+
+/// Between two looks at whether it was cancelled; enough for all cores.
+constexpr std::size_t kPointsAtOnce = 16384;
 
 /// The least range [mm]: smaller deviations are rounding errors.
 constexpr double kLeastRange = 1e-6;
@@ -27,9 +32,17 @@ double range_of(const std::vector<double>& values) {
 
 }  // namespace
 
-DeviationMap deviation_map(const Surface& surface, const Surface& reference) {
-    const Positions& positions = surface.points();
-    DeviationMap map{.values = SurfaceDistance(reference).signed_distances(positions)};
+DeviationMap deviation_map(const Surface& surface, const Surface& reference,
+                           const Progress& progress) {
+    const SurfaceDistance distance(reference);
+    const std::span<const Vec3> points = surface.points();
+    DeviationMap map;
+    map.values.reserve(points.size());
+    for (std::size_t first = 0; first < points.size(); first += kPointsAtOnce) {
+        progress.check_cancelled();
+        const auto part = points.subspan(first, std::min(kPointsAtOnce, points.size() - first));
+        std::ranges::copy(distance.signed_distances(part), std::back_inserter(map.values));
+    }
     map.full = range_of(map.values);
     return map;
 }

@@ -1,4 +1,4 @@
-#include "workbench/window/model/flight_path.h"
+#include "geometry/vessel/centerlines/flight_path.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "workbench/window/model/surface_places.h"
+#include "geometry/vessel/centerlines/tip_name.h"
 
 namespace vesselbench {
 

@@ -1,4 +1,4 @@
-#include "gpu/render/coarse_surface.h"
+#include "meshing/remeshing/coarse_surface.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 using namespace vesselbench;
 using namespace vesselbench::test;
 
-SCENARIO("A coarse surface has the shape with fewer triangles", "[gpu][render][coarse]") {
+SCENARIO("A coarse surface has the shape with fewer triangles", "[meshing][coarse]") {
     const Surface ball = icosphere(10.0, 6, Vec3(300, -20, 5));  // 40,962 vertices
     const Surface coarse = coarse_surface(ball, 32);
     CHECK(coarse.triangle_count() < ball.triangle_count() / 4);
@@ -28,7 +28,7 @@ SCENARIO("A coarse surface has the shape with fewer triangles", "[gpu][render][c
     }
 }
 
-SCENARIO("A coarse surface keeps its patches", "[gpu][render][coarse]") {
+SCENARIO("A coarse surface keeps its patches", "[meshing][coarse]") {
     const Surface ball = icosphere(10.0, 6);
     PatchLabels labels(ball.triangle_count(), 0);
     for (TriangleId t = 0; t < ball.triangle_count(); ++t)

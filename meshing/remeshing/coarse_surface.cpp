@@ -1,4 +1,4 @@
-#include "gpu/render/coarse_surface.h"
+#include "meshing/remeshing/coarse_surface.h"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,4 +1,4 @@
-#include "workbench/window/model/volume_section.h"
+#include "meshing/tetrahedra/volume_section.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,8 @@
 namespace vesselbench {
 
 namespace {
+
+constexpr std::size_t kCellsBetweenChecks = 16384;
 
 /// Corners of a tetrahedron on either side of a plane.
 struct Sides {
@@ -76,9 +78,9 @@ VolumeSection section_of(const VolumeMesh& mesh, std::span<const double> values,
     std::vector<double> distances(mesh.points.size());
     std::ranges::transform(mesh.points, distances.begin(),
                            [&](const Vec3& point) { return plane.distance(point); });
-    progress.check_cancelled();
     VolumeSection section;
     for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i % kCellsBetweenChecks == 0) progress.check_cancelled();
         const Sides sides = sides_of(mesh.tetrahedra[i], distances);
         if (sides.above_count == 0 || sides.below_count == 0) continue;
         section.cells.push_back(polygon_of(sides, mesh.points, distances));

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "smoothing/context/caps.h"
+#include "workbench/case/scene.h"
+
+namespace vesselbench {
+
+/// Direction across the slices of a surface's image.
+struct StackAxis {
+    Vec3 direction = Vec3::UnitZ();    ///< unit
+    std::optional<double> confidence;  ///< of an estimate, in [0, 1] [-]; none: of the image
+};
+
+/// The axis of the scene's image; of a surface without one, an estimate from its faces beside the
+/// caps. None if that is uncertain.
+/// \pre the scene has a surface
+[[nodiscard]] std::optional<StackAxis> stack_axis_of(const Scene& scene, std::span<const Cap> caps);
+
+}  // namespace vesselbench

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "workbench/window/model/document.h"
+
+namespace vesselbench {
+
+/// Keeps the window going where the device lacks memory for what it should draw: that is left out,
+/// and a message says why.
+class DrawingGuard {
+public:
+    /// Runs a part of a frame. \return false if it failed
+    template <class Part>
+    bool run(const Part& part) {
+        try {
+            part();
+            return true;
+        } catch (const std::exception& error) {
+            note(error.what());
+            return false;
+        }
+    }
+
+    /// Something else has failed; empty: nothing.
+    void note(const std::string& problem) {
+        if (!problem.empty()) problem_ = problem;
+    }
+
+    /// The last problem becomes a message, unless it was the last one before. Once a frame.
+    void tell(Document& document);
+
+private:
+    std::string problem_, told_;
+};
+
+}  // namespace vesselbench
