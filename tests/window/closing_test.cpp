@@ -1,6 +1,7 @@
 // What the view was doing when its case is closed, replaced or cannot be drawn.
 
 #include <algorithm>
+#include <thread>
 
 #include <catch2/catch.hpp>
 
@@ -165,7 +166,10 @@ SCENARIO("Requests go on while nothing can be seen", "[window][closing]") {
     app.open(tube_file());
     const int drawings = app.drawings();
     const auto end = std::chrono::steady_clock::now() + 60s;
-    while (!app.place().document.is_open() && std::chrono::steady_clock::now() < end) app.rest();
+    while (!app.place().document.is_open() && std::chrono::steady_clock::now() < end) {
+        app.rest();
+        std::this_thread::sleep_for(5ms);
+    }
     CHECK(app.place().document.is_open());
     CHECK(app.drawings() == drawings);
     CHECK(shell->settle(60s));

@@ -502,6 +502,7 @@ void Document::cancel() {
 }
 
 void Document::tell(Message message) {
+    ++message_changes_;
     messages_.push_back(std::move(message));
     if (messages_.size() > kMostMessages) messages_.pop_front();
 }

@@ -174,6 +174,9 @@ public:
 
     [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
 
+    /// Counts changes of messages().
+    [[nodiscard]] int message_changes() const { return message_changes_; }
+
     void tell(Message message);
 
     /// Why the last request failed; none once another one is made.
@@ -220,7 +223,8 @@ private:
     std::optional<Preparation> preparation_;
     std::deque<Message> messages_;
     std::optional<Message> failure_;
-    int snapshot_changes_ = 0, dropped_strokes_ = 0, entered_ = 0, opened_ = 0;
+    int snapshot_changes_ = 0, dropped_strokes_ = 0, entered_ = 0, opened_ = 0,
+        message_changes_ = 0;
 };
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/window/panels/message_panel.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <imgui.h>
 
@@ -93,6 +94,8 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
 
 void draw_messages(PanelContext& c) {
     const auto& all = c.place.document.messages();
+    int& seen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("seen"), 0);
+    if (std::exchange(seen, c.place.document.message_changes()) != seen) ImGui::SetScrollY(0);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.ui.grid(1), 0});
     float y = ImGui::GetCursorPosY();
     for (std::size_t i = all.size(); i-- > 0;) {

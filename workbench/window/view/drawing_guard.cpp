@@ -4,11 +4,14 @@
 
 namespace vesselbench {
 
+void DrawingGuard::note(const std::string& problem) {
+    if (!problem.empty()) problems_.insert(problem);
+}
+
 void DrawingGuard::tell(Document& document) {
-    const std::string now = std::exchange(problem_, {});
-    if (now.empty() || now == told_) return;
-    told_ = now;
-    document.tell(make_message(MessageKind::Error, "not all can be drawn: " + now));
+    for (const std::string& problem : std::exchange(problems_, {}))
+        if (told_.insert(problem).second)
+            document.tell(make_message(MessageKind::Error, "not all can be drawn: " + problem));
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <set>
 #include <string>
 
 #include "workbench/window/model/document.h"
@@ -24,15 +25,13 @@ public:
     }
 
     /// Something else has failed; empty: nothing.
-    void note(const std::string& problem) {
-        if (!problem.empty()) problem_ = problem;
-    }
+    void note(const std::string& problem);
 
-    /// The last problem becomes a message, unless it was the last one before. Once a frame.
+    /// Problems become messages, each one once. Once a frame.
     void tell(Document& document);
 
 private:
-    std::string problem_, told_;
+    std::set<std::string> problems_, told_;
 };
 
 }  // namespace vesselbench
