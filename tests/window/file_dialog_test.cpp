@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/formats/surface_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"

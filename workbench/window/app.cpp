@@ -109,8 +109,6 @@ void App::Impl::take_case() {
     seen_project = place.document.project();
     shown.prepare = false;
     shown.note.reset();
-    shown.least.clear();
-    shown.most.clear();
 }
 
 void App::Impl::draw_case(PanelContext& context, const Layout& layout) {

@@ -102,7 +102,7 @@ struct KeyRow {
 [[nodiscard]] std::string keys_of(KeyCommand command);
 
 /// What the keys of this frame ask for.
-class PressedKeys {
+class KeyCommands {
 public:
     void add(KeyCommand command) { commands_.set(static_cast<std::size_t>(command)); }
 

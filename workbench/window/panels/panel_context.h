@@ -30,7 +30,7 @@ struct Shown {
     std::optional<NoteInProgress> note;     ///< the dialog for it
     bool view = false;                      ///< the view's options
     bool compact = false;                   ///< little room: tool buttons without labels
-    PressedKeys keys;                       ///< of this frame
+    KeyCommands keys;                       ///< of this frame
 };
 
 /// What panels draw from, and where their requests go.

@@ -38,12 +38,12 @@ bool has_dialog(const PanelContext& c) {
 }
 
 /// Dialogs and text fields keep the keys of the window from acting behind them.
-PressedKeys pressed_keys(const PanelContext& c) {
+KeyCommands pressed_keys(const PanelContext& c) {
     const KeyReach least = has_dialog(c)                  ? KeyReach::Everywhere
                            : ImGui::GetIO().WantTextInput ? KeyReach::TextFields
                                                           : KeyReach::Window;
     const KeyUse other = c.place.view.flies ? KeyUse::Outside : KeyUse::Flight;
-    PressedKeys keys;
+    KeyCommands keys;
     for (const KeyRow& row : key_table()) {
         if (row.reach < least) continue;
         for (const KeyBinding& binding : row.bindings)
@@ -87,7 +87,7 @@ void handle_history(PanelContext& c) {
 }
 
 void handle_files(PanelContext& c) {
-    const PressedKeys& keys = c.shown.keys;
+    const KeyCommands& keys = c.shown.keys;
     const bool writes = c.place.document.can(RequestKind::Output);
     if (keys.has(KeyCommand::Open)) c.place.ask(FileQuestion::Open);
     if (keys.has(KeyCommand::SaveCopy) && writes) c.place.ask(FileQuestion::SaveCopy);
@@ -115,7 +115,7 @@ void handle_text_size(PanelContext& c) {
 
 void handle_shortcuts(PanelContext& c) {
     c.shown.keys = pressed_keys(c);
-    const PressedKeys keys = c.shown.keys;
+    const KeyCommands keys = c.shown.keys;
     if (keys.has(KeyCommand::Help)) c.shown.help = !c.shown.help;
     if (keys.has(KeyCommand::Cancel)) handle_escape(c);
     handle_text_size(c);

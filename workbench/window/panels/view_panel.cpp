@@ -165,7 +165,7 @@ void draw_view_panel(PanelContext& c, const ScreenRect& view) {
 
 void handle_view_keys(PanelContext& c) {
     if (!c.place.document.is_open()) return;
-    const PressedKeys& keys = c.shown.keys;
+    const KeyCommands& keys = c.shown.keys;
     if (keys.has(KeyCommand::ViewOptions)) c.shown.view = !c.shown.view;
     for (const LayerToggle& toggle : kLayers) {
         if (!keys.has(toggle.key)) continue;

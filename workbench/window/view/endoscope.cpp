@@ -82,7 +82,7 @@ void Endoscope::toggle_play() {
     if (plays_ && path() != nullptr && abscissa_ >= path()->length()) abscissa_ = 0.0;
 }
 
-void Endoscope::handle_keys(const PressedKeys& keys) {
+void Endoscope::handle_keys(const KeyCommands& keys) {
     if (keys.has(KeyCommand::FlyOrStop)) toggle_play();
     if (keys.has(KeyCommand::FlyForward)) advance(kKeyStep);
     if (keys.has(KeyCommand::FlyBack)) advance(-kKeyStep);

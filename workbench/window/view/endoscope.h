@@ -35,7 +35,7 @@ public:
     void advance(double radii);
 
     /// Keys of the flight.
-    void handle_keys(const PressedKeys& keys);
+    void handle_keys(const KeyCommands& keys);
 
     void draw_strip(PanelContext& context, ViewStrips& strips);
 

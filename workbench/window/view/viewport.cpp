@@ -527,7 +527,7 @@ void Viewport::Impl::take_centre() {
 
 void Viewport::Impl::handle_keys(const PanelContext& c, bool over_view) {
     if (!over_view) return;
-    const PressedKeys& keys = c.shown.keys;
+    const KeyCommands& keys = c.shown.keys;
     if (c.place.view.flies) return endoscope.handle_keys(keys);
     for (const auto& [command, side] : kSides)
         if (keys.has(command)) camera = facing(camera, side);
