@@ -134,6 +134,7 @@ void Document::open(OpenRequest request) {
         return tell(make_message(MessageKind::Remark, request.name() + " is open already"));
     if (opening_) opening_->cancel();
     retire(std::move(opening_));
+    other_messages_ = messages_.size();
     opening_ =
         std::make_unique<Opening>(std::move(request), options_.session, options_.wake, retired_);
 }
@@ -157,7 +158,7 @@ void Document::take_opened() {
         Opened opened = ended->take();
         close();
         ++opened_;
-        messages_.clear();  // they were about the other case
+        forget_messages();
         project_ = opened.project;
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
@@ -504,7 +505,16 @@ void Document::cancel() {
 void Document::tell(Message message) {
     ++message_changes_;
     messages_.push_back(std::move(message));
-    if (messages_.size() > kMostMessages) messages_.pop_front();
+    if (messages_.size() <= kMostMessages) return;
+    messages_.pop_front();
+    if (other_messages_ > 0) --other_messages_;
+}
+
+/// Those about the case before.
+void Document::forget_messages() {
+    messages_.erase(messages_.begin(),
+                    messages_.begin() + static_cast<std::ptrdiff_t>(other_messages_));
+    other_messages_ = 0;
 }
 
 void Document::fail(const std::string& text, const std::string& operation) {

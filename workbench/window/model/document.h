@@ -207,6 +207,7 @@ private:
     void prepare_next();
     void end_entry(RecipeMessages& messages);
     void end_preparation();
+    void forget_messages();
     void fail(const std::string& text, const std::string& operation);
 
     DocumentOptions options_;
@@ -222,6 +223,7 @@ private:
     std::shared_ptr<const Snapshot> snapshot_;
     std::optional<Preparation> preparation_;
     std::deque<Message> messages_;
+    std::size_t other_messages_ = 0;  ///< those before a case was asked for
     std::optional<Message> failure_;
     int snapshot_changes_ = 0, dropped_strokes_ = 0, entered_ = 0, opened_ = 0,
         message_changes_ = 0;

@@ -163,8 +163,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
     clipped_text(ui, words(c), ui.theme.text, wide - 2 * side - 3 * gap);
     ImGui::SameLine(left + wide - 2 * side - gap);
     const bool any = !points_.empty() || !diameters_.empty();
-    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Clear measurements", any))
-        forget();
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Clear measurements", any)) forget();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
         c.place.view.tool = MeasureTool::None;

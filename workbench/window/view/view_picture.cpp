@@ -66,7 +66,8 @@ void ViewPicture::collect(Document& document) {
     const auto& saving = impl_->saving;
     if (!impl_->saving.update()) return;
     if (saving.result())
-        document.tell(make_message(MessageKind::Success, "Saved picture " + saving.result()->string()));
+        document.tell(
+            make_message(MessageKind::Success, "Saved picture " + saving.result()->string()));
     else
         document.tell(make_message(MessageKind::Error, saving.problem()));
 }
