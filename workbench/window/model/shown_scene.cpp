@@ -207,7 +207,10 @@ bool ShownScene::poll_figures() {
     const auto change = taken(figures_, "The model cannot be measured");
     if (!change) return false;
     known_figures_.volume = change->volume_after;
-    if (source_edit()) known_figures_.largest_deviation = change->largest_deviation;
+    if (source_edit()) {
+        known_figures_.largest_deviation = change->largest_deviation;
+        known_figures_.mean_deviation = change->mean_deviation;
+    }
     return true;
 }
 

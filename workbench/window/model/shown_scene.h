@@ -15,6 +15,7 @@ namespace vesselbench {
 struct ShownFigures {
     std::optional<double> volume;             ///< [mm^3]
     std::optional<double> largest_deviation;  ///< [mm] from the source; none: it is the source
+    std::optional<double> mean_deviation;     ///< [mm] as above
 };
 
 /// The scene of a case's current state, or of a preview in its place, and what is derived from it.

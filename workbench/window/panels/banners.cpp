@@ -132,7 +132,7 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
     const Document& document = c.place.document;
     if (!document.is_open()) return;
     const float gap = c.ui.grid(1.5F);
-    const float tools = c.ui.em * 16.0F;  // the view's buttons
+    const float tools = c.ui.em * 19.5F;  // the view's buttons
     ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
     if (document.failure() && !is_about_form(c)) {
         draw_failure(c, place);

@@ -45,9 +45,11 @@ void draw_figures(const PanelContext& c) {
     const auto volume = change != nullptr ? change->volume_after : figures.volume;
     if (volume) figure(c.ui, "Volume", formatted(*volume, "%.1f mm\u00B3"));
     if (change != nullptr && change->largest_deviation)
-        figure(c.ui, "Preview moves up to", formatted(*change->largest_deviation, "%.3f mm"));
+        figure(c.ui, "Preview differs by up to", formatted(*change->largest_deviation, "%.3f mm"));
     else if (figures.largest_deviation)
-        figure(c.ui, "Deviation from source", formatted(*figures.largest_deviation, "%.3f mm"));
+        figure(c.ui, "Deviation from source",
+               formatted(figures.mean_deviation.value_or(0.0), "mean %.3f, ") +
+                   formatted(*figures.largest_deviation, "largest %.3f mm"));
 }
 
 void draw_progress(PanelContext& c, const Activity& activity, float width) {

@@ -213,9 +213,7 @@ void BrushPointer::draw(const PanelContext& c, const ViewCamera& camera,
     const std::string words = readable(c.place.form()->operation().name) +
                               formatted(tip.radius, ": radius %g mm") +
                               formatted(tip.strength, ", strength %g");
-    const float wide = ImGui::CalcTextSize(words.c_str()).x;
-    draw.AddText({rect.x + (rect.width - wide) / 2, rect.y + c.ui.grid(2)}, c.ui.theme.text,
-                 words.c_str());
+    draw_hint(c.ui, rect, words);
     if (!shown_ || !place_) return;
     const auto circle = circle_on_screen(*place_, tip.radius, camera, rect);
     const auto count = static_cast<int>(circle.size());

@@ -1,5 +1,7 @@
 #include "workbench/window/view/screen_places.h"
 
+#include <algorithm>
+
 #include <imgui.h>
 
 #include "workbench/case/measure_json.h"
@@ -47,6 +49,16 @@ bool may_be_over(const OnScreen& screen, const std::vector<PatchMeasures>& openi
     return false;
 }
 
+namespace {
+
+ImVec2 plate_size(const Ui& ui, const std::string& words) {
+    const ImFont* font = ui.fonts.small;
+    const ImVec2 text = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    return {text.x + 2 * ui.grid(0.75F), text.y + ui.grid(0.75F)};
+}
+
+}  // namespace
+
 void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std::string& label) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 middle{at.x(), at.y()};
@@ -56,17 +68,24 @@ void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std
     draw.AddCircleFilled(middle, radius, paint(0xFFFFFF));
     draw.AddCircleFilled(middle, radius - ui.em * 0.1F, fill);
     if (look == MarkLook::Offered) draw.AddCircleFilled(middle, radius * 0.45F, ui.theme.accent);
-    if (!label.empty()) draw_plate(ui, {middle.x + radius + ui.em * 0.4F, middle.y}, label);
+    if (label.empty()) return;
+    const float gap = radius + ui.em * 0.4F,
+                right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
+    const float wide = plate_size(ui, label).x;
+    const bool fits = middle.x + gap + wide <= right;
+    draw_plate(ui, {fits ? middle.x + gap : middle.x - gap - wide, middle.y}, label);
 }
 
 void draw_plate(const Ui& ui, const Eigen::Vector2f& at, const std::string& words) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont* font = ui.fonts.small;
-    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    const ImVec2 size = plate_size(ui, words);
+    const float left = ImGui::GetWindowPos().x, room = ImGui::GetWindowWidth() - size.x;
+    const float x = std::clamp(at.x(), left, left + std::max(room, 0.0F));
     const float pad = ui.grid(0.75F), top = at.y() - size.y / 2;
-    draw.AddRectFilled({at.x(), top - pad / 2}, {at.x() + size.x + 2 * pad, top + size.y + pad / 2},
-                       faded(ui.theme.panel, 0.88), ImGui::GetStyle().FrameRounding);
-    draw.AddText(font, font->FontSize, {at.x() + pad, top}, ui.theme.text, words.c_str());
+    draw.AddRectFilled({x, top}, {x + size.x, top + size.y}, faded(ui.theme.panel, 0.88),
+                       ImGui::GetStyle().FrameRounding);
+    draw.AddText(font, font->FontSize, {x + pad, top + pad / 2}, ui.theme.text, words.c_str());
 }
 
 void draw_hint(const Ui& ui, const ScreenRect& view, const std::string& words) {

@@ -43,7 +43,7 @@ enum class MarkLook {
 /// A disc, with a label beside it unless that is empty, drawn into ImGui's current window.
 void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std::string& label);
 
-/// Text on a plate, from the middle of its left side.
+/// Text on a plate, from the middle of its left side; moved so that it is inside the window.
 void draw_plate(const Ui& ui, const Eigen::Vector2f& at, const std::string& words);
 
 /// A line of text in the lower middle of the view.
