@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/view/model_drawing.h"
+#include "workbench/window/view/screen_places.h"
 
 namespace vesselbench {
 
