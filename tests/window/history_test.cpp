@@ -98,3 +98,29 @@ SCENARIO("A stale edit says why, and its remedies are buttons", "[window][histor
     CHECK(log_of(*shell).size() == 1);
     CHECK_FALSE(shell->has("banner.stale.action"));
 }
+
+SCENARIO("The history follows the current state", "[window][history]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    for (int i = 0; i < 8; ++i) apply(*shell, "smooth", {{"iterations", Value(std::int64_t{1})}});
+    const auto current = [&] {
+        const StateId state = shell->app().place().document.snapshot()->history->current();
+        return "history." + std::to_string(state);
+    };
+    const auto height = [&](const std::string& row) {
+        return shell->has(row) ? shell->app().ui().items().at(row).rect.height : 0.0F;
+    };
+    const float whole = height(current());
+    CHECK(whole > shell->app().ui().em);
+    CHECK(height("history.0") < whole);
+    WHEN("everything is undone") {
+        for (int i = 0; i < 9; ++i) {
+            REQUIRE(shell->click_item("tool.undo"));
+            REQUIRE(wait_until_idle(*shell));
+            REQUIRE(shell->settle(60s));
+        }
+        CHECK(current() == "history.0");
+        CHECK(height(current()) == Approx(whole));
+    }
+}

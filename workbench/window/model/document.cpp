@@ -431,7 +431,7 @@ void Document::end_preparation() {
         tell(make_message(MessageKind::Success, text));
     else
         tell(make_message(MessageKind::Warning,
-                          text + " with " + counted(done.warnings, "warning") + ", see above"));
+                          text + " with " + counted(done.warnings, "warning")));
     if (pending_count(*snapshot_, variant_) > 0) run_pending();
 }
 

@@ -194,9 +194,17 @@ void draw_graph(const Ui& ui, const HistoryTree& tree, const ImVec2& corner, flo
             draw_node(ui, tree.rows, i, corner, height);
 }
 
-void scroll_to_current(int row, float height) {
-    const float middle = (static_cast<float>(row) + 0.5F) * height;
-    ImGui::SetScrollY(std::max(0.0F, middle - ImGui::GetWindowHeight() / 2));
+/// Once for each state, however many frames it takes until the row is seen.
+void show_current(const HistoryTree& tree, float top, float height) {
+    int& seen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("seen"), -1);
+    const auto current = std::ranges::find(tree.rows, true, &HistoryRow::current);
+    if (current == tree.rows.end() || seen == current->state) return;
+    const float row = top + static_cast<float>(current - tree.rows.begin()) * height;
+    const float from = ImGui::GetWindowPos().y, room = ImGui::GetWindowHeight();
+    if (row >= from && row + height <= from + room)
+        seen = static_cast<int>(current->state);
+    else
+        ImGui::SetScrollY(std::max(0.0F, row - top + (height - room) / 2));
 }
 
 }  // namespace
@@ -214,13 +222,7 @@ void draw_history(PanelContext& c) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
             draw_row(c, tree.rows[i], columns, height);
     draw_graph(c.ui, tree, corner, height);
-    ImGuiStorage& seen = *ImGui::GetStateStorage();
-    const ImGuiID key = ImGui::GetID("seen");
-    for (int i = 0; i < count; ++i)
-        if (tree.rows[i].current && seen.GetInt(key, -1) != tree.rows[i].state) {
-            scroll_to_current(i, height);
-            seen.SetInt(key, static_cast<int>(tree.rows[i].state));
-        }
+    show_current(tree, corner.y, height);
     ImGui::PopStyleVar();
 }
 
