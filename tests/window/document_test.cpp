@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <thread>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <sqlite3.h>
@@ -16,6 +17,7 @@
 #include "tests/window/window_support.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/rail.h"
+#include "workbench/window/model/request_job.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -110,6 +112,28 @@ SCENARIO("Nothing disturbs a recipe while it runs", "[window][document]") {
             THEN("other requests are possible again") {
                 CHECK(document.can(RequestKind::Edit));
                 CHECK_FALSE(told(document, "Prepared"));
+            }
+        }
+    }
+}
+
+SCENARIO("A request that ends while others are collected is not lost", "[window][document]") {
+    GIVEN("a request that ended, and one that ends right after it was asked") {
+        int asked = 0;
+        std::vector<RequestJob> jobs(2);
+        jobs[0].label.what = "slow";
+        jobs[0].ended = [&] { return asked++ > 0; };
+        jobs[1].label.what = "ended";
+        jobs[1].ended = [] { return true; };
+        WHEN("the ended ones are taken, twice") {
+            const std::vector<RequestJob> first = take_ended(jobs);
+            const std::vector<RequestJob> second = take_ended(jobs);
+            THEN("each is returned once") {
+                REQUIRE(first.size() == 1);
+                CHECK(first[0].label.what == "ended");
+                REQUIRE(second.size() == 1);
+                CHECK(second[0].label.what == "slow");
+                CHECK(jobs.empty());
             }
         }
     }

@@ -91,10 +91,7 @@ bool Document::poll() {
         changed = true;
     }
     if (!runner_) return changed;
-    std::vector<RequestJob> ended;
-    for (RequestJob& job : jobs_)
-        if (job.ended()) ended.push_back(job);
-    std::erase_if(jobs_, [](const RequestJob& job) { return job.ended(); });
+    const std::vector<RequestJob> ended = take_ended(jobs_);
     const std::vector<EndedStroke> strokes = strokes_.poll();
     if (runner_->snapshot() != snapshot_) {
         take_snapshot();

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "geometry/kernel/errors.h"
 #include "workbench/session/job.h"
@@ -58,6 +61,16 @@ template <class Result, class Then, class Otherwise>
         }
     };
     return request;
+}
+
+/// Removes the requests that have ended, in order; each is asked once: it may end meanwhile.
+[[nodiscard]] inline std::vector<RequestJob> take_ended(std::vector<RequestJob>& jobs) {
+    const auto runs = [](const RequestJob& job) { return !job.ended(); };
+    const auto first = std::stable_partition(jobs.begin(), jobs.end(), runs);
+    std::vector<RequestJob> ended(std::make_move_iterator(first),
+                                  std::make_move_iterator(jobs.end()));
+    jobs.erase(first, jobs.end());
+    return ended;
 }
 
 }  // namespace vesselbench
