@@ -44,7 +44,7 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder&
         figures.stack_axis_from = "argument";
         return *given;
     }
-    const auto found = stack_axis_of(scene, finder.caps());
+    const auto found = stack_axis_of(scene, finder);
     if (!found)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "

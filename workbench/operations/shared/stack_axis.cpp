@@ -4,10 +4,10 @@
 
 namespace vesselbench {
 
-std::optional<StackAxis> stack_axis_of(const Scene& scene, std::span<const Cap> caps) {
+std::optional<StackAxis> stack_axis_of(const Scene& scene, ContextFinder& finder) {
     if (scene.sampling && scene.sampling->confidence > 0.0)
         return StackAxis{scene.sampling->axes.col(2), std::nullopt};
-    const StackOrientation estimate = estimate_stack_orientation(*scene.surface, caps);
+    const StackOrientation estimate = estimate_stack_orientation(*scene.surface, finder.caps());
     if (!estimate.certain) return std::nullopt;
     return StackAxis{estimate.direction, estimate.confidence};
 }

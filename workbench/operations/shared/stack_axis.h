@@ -1,9 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
-#include "smoothing/context/caps.h"
+#include "smoothing/context/context_finder.h"
 #include "workbench/case/scene.h"
 
 namespace vesselbench {
@@ -16,7 +15,8 @@ struct StackAxis {
 
 /// The axis of the scene's image; of a surface without one, an estimate from its faces beside the
 /// caps. None if that is uncertain.
+/// \param finder of the scene's surface; its caps are found only for an estimate
 /// \pre the scene has a surface
-[[nodiscard]] std::optional<StackAxis> stack_axis_of(const Scene& scene, std::span<const Cap> caps);
+[[nodiscard]] std::optional<StackAxis> stack_axis_of(const Scene& scene, ContextFinder& finder);
 
 }  // namespace vesselbench

@@ -45,7 +45,7 @@ constexpr double kLeastSpread = 0.02;              ///< of a range, relative to 
 
 std::vector<double> staircase_values(const Scene& scene) {
     const auto finder = make_cpu_finder(*scene.surface);
-    const auto axis = stack_axis_of(scene, finder->caps());
+    const auto axis = stack_axis_of(scene, *finder);
     if (!axis)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
