@@ -5,6 +5,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/session/surface_change.h"
 
 namespace vesselbench {
 
@@ -25,12 +26,10 @@ constexpr double kNoticedChange = 0.03;
 std::string noticed(const LogEntry& entry) {
     const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
     if (remedy.empty() || !entry.result) return "";
-    const SurfaceChange& change = entry.result->change;
-    if (!change.volume_before || !change.volume_after || *change.volume_before <= 0) return "";
-    const double ratio = *change.volume_after / *change.volume_before;
-    if (std::abs(ratio - 1.0) <= kNoticedChange) return "";
-    return entry.edit.operation + " changed the volume by " +
-           formatted(100.0 * (ratio - 1.0), "%.1f") + " %: " + remedy;
+    const auto change = volume_change(entry.result->change);
+    if (!change || std::abs(*change) <= kNoticedChange) return "";
+    return entry.edit.operation + " changed the volume by " + formatted(100.0 * *change, "%.1f") +
+           " %: " + remedy;
 }
 
 /// Applies one entry. \return a warning in addition to the edit's own; empty if there is none

@@ -7,6 +7,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/session/surface_change.h"
 
 namespace vesselbench {
 
@@ -32,8 +33,8 @@ void add_result(Json& json, const ResultRecord& result) {
 
 std::string change_text(const SurfaceChange& change) {
     std::string text;
-    if (change.volume_before && change.volume_after && *change.volume_before > 0) {
-        const double percent = 100.0 * (*change.volume_after / *change.volume_before - 1.0);
+    if (const auto part = volume_change(change)) {
+        const double percent = 100.0 * *part;
         if (std::abs(percent) >= 0.005) add_part(text, formatted(percent, "volume %+.2f %%"));
     } else if (change.volume_after && !change.volume_before) {
         add_part(text, formatted(*change.volume_after, "volume %.1f mm\u00B3"));

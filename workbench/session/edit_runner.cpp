@@ -8,6 +8,7 @@
 #include "geometry/kernel/stopwatch.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/project/source_files.h"
+#include "workbench/session/surface_change.h"
 
 namespace vesselbench {
 
@@ -29,33 +30,36 @@ bool differ_much(double a, double b, double little) {
     return std::max(std::abs(a), std::abs(b)) > 2.0 * small && std::abs(a - b) > little;
 }
 
-/// Of the volume before the edit [-]; none: unknown.
-std::optional<double> volume_change(const SurfaceChange& change) {
-    if (!change.volume_before || !change.volume_after || !(*change.volume_before > 0.0))
-        return std::nullopt;
-    return *change.volume_after / *change.volume_before - 1.0;
+/// How two amounts of a change are told apart in a warning.
+struct DifferenceText {
+    const char* now;
+    const char* before;
+    double unit = 1.0;    ///< of the texts, in that of the amounts
+    double little = 0.0;  ///< a difference that is not worth a word
+};
+
+constexpr DifferenceText kVolumeText{"it changes the volume by %+.2f %%, ",
+                                     "by %+.2f %% before an earlier edit was changed: ", 100.0,
+                                     0.002};
+constexpr DifferenceText kWayText{"it changes the surface by up to %.3f mm, ",
+                                  "by up to %.3f mm before an earlier edit was changed: ", 1.0,
+                                  0.1};
+
+/// Empty unless one is known to differ much from the other.
+std::string difference_text(const std::optional<double>& now, const std::optional<double>& before,
+                            const DifferenceText& text) {
+    if (!now || !before || !differ_much(*now, *before, text.little)) return "";
+    return formatted(text.unit * *now, text.now) + formatted(text.unit * *before, text.before) +
+           "check that it still does what it was made for";
 }
 
 /// An edit that ran on other input may no longer do what it was made for, unnoticed.
 void note_difference(ResultRecord& record, const SurfaceChange& before) {
-    constexpr double kLittleWay = 0.1;       // [mm]
-    constexpr double kLittleVolume = 0.002;  // of the volume [-]
     const SurfaceChange& now = record.change;
-    const auto volume = volume_change(now), volume_before = volume_change(before);
-    const bool other_way =
-        now.largest_deviation && before.largest_deviation &&
-        differ_much(*now.largest_deviation, *before.largest_deviation, kLittleWay);
-    if (volume && volume_before && differ_much(*volume, *volume_before, kLittleVolume))
-        record.warnings.push_back(
-            formatted(100.0 * *volume, "it changes the volume by %+.2f %%, ") +
-            formatted(100.0 * *volume_before, "by %+.2f %% before an earlier edit was changed: ") +
-            "check that it still does what it was made for");
-    else if (other_way)
-        record.warnings.push_back(
-            formatted(*now.largest_deviation, "it changes the surface by up to %.3f mm, ") +
-            formatted(*before.largest_deviation,
-                      "by up to %.3f mm before an earlier edit was changed: ") +
-            "check that it still does what it was made for");
+    std::string text = difference_text(volume_change(now), volume_change(before), kVolumeText);
+    if (text.empty())
+        text = difference_text(now.largest_deviation, before.largest_deviation, kWayText);
+    if (!text.empty()) record.warnings.push_back(std::move(text));
 }
 
 }  // namespace
@@ -79,13 +83,12 @@ CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
 EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progress) {
     const EditRecord edit = store_->edit(ref);
     const HistoryResult* earlier = store_->history().newest_result_of(ref);
-    const Arguments arguments =
-        earlier != nullptr ? store_->record(earlier->id)->resolved : edit.given;
+    const auto record = earlier != nullptr ? store_->record(earlier->id) : nullptr;
+    const Arguments& arguments = record ? record->resolved : edit.given;
     try {
         const Operation& operation = options_->find(edit.operation);
         EditRun done = run(operation, input, located(operation, ref, arguments), progress);
-        if (earlier != nullptr && earlier->stale_reason.empty())
-            note_difference(done.record, store_->record(earlier->id)->change);
+        if (record && record->stale_reason.empty()) note_difference(done.record, record->change);
         return done;
     } catch (const AlgorithmFailure& error) {
         return stale_run(std::move(input), error.what());

@@ -128,6 +128,12 @@ SurfaceChange surface_change(const Scene& before, const Scene& after, const Prog
     return change;
 }
 
+std::optional<double> volume_change(const SurfaceChange& change) {
+    if (!change.volume_before || !change.volume_after || !(*change.volume_before > 0.0))
+        return std::nullopt;
+    return *change.volume_after / *change.volume_before - 1.0;
+}
+
 std::vector<VertexId> changed_vertices(const Surface& before, const Surface& after) {
     std::vector<VertexId> changed;
     if (before.positions != after.positions)

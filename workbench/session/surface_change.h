@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geometry/kernel/progress.h"
@@ -16,6 +17,9 @@ namespace vesselbench {
 /// \throw Cancelled
 [[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
                                            const Progress& progress = {});
+
+/// Change of the volume, relative to that before [-]; none: one is unknown, or was 0.
+[[nodiscard]] std::optional<double> volume_change(const SurfaceChange& change);
 
 /// Vertices that differ in place or in an attribute that only one surface has or both share;
 /// ascending. \param after of the same connectivity as `before`
