@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
@@ -74,7 +75,7 @@ struct App::Impl {
     Viewport viewport;
     Thumbnails thumbnails;
     FileDialog files;
-    std::filesystem::path seen_project;
+    int seen_opened = 0;  ///< Document::opened()
     std::string device;
     double display_scale = 1.0;
     bool moved = true;  ///< the last update changed something
@@ -105,8 +106,7 @@ bool App::restyle() {
 
 /// What was typed for a case ends with it. An opening that fails or is cancelled ends none.
 void App::Impl::take_case() {
-    if (seen_project == place.document.project()) return;
-    seen_project = place.document.project();
+    if (std::exchange(seen_opened, place.document.opened()) == place.document.opened()) return;
     shown.prepare = false;
     shown.note.reset();
 }

@@ -127,6 +127,8 @@ Opening::Opening(OpenRequest request, SessionOptions options, std::function<void
                 std::exception_ptr error;
                 try {
                     result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
+                    // Reads the records here, not where the session is taken over.
+                    static_cast<void>(result_->session.snapshot());
                 } catch (...) {
                     error = std::current_exception();
                 }

@@ -5,6 +5,7 @@
 
 #include "workbench/operations/table.h"
 #include "workbench/window/model/opening_roles.h"
+#include "workbench/window/model/rail.h"
 #include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
@@ -125,14 +126,11 @@ void Workplace::arm_required() {
 }
 
 void Workplace::follow(const Message& message) {
-    const auto& log = document.snapshot()->log;
-    const auto is = [&](const LogEntry& entry) {
-        return message.edit == entry.edit.edit.id ||
-               (!message.edit && message.remedy == entry.edit.operation &&
-                entry.edit.place.step == Step::Source);
-    };
-    const auto found = std::ranges::find_if(log, is);
-    if (found != log.end()) return choose_edit(found->edit.edit.id);
+    if (message.edit && find_entry(*document.snapshot(), *message.edit) != nullptr)
+        return choose_edit(*message.edit);
+    for (const LogEntry& entry : document.snapshot()->log)
+        if (message.remedy == entry.edit.operation && entry.edit.place.step == Step::Source)
+            return choose_edit(entry.edit.edit.id);
     if (!message.remedy.empty()) choose(message.remedy);
 }
 
@@ -144,13 +142,12 @@ void Workplace::look_at(const Vec3& place) {
 
 void Workplace::choose_edit(EditId edit) {
     leave_form();
-    for (const LogEntry& entry : document.snapshot()->log) {
-        if (entry.edit.edit.id != edit) continue;
-        const Operation* operation = known_operation(entry.edit.operation);
-        if (operation == nullptr) return;
-        form_.emplace(*operation, entry.edit);
-        step_ = entry.edit.place.step;
-    }
+    const LogEntry* entry = find_entry(*document.snapshot(), edit);
+    const Operation* operation =
+        entry == nullptr ? nullptr : known_operation(entry->edit.operation);
+    if (operation == nullptr) return;
+    form_.emplace(*operation, entry->edit);
+    step_ = entry->edit.place.step;
 }
 
 void Workplace::set_field(const std::string& parameter, const std::string& text) {

@@ -34,10 +34,10 @@ public:
 
     void add_to(Layers& layers, double line_width, bool dark) const;
 
-    /// Names and places as marks in ImGui's current window.
     /// Forgets what is shown: the case is closed.
     void forget();
 
+    /// Names and places as marks in ImGui's current window.
     void draw_marks(PanelContext& context, const OnScreen& screen) const;
 
 private:

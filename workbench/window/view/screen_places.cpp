@@ -13,6 +13,12 @@ namespace {
 /// An opening that is not round reaches farther than the circle of its area.
 constexpr double kLongOpening = 1.6;
 
+ImVec2 plate_size(const Ui& ui, const std::string& words) {
+    const ImFont* font = ui.fonts.small;
+    const ImVec2 text = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
+    return {text.x + 2 * ui.grid(0.75F), text.y + ui.grid(0.75F)};
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector2f> OnScreen::place(const Vec3& point) const {
@@ -49,16 +55,6 @@ bool may_be_over(const OnScreen& screen, const std::vector<PatchMeasures>& openi
     return false;
 }
 
-namespace {
-
-ImVec2 plate_size(const Ui& ui, const std::string& words) {
-    const ImFont* font = ui.fonts.small;
-    const ImVec2 text = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str());
-    return {text.x + 2 * ui.grid(0.75F), text.y + ui.grid(0.75F)};
-}
-
-}  // namespace
-
 void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std::string& label) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 middle{at.x(), at.y()};
@@ -69,8 +65,8 @@ void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std
     draw.AddCircleFilled(middle, radius - ui.em * 0.1F, fill);
     if (look == MarkLook::Offered) draw.AddCircleFilled(middle, radius * 0.45F, ui.theme.accent);
     if (label.empty()) return;
-    const float gap = radius + ui.em * 0.4F,
-                right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
+    const float gap = radius + ui.em * 0.4F;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
     const float wide = plate_size(ui, label).x;
     const bool fits = middle.x + gap + wide <= right;
     draw_plate(ui, {fits ? middle.x + gap : middle.x - gap - wide, middle.y}, label);
