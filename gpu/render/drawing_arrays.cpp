@@ -11,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/parallel.h"
 #include "geometry/kernel/solid_surface.h"
+#include "gpu/render/bounding_sphere.h"
 
 namespace vesselbench {
 
@@ -162,14 +163,6 @@ DrawnVertex drawn_vertex(const DrawingArrays& drawing, const Positions& position
             normal += area_normal(positions, surface.triangles()[t]);
     const Eigen::Vector3f place = (positions[v] - drawing.bounds.centre).cast<float>();
     return {{place.x(), place.y(), place.z()}, packed(normal), tag};
-}
-
-Sphere sphere_around(const Positions& points) {
-    Sphere sphere{bounds(points).centre(), 0.0};
-    for (const Vec3& p : points)
-        sphere.radius = std::max(sphere.radius, (p - sphere.centre).squaredNorm());
-    sphere.radius = std::sqrt(sphere.radius);
-    return sphere;
 }
 
 bool fits(const DrawingLayout& layout, const Surface& surface) {

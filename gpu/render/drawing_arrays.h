@@ -67,7 +67,8 @@ std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions
                                                       std::size_t vertex_count,
                                                       std::span<const VertexId> vertices);
 
-/// Every edge once, as drawn vertices, for GL_LINES.
+/// Every edge once, as drawn vertices, for GL_LINES: edge_table's edges without their triangles,
+/// fast enough for a frame.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> unique_edges(const Topology& topology);
 
 }  // namespace vesselbench

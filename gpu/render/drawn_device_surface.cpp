@@ -1,12 +1,11 @@
 #include "gpu/render/drawn_device_surface.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/solid_surface.h"
+#include "gpu/render/bounding_sphere.h"
 #include "gpu/render/drawing_arrays.h"
 #include "gpu/render/vertex_buffers.h"
 
@@ -17,10 +16,9 @@ namespace {
 constexpr double kRoom = 1.2;  // smoothing may move vertices beyond the start's bounds
 
 Sphere roomy_bounds(const DeviceSurface& surface) {
-    double squared = 0.0;
-    for (const Vec3& p : surface.surface().points())
-        squared = std::max(squared, (p - surface.centre()).squaredNorm());
-    return {surface.centre(), kRoom * std::sqrt(squared)};
+    Sphere sphere = sphere_around(surface.surface().points(), surface.centre());
+    sphere.radius *= kRoom;
+    return sphere;
 }
 
 }  // namespace
@@ -50,14 +48,8 @@ void DrawnDeviceSurface::bind_triangles() const {
 }
 
 std::size_t DrawnDeviceSurface::bind_edges() const {
-    if (!edges_) {
-        const auto edges = unique_edges(*surface_->surface().topology);
-        edges_ = make_buffer(bytes_of(edges), "drawn edges");
-        edge_count_ = edges.size();
-    }
     bind_vertices();
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges_->id());
-    return edge_count_;
+    return edges_.bind(*surface_->surface().topology);
 }
 
 }  // namespace vesselbench

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "gpu/device_surface.h"
 #include "gpu/render/surface_source.h"
+#include "gpu/render/vertex_buffers.h"
 
 namespace vesselbench {
 
@@ -51,8 +51,7 @@ private:
     DeviceBuffers shown_;
     Sphere bounds_;
     bool solid_ = false;
-    mutable std::optional<Buffer> edges_;
-    mutable std::size_t edge_count_ = 0;
+    mutable DrawnEdges edges_;
     VertexArray layout_;
 };
 

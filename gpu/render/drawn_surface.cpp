@@ -6,7 +6,6 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
-#include "gpu/render/vertex_buffers.h"
 
 namespace vesselbench {
 
@@ -76,25 +75,6 @@ void DrawnSurface::describe() {
     glBindVertexArray(0);
 }
 
-void DrawnSurface::replace(DrawingArrays arrays) {
-    const bool same = arrays.layout == arrays_.layout;
-    arrays_ = std::move(arrays);
-    if (same) {
-        glBindBuffer(GL_ARRAY_BUFFER, vertices_.id());
-        glBufferSubData(GL_ARRAY_BUFFER, 0,
-                        static_cast<GLsizeiptr>(bytes_of(arrays_.vertices).size()),
-                        arrays_.vertices.data());
-        return;
-    }
-    vertices_ = make_buffer(bytes_of(arrays_.vertices), "drawn vertices");
-    triangles_ = make_buffer(bytes_of(arrays_.layout->triangles), "drawn triangles");
-    values_.reset();
-    value_list_.clear();
-    colours_.reset();
-    edges_.reset();
-    describe();
-}
-
 void DrawnSurface::move(const Positions& positions, std::span<const VertexId> moved) {
     const std::vector<std::uint32_t> changed = move_vertices(arrays_, positions, moved);
     upload_parts(vertices_, bytes_of(arrays_.vertices), sizeof(DrawnVertex), changed);
@@ -136,14 +116,8 @@ void DrawnSurface::bind_triangles() const {
 }
 
 std::size_t DrawnSurface::bind_edges() const {
-    if (!edges_) {
-        const auto edges = unique_edges(*arrays_.surface.topology);
-        edges_ = make_buffer(bytes_of(edges), "drawn edges");
-        edge_count_ = edges.size();
-    }
     glBindVertexArray(layout_.id());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edges_->id());
-    return edge_count_;
+    return edges_.bind(*arrays_.surface.topology);
 }
 
 }  // namespace vesselbench

@@ -9,6 +9,7 @@
 #include "gpu/objects.h"
 #include "gpu/render/drawing_arrays.h"
 #include "gpu/render/surface_source.h"
+#include "gpu/render/vertex_buffers.h"
 
 namespace vesselbench {
 
@@ -23,10 +24,6 @@ public:
     [[nodiscard]] const Surface& surface() const { return arrays_.surface; }
 
     [[nodiscard]] const DrawingArrays& arrays() const { return arrays_; }
-
-    /// Shows another drawing; of the same layout, only its vertices are uploaded, and values and
-    /// colours stay.
-    void replace(DrawingArrays arrays);
 
     /// Moves some vertices, as a dab of a brush does, and uploads the touched bytes.
     /// \param positions #V [mm]
@@ -68,8 +65,7 @@ private:
     Buffer vertices_, triangles_;
     std::vector<float> value_list_;  ///< of the drawn vertices
     std::optional<Buffer> values_, colours_;
-    mutable std::optional<Buffer> edges_;
-    mutable std::size_t edge_count_ = 0;
+    mutable DrawnEdges edges_;
     VertexArray layout_;
 };
 

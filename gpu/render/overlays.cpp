@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/render/bounding_sphere.h"
 #include "gpu/render/vertex_buffers.h"
 
 namespace vesselbench {
@@ -35,24 +36,17 @@ Floats floats(const Colour& colour) {
     return {colour.x(), colour.y(), colour.z()};
 }
 
-Sphere sphere_of(const Positions& points) {
-    Sphere sphere{bounds(points).centre(), 0.0};
-    for (const Vec3& p : points)
-        sphere.radius = std::max(sphere.radius, (p - sphere.centre).norm());
-    return sphere;
-}
-
 Sphere sphere_of(std::span<const Polyline> lines) {
     Positions all;
     for (const Polyline& line : lines)
         all.insert(all.end(), line.points.begin(), line.points.end());
-    return sphere_of(all);
+    return sphere_around(all);
 }
 
 Sphere sphere_of(std::span<const PointMark> marks) {
     Positions all;
     for (const PointMark& mark : marks) all.push_back(mark.place);
-    return sphere_of(all);
+    return sphere_around(all);
 }
 
 std::vector<Segment> segments_of(std::span<const Polyline> lines, const Vec3& centre) {

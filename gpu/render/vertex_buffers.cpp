@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include "gpu/render/drawing_arrays.h"
+
 namespace vesselbench {
 
 namespace {
@@ -18,6 +20,16 @@ void float_attribute(unsigned place, const Buffer& buffer, int numbers, std::siz
     glEnableVertexAttribArray(place);
     glVertexAttribPointer(place, numbers, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                           reinterpret_cast<const void*>(offset));
+}
+
+std::size_t DrawnEdges::bind(const Topology& topology) {
+    if (!buffer_) {
+        const auto edges = unique_edges(topology);
+        buffer_ = make_buffer(bytes_of(edges), "drawn edges");
+        count_ = edges.size();
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_->id());
+    return count_;
 }
 
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/surface.h"
 #include "gpu/objects.h"
 
 namespace vesselbench {
@@ -24,5 +26,16 @@ template <class T>
 /// single ones. \param size of one element [bytes]
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
                   std::span<const std::uint32_t> changed);
+
+/// The edges of a surface as elements of a vertex array, uploaded on first use.
+class DrawnEdges {
+public:
+    /// Binds them to the vertex array that is bound. \return their number
+    std::size_t bind(const Topology& topology);
+
+private:
+    std::optional<Buffer> buffer_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace vesselbench

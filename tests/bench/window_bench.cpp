@@ -120,12 +120,12 @@ void time_pick(OffscreenShell& shell) {
     const auto& openings = shell.app().place().surface_places().openings;
     const ScreenRect view = shell.app().ui().items().at("view.area").rect;
     for (const PatchMeasures& opening : openings) {
-        const auto at = OnScreen{shell.app().camera(), view}.place(opening.centroid);
+        const auto at = on_screen(shell.app().camera(), view).place(opening.centroid);
         if (!at) continue;
         shell.move_mouse(view.x + 1, view.y + 1);  // off every opening
         shell.frame();
         const Stopwatch watch;
-        shell.move_mouse(at->x(), at->y());
+        shell.move_mouse(static_cast<float>(at->x()), static_cast<float>(at->y()));
         int frames = 1;
         while (!lights_opening(shell) && ++frames < 60) shell.frame();
         if (frames == 60) continue;  // it faces away

@@ -210,11 +210,6 @@ SCENARIO("Moving a few vertices draws what a full upload draws", "[gpu][render]"
     CHECK(largest_difference(before, after) > 20);
     const Layers whole{.surfaces = {layer_of(sphere.with_positions(points))}};
     CHECK(largest_difference(after, test->picture(view_on(kCentre), whole)) <= 3);
-    THEN("so does replacing it") {
-        source->replace(prepare_drawing(sphere.with_positions(points), source->arrays().layout));
-        CHECK(largest_difference(after, test->picture(view_on(kCentre), {.surfaces = {layer}})) <=
-              3);
-    }
 }
 
 SCENARIO("Lines, marks and slices are as large as stated", "[gpu][render]") {

@@ -105,8 +105,8 @@ public:
     /// Puts the cursor on a point of the model.
     void point_at(const Vec3& point) {
         const ScreenRect view = shell.app().ui().items().at("view.area").rect;
-        if (const auto at = OnScreen{shell.app().camera(), view}.place(point))
-            shell.move_mouse(at->x(), at->y());
+        if (const auto at = on_screen(shell.app().camera(), view).place(point))
+            shell.move_mouse(static_cast<float>(at->x()), static_cast<float>(at->y()));
         shell.settle(10s);
     }
 

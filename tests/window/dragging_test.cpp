@@ -46,12 +46,12 @@ struct Dragging {
         REQUIRE(shell->settle(60s));
     }
 
-    [[nodiscard]] OnScreen screen() const {
-        return {shell->app().camera(), shell->app().ui().items().at("view.area").rect};
+    [[nodiscard]] PixelView screen() const {
+        return on_screen(shell->app().camera(), shell->app().ui().items().at("view.area").rect);
     }
 
     [[nodiscard]] Eigen::Vector2f seen(const Vec3& point) const {
-        return screen().place(point).value();
+        return screen().place(point).value().cast<float>();
     }
 
     [[nodiscard]] Eigen::Vector2f at(const std::string& handle) const {

@@ -39,10 +39,11 @@ void choose(OffscreenShell& shell, const std::string& step, const std::string& o
 /// Where a point is seen in the window.
 Eigen::Vector2f seen_at(OffscreenShell& shell, const Vec3& point) {
     REQUIRE(shell.has("view.area"));
-    const OnScreen screen{shell.app().camera(), shell.app().ui().items().at("view.area").rect};
+    const PixelView screen =
+        on_screen(shell.app().camera(), shell.app().ui().items().at("view.area").rect);
     const auto place = screen.place(point);
     REQUIRE(place);
-    return *place;
+    return place->cast<float>();
 }
 
 void click_at(OffscreenShell& shell, const Vec3& point) {

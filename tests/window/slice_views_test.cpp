@@ -63,7 +63,7 @@ Eigen::Vector2f seen_in(OffscreenShell& shell, SlicePlane plane, const Vec3& pla
     const ImageSlices& slices = slices_of(shell);
     const ViewCamera camera =
         slice_camera(slices.grid(), plane, slices.position(plane), rect.width / rect.height);
-    return *OnScreen{camera, rect}.place(place);
+    return on_screen(camera, rect).place(place)->cast<float>();
 }
 
 void click_in(OffscreenShell& shell, SlicePlane plane, const Vec3& place) {

@@ -45,9 +45,9 @@ struct Seen {
 
     /// Where a point is seen in the window.
     Eigen::Vector2f at(const Vec3& point) {
-        const auto place = OnScreen{shell->app().camera(), view()}.place(point);
+        const auto place = on_screen(shell->app().camera(), view()).place(point);
         REQUIRE(place);
-        return *place;
+        return place->cast<float>();
     }
 
     void click(const Vec3& point) {

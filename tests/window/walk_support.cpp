@@ -53,10 +53,11 @@ std::string apply_form(Driver& window) {
 
 Eigen::Vector2f seen_at(Driver& window, const Vec3& point) {
     REQUIRE(window.has("view.area"));
-    const OnScreen screen{window.app().camera(), window.app().ui().items().at("view.area").rect};
+    const PixelView screen =
+        on_screen(window.app().camera(), window.app().ui().items().at("view.area").rect);
     const auto place = screen.place(point);
     REQUIRE(place);
-    return *place;
+    return place->cast<float>();
 }
 
 void point_at_view(Driver& window) {

@@ -11,14 +11,10 @@ namespace {
 /// A line is dragged only if it makes at least this angle with the view's direction [sine].
 constexpr double kLeastSine = 0.12;
 
-Eigen::Vector2d ndc_of(const PixelView& view, const ViewPixel& pixel) {
-    return {2.0 * pixel.x() / view.width - 1.0, 1.0 - 2.0 * pixel.y() / view.height};
-}
-
 Vec3 on_plane(const Handle& handle, const PixelView& view, const ViewPixel& pixel) {
     const auto seen = project(view.camera, view.aspect(), handle.point);
     if (!seen) return handle.point;
-    const Eigen::Vector2d ndc = ndc_of(view, pixel);
+    const Eigen::Vector2d ndc = view.ndc(pixel);
     return unproject(view.camera, view.aspect(), {ndc.x(), ndc.y(), seen->z()});
 }
 
@@ -66,20 +62,6 @@ Vec3 on_ball(const Handle& handle, const Ray& ray) {
 
 }  // namespace
 
-std::optional<ViewPixel> PixelView::place(const Vec3& point) const {
-    const auto seen = project(camera, aspect(), point);
-    if (!seen) return std::nullopt;
-    return ViewPixel(width * (0.5 + 0.5 * seen->x()), height * (0.5 - 0.5 * seen->y()));
-}
-
-Ray PixelView::ray(const ViewPixel& pixel) const {
-    return ray_through(camera, aspect(), ndc_of(*this, pixel));
-}
-
-double PixelView::pixel_at(const Vec3& point) const {
-    return pixel_size(camera, static_cast<int>(height), point);
-}
-
 bool can_be_dragged(const Handle& handle, const PixelView& view) {
     if (handle.path != HandlePath::Line) return true;
     const auto at = view.place(handle.point);
@@ -90,16 +72,10 @@ bool can_be_dragged(const Handle& handle, const PixelView& view) {
 
 std::optional<std::size_t> nearest_handle(const std::vector<Handle>& handles, const PixelView& view,
                                           const ViewPixel& cursor, double reach) {
-    std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        const auto at = view.place(handles[i].point);
-        if (!at || !can_be_dragged(handles[i], view)) continue;
-        const double distance = (*at - cursor).norm();
-        if (distance > reach || (nearest && distance >= reach)) continue;
-        reach = distance;
-        nearest = i;
-    }
-    return nearest;
+    std::vector<std::optional<ViewPixel>> places;
+    for (const Handle& handle : handles)
+        places.push_back(can_be_dragged(handle, view) ? view.place(handle.point) : std::nullopt);
+    return nearest_to(cursor, places, reach);
 }
 
 Vec3 dragged_point(const Handle& handle, const PixelView& view, const ViewPixel& pixel) {

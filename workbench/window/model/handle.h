@@ -4,31 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include "gpu/render/view_camera.h"
+#include "workbench/window/model/pixel_view.h"
 
 namespace vesselbench {
-
-/// A place in the view [pixels], from its upper left corner, y downwards.
-using ViewPixel = Eigen::Vector2d;
-
-/// A view of so many pixels: where points are seen, without any drawing.
-struct PixelView {
-    ViewCamera camera;
-    double width = 1.0, height = 1.0;  ///< [pixels]
-
-    [[nodiscard]] double aspect() const { return width / height; }
-
-    /// None for a point behind the eye.
-    [[nodiscard]] std::optional<ViewPixel> place(const Vec3& point) const;
-
-    /// The line of points that are seen at a pixel.
-    [[nodiscard]] Ray ray(const ViewPixel& pixel) const;
-
-    /// Length that a pixel shows at a point [mm].
-    [[nodiscard]] double pixel_at(const Vec3& point) const;
-};
 
 /// How a handle follows the cursor.
 enum class HandlePath {

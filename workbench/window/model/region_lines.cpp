@@ -33,15 +33,18 @@ std::vector<RegionLine> ball_lines(const Vec3& centre, double radius) {
     return lines;
 }
 
-RegionLine circle_line(const Vec3& centre, const Vec3& normal, double radius) {
-    RegionLine circle{.points = {}, .closed = true};
+Positions circle_points(const Vec3& centre, const Vec3& normal, double radius, int count) {
+    Positions points;
     const auto [across, up] = plane_axes(normal);
-    for (int i = 0; i < kCirclePoints; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kCirclePoints;
-        circle.points.emplace_back(centre +
-                                   radius * (std::cos(angle) * across + std::sin(angle) * up));
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        points.emplace_back(centre + radius * (std::cos(angle) * across + std::sin(angle) * up));
     }
-    return circle;
+    return points;
+}
+
+RegionLine circle_line(const Vec3& centre, const Vec3& normal, double radius) {
+    return {.points = circle_points(centre, normal, radius, kCirclePoints), .closed = true};
 }
 
 }  // namespace vesselbench

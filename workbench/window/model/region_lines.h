@@ -22,6 +22,10 @@ struct RegionLine {
 /// Three great circles of a ball.
 [[nodiscard]] std::vector<RegionLine> ball_lines(const Vec3& centre, double radius);
 
+/// Points of a circle around a unit normal, evenly, the last one before the first.
+[[nodiscard]] Positions circle_points(const Vec3& centre, const Vec3& normal, double radius,
+                                      int count);
+
 /// A circle around a unit normal.
 [[nodiscard]] RegionLine circle_line(const Vec3& centre, const Vec3& normal, double radius);
 

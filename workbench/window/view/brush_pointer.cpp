@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/model/region_lines.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/screen_places.h"
 
@@ -18,20 +18,15 @@ namespace vesselbench {
 namespace {
 
 constexpr double kFirstRadius = 0.1;      ///< by half the view's height
-constexpr float kSizingReach = 150.0F;    ///< a drag by this changes the radius by e [pixels]
+constexpr double kSizingReach = 150.0;    ///< a drag by this changes the radius by e [pixels]
 constexpr double kStrengthReach = 400.0;  ///< or the strength by 1 [pixels]
-constexpr std::size_t kCircle = 72;       ///< segments
+constexpr int kCircle = 72;               ///< segments
 
 constexpr std::array<std::pair<KeyCommand, BrushKey>, 4> kBrushKeys = {
     {{KeyCommand::SmallerBrush, BrushKey::Smaller},
      {KeyCommand::LargerBrush, BrushKey::Larger},
      {KeyCommand::WeakerBrush, BrushKey::Weaker},
      {KeyCommand::StrongerBrush, BrushKey::Stronger}}};
-
-Eigen::Vector2f mouse_pixel() {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return {mouse.x, mouse.y};
-}
 
 /// The picked place with the normal of its triangle; none: the background, or it has no normal.
 std::optional<StrokePlace> place_of(const Picked& picked, const Surface& surface) {
@@ -42,20 +37,16 @@ std::optional<StrokePlace> place_of(const Picked& picked, const Surface& surface
     return StrokePlace{.point = picked.point, .normal = normal.normalized()};
 }
 
-/// Points of a circle in the tangent plane as the view shows them; empty if one is behind the eye.
+/// A circle in the tangent plane as the view shows it; empty if a part is behind the eye.
 std::vector<ImVec2> circle_on_screen(const StrokePlace& place, double radius,
-                                     const ViewCamera& camera, const ScreenRect& rect) {
-    const Vec3 across = place.normal.unitOrthogonal(), up = place.normal.cross(across);
-    std::vector<ImVec2> points;
-    for (std::size_t i = 0; i < kCircle; ++i) {
-        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kCircle;
-        const Vec3 point = place.point + radius * (std::cos(angle) * across + std::sin(angle) * up);
-        const auto seen = project(camera, rect.width / rect.height, point);
-        if (!seen) return {};
-        points.push_back({rect.x + static_cast<float>(seen->x() + 1.0) / 2 * rect.width,
-                          rect.y + static_cast<float>(1.0 - seen->y()) / 2 * rect.height});
+                                     const PixelView& screen) {
+    std::vector<ImVec2> line;
+    for (const Vec3& point : circle_points(place.point, place.normal, radius, kCircle)) {
+        const auto at = screen.place(point);
+        if (!at) return {};
+        line.emplace_back(static_cast<float>(at->x()), static_cast<float>(at->y()));
     }
-    return points;
+    return line;
 }
 
 }  // namespace
@@ -114,8 +105,8 @@ void BrushPointer::ask(PanelContext& c, const Seen& seen, bool over) {
     const Question question{wanted_pixel(), seen.view.camera, seen.surface.positions};
     if (asked_ == question) return extend(c);
     asked_ = question;
-    picker_.request(seen.view, seen.layers, static_cast<int>(question.pixel.x() - seen.rect.x),
-                    static_cast<int>(seen.rect.height - 1 - (question.pixel.y() - seen.rect.y)));
+    const Eigen::Vector2i pixel = seen.screen.device_pixel(question.pixel);
+    picker_.request(seen.view, seen.layers, pixel.x(), pixel.y());
 }
 
 void BrushPointer::take_answer(PanelContext& c, const Surface& surface) {
@@ -194,7 +185,7 @@ void BrushPointer::handle_sizing(PanelContext& c) {
         sized_ = c.place.tip();
         sized_from_ = mouse_pixel().x();
     }
-    const float moved = mouse_pixel().x() - sized_from_;
+    const double moved = mouse_pixel().x() - sized_from_;
     if (moved == 0) return;
     BrushTip tip = *sized_;
     if (ImGui::GetIO().KeyShift)
@@ -206,9 +197,9 @@ void BrushPointer::handle_sizing(PanelContext& c) {
 
 // --- drawing
 
-void BrushPointer::draw(const PanelContext& c, const ViewCamera& camera,
-                        const ScreenRect& rect) const {
+void BrushPointer::draw(const PanelContext& c, const PixelView& screen) const {
     if (!c.place.can_paint()) return;
+    const ScreenRect rect = rect_of(screen);
     const BrushTip tip = c.place.tip();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const std::string words = readable(c.place.form()->operation().name) +
@@ -216,7 +207,7 @@ void BrushPointer::draw(const PanelContext& c, const ViewCamera& camera,
                               formatted(tip.strength, ", strength %g");
     draw_hint(c.ui, rect, words);
     if (!shown_ || !place_) return;
-    const auto circle = circle_on_screen(*place_, tip.radius, camera, rect);
+    const auto circle = circle_on_screen(*place_, tip.radius, screen);
     const auto count = static_cast<int>(circle.size());
     const float thick = std::max(1.5F, c.ui.em / 9);
     draw.AddPolyline(circle.data(), count, faded(paint(0x000000), 0.5), ImDrawFlags_Closed,

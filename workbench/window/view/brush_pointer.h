@@ -4,10 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include <Eigen/Core>
-
 #include "gpu/render/pick.h"
 #include "workbench/window/model/brush_form.h"
+#include "workbench/window/model/pixel_view.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
@@ -21,7 +20,7 @@ public:
         const SceneView& view;
         const Layers& layers;
         const Surface& surface;  ///< the layers' one
-        ScreenRect rect;
+        PixelView screen;
     };
 
     /// The renderer must outlive it.
@@ -40,10 +39,10 @@ public:
     [[nodiscard]] bool pending() const { return picker_.pending() || released_; }
 
     /// The circle, and what the brush does.
-    void draw(const PanelContext& c, const ViewCamera& camera, const ScreenRect& rect) const;
+    void draw(const PanelContext& c, const PixelView& screen) const;
 
 private:
-    using Pixel = Eigen::Vector2f;
+    using Pixel = ViewPixel;
 
     /// What the place under the cursor depends on.
     struct Question {
@@ -83,7 +82,7 @@ private:
     bool released_ = false;          ///< the stroke ends at released_at_
     std::deque<Press> waiting_;      ///< strokes to come
     std::optional<BrushTip> sized_;  ///< the tip when sizing began
-    float sized_from_ = 0;           ///< [pixels]
+    double sized_from_ = 0;          ///< [pixels]
     bool shown_ = false;
 };
 

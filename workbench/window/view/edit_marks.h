@@ -7,6 +7,6 @@ namespace vesselbench {
 
 /// Marks where the edit was made that is pointed at in the rail or in the view.
 /// \param over the cursor is over the view, and points at nothing else there
-void draw_edit_marks(PanelContext& context, const OnScreen& screen, bool over);
+void draw_edit_marks(PanelContext& context, const PixelView& screen, bool over);
 
 }  // namespace vesselbench

@@ -31,10 +31,11 @@ std::string diameter_text(const VesselDiameter& diameter) {
 }
 
 /// The points that are before the eye, as a line of the window.
-std::vector<ImVec2> line_of(const OnScreen& screen, const Positions& points) {
+std::vector<ImVec2> line_of(const PixelView& screen, const Positions& points) {
     std::vector<ImVec2> line;
     for (const Vec3& point : points)
-        if (const auto at = screen.place(point)) line.emplace_back(at->x(), at->y());
+        if (const auto at = screen.place(point))
+            line.emplace_back(static_cast<float>(at->x()), static_cast<float>(at->y()));
     return line;
 }
 
@@ -76,11 +77,7 @@ void MeasuringTool::update(const PanelContext& c, const SeenModel& seen) {
 }
 
 void MeasuringTool::add_click(const SeenModel& seen) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    clicks_.push_back({seen.view,
-                       seen.layers,
-                       {static_cast<int>(mouse.x - seen.rect.x),
-                        static_cast<int>(seen.rect.height - 1 - (mouse.y - seen.rect.y))}});
+    clicks_.push_back({seen.view, seen.layers, seen.screen.device_pixel(mouse_pixel())});
 }
 
 /// One after the other: a request would forget the one before.
@@ -110,7 +107,7 @@ void MeasuringTool::search_diameter(const PanelContext& c) {
     places_.pop_front();
 }
 
-void MeasuringTool::draw_distance(const Ui& ui, const OnScreen& screen) const {
+void MeasuringTool::draw_distance(const Ui& ui, const PixelView& screen) const {
     if (points_.empty()) return;
     draw_line(ui, line_of(screen, points_), false);
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -122,19 +119,19 @@ void MeasuringTool::draw_distance(const Ui& ui, const OnScreen& screen) const {
     }
 }
 
-void MeasuringTool::draw_diameter(const Ui& ui, const OnScreen& screen,
+void MeasuringTool::draw_diameter(const Ui& ui, const PixelView& screen,
                                   const VesselDiameter& diameter) const {
     draw_line(ui, line_of(screen, diameter.outline), true);
     if (const auto at = screen.place(diameter.centre))
         draw_mark(ui, *at, MarkLook::Picked, diameter_text(diameter));
 }
 
-void MeasuringTool::draw(PanelContext& c, const OnScreen& screen) const {
+void MeasuringTool::draw(PanelContext& c, const PixelView& screen) const {
     draw_distance(c.ui, screen);
     for (std::size_t i = 0; i < diameters_.size(); ++i) {
         draw_diameter(c.ui, screen, diameters_[i]);
         if (const auto at = screen.place(diameters_[i].centre))
-            c.ui.item("measure.diameter." + std::to_string(i), ScreenRect{at->x(), at->y(), 1, 1});
+            c.ui.item("measure.diameter." + std::to_string(i), spot_rect(*at));
     }
 }
 

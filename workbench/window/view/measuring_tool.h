@@ -31,7 +31,7 @@ public:
     }
 
     /// Lines and figures in ImGui's current window.
-    void draw(PanelContext& context, const OnScreen& screen) const;
+    void draw(PanelContext& context, const PixelView& screen) const;
 
     void draw_strip(PanelContext& context, ViewStrips& strips);
 
@@ -52,8 +52,8 @@ private:
     void search_click();
     void take(const Picked& picked);
     void search_diameter(const PanelContext& context);
-    void draw_distance(const Ui& ui, const OnScreen& screen) const;
-    void draw_diameter(const Ui& ui, const OnScreen& screen, const VesselDiameter& diameter) const;
+    void draw_distance(const Ui& ui, const PixelView& screen) const;
+    void draw_diameter(const Ui& ui, const PixelView& screen, const VesselDiameter& diameter) const;
     [[nodiscard]] std::string words(const PanelContext& context) const;
 
     Picker picker_;

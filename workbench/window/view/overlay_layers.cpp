@@ -1,13 +1,10 @@
 #include "workbench/window/view/overlay_layers.h"
 
-#include <cmath>
-#include <numbers>
-
-#include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/window/model/edit_anchors.h"
+#include "workbench/window/model/region_lines.h"
 
 namespace vesselbench {
 
@@ -20,15 +17,10 @@ constexpr double kThroughSurface = 0.55;  ///< opacity of lines behind the surfa
 constexpr int kCircleCorners = 40;
 
 Polyline circle_at(const CenterlineBranch& branch, double abscissa) {
-    const Vec3 centre = point_at(branch, abscissa);
-    const auto [u, v] = plane_axes(tangent_at(branch, abscissa));
-    const double radius = radius_at(branch, abscissa);
-    Polyline circle{.colour = kCircle, .closed = true};
-    for (int i = 0; i < kCircleCorners; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / kCircleCorners;
-        circle.points.emplace_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
-    }
-    return circle;
+    return {.points = circle_points(point_at(branch, abscissa), tangent_at(branch, abscissa),
+                                    radius_at(branch, abscissa), kCircleCorners),
+            .colour = kCircle,
+            .closed = true};
 }
 
 }  // namespace
@@ -115,13 +107,13 @@ void OverlayLayers::add_to(Layers& layers, double line_width, bool dark) const {
             {.lines = lines_, .width = 2 * line_width, .hidden_opacity = kThroughSurface});
 }
 
-void OverlayLayers::draw_marks(PanelContext& c, const OnScreen& screen) const {
+void OverlayLayers::draw_marks(PanelContext& c, const PixelView& screen) const {
     const ShownLayers& layers = c.place.settings.layers;
     const auto mark = [&](const std::string& item, const Vec3& point, const std::string& words) {
         const auto at = screen.place(point);
         if (!at) return;
         draw_mark(c.ui, *at, MarkLook::Offered, words);
-        c.ui.item(item, ScreenRect{at->x(), at->y(), 1, 1});
+        c.ui.item(item, spot_rect(*at));
     };
     if (layers.names)
         for (const PatchMeasures& opening : c.place.surface_places().openings)

@@ -38,7 +38,7 @@ public:
     void forget();
 
     /// Names and places as marks in ImGui's current window.
-    void draw_marks(PanelContext& context, const OnScreen& screen) const;
+    void draw_marks(PanelContext& context, const PixelView& screen) const;
 
 private:
     void update_source(const PanelContext& context);

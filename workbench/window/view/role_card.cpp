@@ -15,12 +15,14 @@ constexpr float kWidth = 23.0F;  ///< [em]
 constexpr float kBeside = 1.5F;  ///< distance from the opening's middle [em]
 
 /// Beside a place, and within the view.
-ImVec2 corner_beside(const Ui& ui, const ScreenRect& view, const Eigen::Vector2f& at,
+ImVec2 corner_beside(const Ui& ui, const ScreenRect& view, const ViewPixel& at,
                      const ImVec2& size) {
     const float most_x = view.x + view.width - size.x - ui.grid(1);
     const float most_y = view.y + view.height - size.y - ui.grid(1);
-    return {std::clamp(at.x() + kBeside * ui.em, view.x + ui.grid(1), std::max(view.x, most_x)),
-            std::clamp(at.y() - size.y / 2, view.y + ui.grid(1), std::max(view.y, most_y))};
+    const float x = static_cast<float>(at.x()) + kBeside * ui.em;
+    const float y = static_cast<float>(at.y()) - size.y / 2;
+    return {std::clamp(x, view.x + ui.grid(1), std::max(view.x, most_x)),
+            std::clamp(y, view.y + ui.grid(1), std::max(view.y, most_y))};
 }
 
 void draw_back(const Ui& ui, ImVec2 at, ImVec2 size) {
@@ -42,7 +44,7 @@ bool role_button(Ui& ui, const PatchMeasures& opening, PatchKind role, const std
 
 }  // namespace
 
-void draw_role_card(PanelContext& c, const OnScreen& screen) {
+void draw_role_card(PanelContext& c, const PixelView& screen) {
     const auto& asked = c.place.role_question();
     if (!asked) return;
     const PatchMeasures opening = *asked;
@@ -50,7 +52,7 @@ void draw_role_card(PanelContext& c, const OnScreen& screen) {
     if (!at) return;
     const float pad = c.ui.grid(1), line = ImGui::GetFrameHeight();
     const ImVec2 size{kWidth * c.ui.em, 2 * line + 3 * pad};
-    const ImVec2 corner = corner_beside(c.ui, screen.rect, *at, size);
+    const ImVec2 corner = corner_beside(c.ui, rect_of(screen), *at, size);
     draw_back(c.ui, corner, size);
     ImGui::SetCursorScreenPos({corner.x + pad, corner.y + pad});
     ImGui::AlignTextToFramePadding();

@@ -6,6 +6,6 @@
 namespace vesselbench {
 
 /// Asks for the role of the opening that was clicked, beside it; nothing if none was.
-void draw_role_card(PanelContext& context, const OnScreen& screen);
+void draw_role_card(PanelContext& context, const PixelView& screen);
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/window/view/screen_places.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <imgui.h>
 
@@ -19,34 +20,50 @@ ImVec2 plate_size(const Ui& ui, const std::string& words) {
     return {text.x + 2 * ui.grid(0.75F), text.y + ui.grid(0.75F)};
 }
 
+ImVec2 corner_of(const ViewPixel& at) {
+    return {static_cast<float>(at.x()), static_cast<float>(at.y())};
+}
+
 }  // namespace
 
-std::optional<Eigen::Vector2f> OnScreen::place(const Vec3& point) const {
-    const auto seen = project(camera, aspect(), point);
-    if (!seen) return std::nullopt;
-    return Eigen::Vector2f(rect.x + rect.width * static_cast<float>(0.5 + 0.5 * seen->x()),
-                           rect.y + rect.height * static_cast<float>(0.5 - 0.5 * seen->y()));
+PixelView on_screen(const ViewCamera& camera, const ScreenRect& rect) {
+    return {.camera = camera,
+            .width = rect.width,
+            .height = rect.height,
+            .left = rect.x,
+            .top = rect.y};
 }
 
-double OnScreen::length(const Vec3& point, double millimetres) const {
-    return millimetres / pixel_size(camera, static_cast<int>(rect.height), point);
+ScreenRect rect_of(const PixelView& view) {
+    return {static_cast<float>(view.left), static_cast<float>(view.top),
+            static_cast<float>(view.width), static_cast<float>(view.height)};
 }
 
-std::optional<std::size_t> nearest_mark(const OnScreen& screen,
+ScreenRect spot_rect(const ViewPixel& at) {
+    return {static_cast<float>(at.x()), static_cast<float>(at.y()), 1, 1};
+}
+
+ViewPixel mouse_pixel() {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    return {mouse.x, mouse.y};
+}
+
+void draw_texture(unsigned texture, const ScreenRect& rect) {
+    ImGui::GetWindowDrawList()->AddImage(
+        reinterpret_cast<ImTextureID>(std::uintptr_t{texture}), {rect.x, rect.y},
+        {rect.x + rect.width, rect.y + rect.height}, {0, 1}, {1, 0});
+}
+
+std::optional<std::size_t> nearest_mark(const PixelView& screen,
                                         const std::vector<NamedPlace>& places,
-                                        const Eigen::Vector2f& cursor, float reach) {
-    std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto at = screen.place(places[i].point);
-        if (!at || (*at - cursor).norm() > reach) continue;
-        reach = (*at - cursor).norm();
-        nearest = i;
-    }
-    return nearest;
+                                        const ViewPixel& cursor, double reach) {
+    std::vector<std::optional<ViewPixel>> seen;
+    for (const NamedPlace& place : places) seen.push_back(screen.place(place.point));
+    return nearest_to(cursor, seen, reach);
 }
 
-bool may_be_over(const OnScreen& screen, const std::vector<PatchMeasures>& openings,
-                 const Eigen::Vector2f& cursor) {
+bool may_be_over(const PixelView& screen, const std::vector<PatchMeasures>& openings,
+                 const ViewPixel& cursor) {
     for (const PatchMeasures& opening : openings) {
         const auto at = screen.place(opening.centroid);
         const double radius = kLongOpening * diameter_of_area(opening.area) / 2;
@@ -55,9 +72,9 @@ bool may_be_over(const OnScreen& screen, const std::vector<PatchMeasures>& openi
     return false;
 }
 
-void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std::string& label) {
+void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::string& label) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImVec2 middle{at.x(), at.y()};
+    const ImVec2 middle = corner_of(at);
     const float radius = ui.em * (look == MarkLook::Lit ? 0.5F : 0.36F);
     const Paint fill = look == MarkLook::Offered ? paint(0xFFFFFF) : ui.theme.accent;
     draw.AddCircleFilled(middle, radius + ui.em * 0.12F, paint(0x101418, 200));
@@ -72,13 +89,13 @@ void draw_mark(const Ui& ui, const Eigen::Vector2f& at, MarkLook look, const std
     draw_plate(ui, {fits ? middle.x + gap : middle.x - gap - wide, middle.y}, label);
 }
 
-void draw_plate(const Ui& ui, const Eigen::Vector2f& at, const std::string& words) {
+void draw_plate(const Ui& ui, const ViewPixel& at, const std::string& words) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont* font = ui.fonts.small;
     const ImVec2 size = plate_size(ui, words);
     const float left = ImGui::GetWindowPos().x, room = ImGui::GetWindowWidth() - size.x;
-    const float x = std::clamp(at.x(), left, left + std::max(room, 0.0F));
-    const float pad = ui.grid(0.75F), top = at.y() - size.y / 2;
+    const float x = std::clamp(corner_of(at).x, left, left + std::max(room, 0.0F));
+    const float pad = ui.grid(0.75F), top = corner_of(at).y - size.y / 2;
     draw.AddRectFilled({x, top}, {x + size.x, top + size.y}, faded(ui.theme.panel, 0.88),
                        ImGui::GetStyle().FrameRounding);
     draw.AddText(font, font->FontSize, {x + pad, top + pad / 2}, ui.theme.text, words.c_str());

@@ -24,8 +24,8 @@ constexpr double kWindowDrag = 10.0;      ///< a drag by this changes the window
 constexpr double kNearSlice = 0.75;       ///< marks so near are shown [slices]
 constexpr float kCrossGap = 0.7F;         ///< around the cross, so that what is there is seen [em]
 
-ImVec2 point(const Eigen::Vector2f& place) {
-    return {place.x(), place.y()};
+ImVec2 point(const ViewPixel& place) {
+    return {static_cast<float>(place.x()), static_cast<float>(place.y())};
 }
 
 /// Fonts and sizes of the window with texts for a dark ground.
@@ -72,9 +72,13 @@ ViewCamera slice_camera(const SliceGrid& grid, SlicePlane plane, double position
     return camera;
 }
 
-Vec3 SlicePane::place_of(const Eigen::Vector2d& ndc) const {
-    const double aspect = rect_.width / rect_.height;
-    return unproject(camera_, aspect, {ndc.x(), ndc.y(), 0.0});
+PixelView SlicePane::screen() const {
+    return on_screen(camera_, rect_);
+}
+
+Vec3 SlicePane::place_of(const ViewPixel& pixel) const {
+    const Eigen::Vector2d ndc = screen().ndc(pixel);
+    return unproject(camera_, screen().aspect(), {ndc.x(), ndc.y(), 0.0});
 }
 
 /// Follows the slice's position, and the image's size unless the user has moved the view.
@@ -93,11 +97,8 @@ void SlicePane::handle_wheel(PanelContext& c) {
     if (io.MouseWheel == 0) return;
     take_keyboard();
     if (io.KeyCtrl) {
-        const ImVec2 mouse = io.MousePos;
-        const Eigen::Vector2d at(2.0 * (mouse.x - rect_.x) / rect_.width - 1.0,
-                                 1.0 - 2.0 * (mouse.y - rect_.y) / rect_.height);
-        camera_ =
-            zoomed(camera_, rect_.width / rect_.height, std::pow(kZoomPerNotch, io.MouseWheel), at);
+        camera_ = zoomed(camera_, screen().aspect(), std::pow(kZoomPerNotch, io.MouseWheel),
+                         screen().ndc(mouse_pixel()));
         fits_ = false;
         return;
     }
@@ -119,9 +120,8 @@ void SlicePane::handle_drag(PanelContext& c) {
                          .level = grey.level + grey.window * io.MouseDelta.y / unit});
     } else if (ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift) {
         if (!moved) return;
-        const Eigen::Vector2d by(2.0 * io.MouseDelta.x / rect_.width,
-                                 -2.0 * io.MouseDelta.y / rect_.height);
-        camera_ = panned(camera_, rect_.width / rect_.height, Eigen::Vector2d::Zero(), by);
+        camera_ = panned(camera_, screen().aspect(), Eigen::Vector2d::Zero(),
+                         screen().ndc_move({io.MouseDelta.x, io.MouseDelta.y}));
         fits_ = false;
     } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !c.place.armed_target() && pointed_) {
         slices.set_cross(*pointed_);
@@ -142,14 +142,11 @@ void SlicePane::handle_click(PanelContext& c) {
 }
 
 void SlicePane::handle_mouse(PanelContext& c) {
-    const ImGuiIO& io = ImGui::GetIO();
     const bool over = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     pointed_.reset();
     const bool released =
         ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (over || active || released)
-        pointed_ = place_of({2.0 * (io.MousePos.x - rect_.x) / rect_.width - 1.0,
-                             1.0 - 2.0 * (io.MousePos.y - rect_.y) / rect_.height});
+    if (over || active || released) pointed_ = place_of(mouse_pixel());
     if (active) handle_drag(c);
     if (over && released) handle_click(c);
     if (!over) return;
@@ -178,7 +175,7 @@ void SlicePane::draw_picture(const Ui& ui, const PaneSource& source) {
 }
 
 void SlicePane::draw_cross(const Ui& ui, const ImageSlices& slices) const {
-    const auto at = OnScreen{camera_, rect_}.place(slices.cross());
+    const auto at = screen().place(slices.cross());
     if (!at) return;
     const ImVec2 middle = point(*at);
     const SliceAxes& axes = axes_of(plane_);
@@ -214,7 +211,7 @@ void SlicePane::draw_marks(const PanelContext& c, const Ui& ui) const {
     const double position = c.place.slices().position(plane_);
     for (const NamedPlace& place : places_in(*c.place.form())) {
         const double away = std::abs(place.point[normal] - position);
-        const auto at = OnScreen{camera_, rect_}.place(place.point);
+        const auto at = screen().place(place.point);
         if (at && away <= kNearSlice * grid_.step[normal])
             draw_mark(ui, *at, MarkLook::Picked, place.name);
     }
@@ -271,10 +268,7 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     handle_mouse(c);
     place_camera(c.place.slices());
     if (!source.guard.run([&] { draw_picture(c.ui, source); })) texture_ = 0;
-    if (texture_ != 0)
-        ImGui::GetWindowDrawList()->AddImage(
-            reinterpret_cast<ImTextureID>(std::uintptr_t{texture_}), {rect_.x, rect_.y},
-            {rect_.x + rect_.width, rect_.y + rect_.height}, {0, 1}, {1, 0});
+    if (texture_ != 0) draw_texture(texture_, rect_);
     const Ui overlay = overlay_of(c.ui);
     draw_cross(overlay, c.place.slices());
     draw_texts(c, overlay);

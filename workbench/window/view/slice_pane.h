@@ -4,6 +4,7 @@
 
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
+#include "workbench/window/model/pixel_view.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/drawing_guard.h"
 #include "workbench/window/view/slice_planes.h"
@@ -54,7 +55,8 @@ private:
     void draw_marks(const PanelContext& c, const Ui& ui) const;
     void draw_switch(PanelContext& c) const;
     void draw_slider(PanelContext& c, const ScreenRect& rect) const;
-    [[nodiscard]] Vec3 place_of(const Eigen::Vector2d& ndc) const;
+    [[nodiscard]] PixelView screen() const;
+    [[nodiscard]] Vec3 place_of(const ViewPixel& pixel) const;
 
     SlicePlane plane_;
     std::optional<RenderTarget> target_;

@@ -19,15 +19,6 @@ const Surface* model_of(const PanelContext& c) {
                                                                           : nullptr;
 }
 
-PixelView pixels_of(const OnScreen& screen) {
-    return {screen.camera, screen.rect.width, screen.rect.height};
-}
-
-ViewPixel cursor_in(const ScreenRect& rect) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return {mouse.x - rect.x, mouse.y - rect.y};
-}
-
 void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colour) {
     if (look == HandleLook::Square)
         draw.AddRectFilled({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, colour,
@@ -115,11 +106,10 @@ void ViewHandles::follow(PanelContext& c, const PixelView& view, const ViewPixel
     c.place.drag(texts(*c.place.before_drag(), to, snap));
 }
 
-void ViewHandles::update(PanelContext& c, const OnScreen& screen) {
+void ViewHandles::update(PanelContext& c, const PixelView& view) {
     take_model(c);
     take_shape(c);
-    const PixelView view = pixels_of(screen);
-    const ViewPixel cursor = cursor_in(screen.rect);
+    const ViewPixel cursor = mouse_pixel();
     if (state_ == State::Idle) {
         find_hot(c, view, cursor);
         if (hot_ && ImGui::IsItemActive() && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
@@ -136,7 +126,7 @@ void ViewHandles::update(PanelContext& c, const OnScreen& screen) {
     state_ = State::Idle;
 }
 
-Positions ViewHandles::beyond(const OnScreen& screen) const {
+Positions ViewHandles::beyond(const PixelView& screen) const {
     Positions places;
     bool outside = false;
     for (const Handle& handle : shape_.handles) {
@@ -149,13 +139,13 @@ Positions ViewHandles::beyond(const OnScreen& screen) const {
 
 // --- drawing
 
-void ViewHandles::draw_handle(PanelContext& c, const OnScreen& screen, std::size_t index) const {
+void ViewHandles::draw_handle(PanelContext& c, const PixelView& screen, std::size_t index) const {
     const Handle& handle = shape_.handles[index];
     const auto place = screen.place(handle.point);
-    if (!place || !can_be_dragged(handle, pixels_of(screen))) return;
+    if (!place || !can_be_dragged(handle, screen)) return;
     const bool lit = state_ == State::Dragging ? start_.index == index : hot_ == index;
     const float radius = c.ui.em * (lit ? 0.48F : 0.38F);
-    const ImVec2 at{place->x(), place->y()};
+    const ImVec2 at{static_cast<float>(place->x()), static_cast<float>(place->y())};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     fill(draw, handle.look, at, radius + c.ui.em * 0.1F, paint(0x101418, 200));
     fill(draw, handle.look, at, radius, paint(0xFFFFFF));
@@ -165,7 +155,7 @@ void ViewHandles::draw_handle(PanelContext& c, const OnScreen& screen, std::size
     c.ui.item(handle.name, ScreenRect{at.x - radius, at.y - radius, 2 * radius, 2 * radius});
 }
 
-void ViewHandles::draw(PanelContext& c, const OnScreen& screen) const {
+void ViewHandles::draw(PanelContext& c, const PixelView& screen) const {
     for (std::size_t i = 0; i < shape_.handles.size(); ++i) draw_handle(c, screen, i);
     for (const ViewNote& note : shape_.notes)
         if (const auto at = screen.place(note.point))
@@ -174,13 +164,13 @@ void ViewHandles::draw(PanelContext& c, const OnScreen& screen) const {
                        note.text);
     if (!c.place.armed().empty() || c.place.searches_places()) return;
     const std::optional<Cut>& cut = search_.cut();
-    if (cut && !cut->problem.empty()) return draw_hint(c.ui, screen.rect, cut->problem);
+    if (cut && !cut->problem.empty()) return draw_hint(c.ui, rect_of(screen), cut->problem);
     if (state_ == State::Idle && !hot_) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (state_ == State::Dragging)
-        draw_hint(c.ui, screen.rect, start_.handle.help + "    Esc: restore");
+        draw_hint(c.ui, rect_of(screen), start_.handle.help + "    Esc: restore");
     else if (hot_ && *hot_ < shape_.handles.size())
-        draw_hint(c.ui, screen.rect, shape_.handles[*hot_].help);
+        draw_hint(c.ui, rect_of(screen), shape_.handles[*hot_].help);
 }
 
 }  // namespace vesselbench

@@ -21,7 +21,7 @@ public:
 
     /// Once a frame, while the view's area is ImGui's last item, before the camera follows the
     /// mouse.
-    void update(PanelContext& context, const OnScreen& screen);
+    void update(PanelContext& context, const PixelView& screen);
 
     /// Drops a drag and the search: the case is closed.
     void forget();
@@ -38,10 +38,10 @@ public:
     [[nodiscard]] const std::vector<RegionLine>& lines() const { return shape_.lines; }
 
     /// The handles' places, if one of them is outside the view; else empty [mm].
-    [[nodiscard]] Positions beyond(const OnScreen& screen) const;
+    [[nodiscard]] Positions beyond(const PixelView& screen) const;
 
     /// Marks and notes, over the model.
-    void draw(PanelContext& context, const OnScreen& screen) const;
+    void draw(PanelContext& context, const PixelView& screen) const;
 
 private:
     enum class State {
@@ -66,7 +66,7 @@ private:
     void follow(PanelContext& context, const PixelView& view, const ViewPixel& cursor);
     [[nodiscard]] std::vector<FieldText> texts(const OperationForm& before, const Vec3& to,
                                                double snap) const;
-    void draw_handle(PanelContext& context, const OnScreen& screen, std::size_t index) const;
+    void draw_handle(PanelContext& context, const PixelView& screen, std::size_t index) const;
 
     CutSearch search_;
     FormShape shape_;

@@ -43,11 +43,6 @@ std::string coordinates(const Vec3& point) {
            formatted(point.z(), "%.1f");
 }
 
-Eigen::Vector2f mouse() {
-    const ImVec2 place = ImGui::GetIO().MousePos;
-    return {place.x, place.y};
-}
-
 /// What is armed, unless it is picked in slices only.
 std::optional<PickTarget> target_in_view(const Workplace& place) {
     const std::optional<PickTarget> target = place.armed_target();
@@ -84,15 +79,14 @@ void ViewPlaces::search(const SeenModel& seen, const Question& now) {
     const bool known = answer_ && answer_->question == now;
     if (!known && !picker_.pending()) {
         asked_ = now;
-        picker_.request(seen.view, seen.layers, static_cast<int>(now.cursor.x() - seen.rect.x),
-                        static_cast<int>(seen.rect.height - 1 - (now.cursor.y() - seen.rect.y)));
+        const Eigen::Vector2i pixel = seen.screen.device_pixel(now.cursor);
+        picker_.request(seen.view, seen.layers, pixel.x(), pixel.y());
     }
     if (picker_.pending() && wake_) wake_();
 }
 
-void ViewPlaces::find_spot(const SeenModel& seen, const Eigen::Vector2f& cursor, float reach) {
-    const OnScreen screen{seen.view.camera, seen.rect};
-    spot_ = pick_spot(offered_, hit(), nearest_mark(screen, offered_, cursor, reach));
+void ViewPlaces::find_spot(const SeenModel& seen, const ViewPixel& cursor, double reach) {
+    spot_ = pick_spot(offered_, hit(), nearest_mark(seen.screen, offered_, cursor, reach));
 }
 
 void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
@@ -107,14 +101,13 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     const SurfacePlaces& places = c.place.surface_places();
     const std::optional<PickTarget> target = target_in_view(c.place);
     if (seen.clicked) {
-        clicked_ = mouse();
+        clicked_ = mouse_pixel();
         c.place.forget_role_question();
         if (target) click_time_ = ImGui::GetTime();
     }
-    const Eigen::Vector2f cursor = clicked_.value_or(mouse());
-    const OnScreen screen{seen.view.camera, seen.rect};
+    const ViewPixel cursor = clicked_.value_or(mouse_pixel());
     const bool wanted =
-        !c.place.can_paint() && (target || may_be_over(screen, places.openings, cursor));
+        !c.place.can_paint() && (target || may_be_over(seen.screen, places.openings, cursor));
     if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
@@ -141,7 +134,7 @@ void ViewPlaces::take_click(PanelContext& c) {
     if (!c.place.role_question()) click_time_ = ImGui::GetTime();
 }
 
-void ViewPlaces::draw_offered(const PanelContext& c, const OnScreen& screen) const {
+void ViewPlaces::draw_offered(const PanelContext& c, const PixelView& screen) const {
     for (const NamedPlace& place : offered_in(*c.place.form(), c.place.surface_places()))
         if (const auto at = screen.place(place.point)) draw_mark(c.ui, *at, MarkLook::Offered, "");
     for (const NamedPlace& place : places_in(*c.place.form()))
@@ -149,7 +142,7 @@ void ViewPlaces::draw_offered(const PanelContext& c, const OnScreen& screen) con
             draw_mark(c.ui, *at, MarkLook::Picked, place.name);
 }
 
-void ViewPlaces::draw_spot(const PanelContext& c, const OnScreen& screen) const {
+void ViewPlaces::draw_spot(const PanelContext& c, const PixelView& screen) const {
     if (!spot_ || !c.place.armed_target()) return;
     const auto at = screen.place(spot_->point);
     if (!at) return;
@@ -163,12 +156,11 @@ void ViewPlaces::draw_opening(PanelContext& c) const {
     if (!lit_patch_ || c.place.armed_target() || c.place.role_question()) return;
     const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_);
     if (opening == nullptr) return;
-    const Eigen::Vector2f at = mouse();
-    c.ui.item("view.opening." + opening->name, ScreenRect{at.x(), at.y(), 1, 1});
+    c.ui.item("view.opening." + opening->name, spot_rect(mouse_pixel()));
     tooltip(c.ui, opening_text(*opening));
 }
 
-void ViewPlaces::draw(PanelContext& c, const OnScreen& screen) const {
+void ViewPlaces::draw(PanelContext& c, const PixelView& screen) const {
     draw_opening(c);
     if (!c.place.form()) return;
     draw_offered(c, screen);
@@ -176,9 +168,9 @@ void ViewPlaces::draw(PanelContext& c, const OnScreen& screen) const {
     const SurfacePlaces& places = c.place.surface_places();
     const auto target = c.place.armed_target();
     if (c.place.searches_places() && wants_tips(*c.place.form()))
-        draw_hint(c.ui, screen.rect, "Finding vessel ends");
+        draw_hint(c.ui, rect_of(screen), "Finding vessel ends");
     else if (target)
-        draw_hint(c.ui, screen.rect,
+        draw_hint(c.ui, rect_of(screen),
                   pick_instruction(*target) + "    Esc: stop picking" +
                       (places.problem.empty() ? "" : "    (" + places.problem + ")"));
 }

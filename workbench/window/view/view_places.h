@@ -15,7 +15,7 @@ namespace vesselbench {
 struct SeenModel {
     SceneView view;
     Layers layers;
-    ScreenRect rect;                   ///< of the view in the window
+    PixelView screen;                  ///< the view in the window
     const Surface* surface = nullptr;  ///< that is drawn; null: none
     int version = 0;                   ///< counts changes of the drawn model
     bool over = false;                 ///< the cursor is over the view, and no button is held
@@ -37,7 +37,7 @@ public:
     void forget();
 
     /// Marks, hints and the figures of the opening under the cursor, over the model.
-    void draw(PanelContext& context, const OnScreen& screen) const;
+    void draw(PanelContext& context, const PixelView& screen) const;
 
     /// Patch label of the opening under the cursor.
     [[nodiscard]] std::optional<std::uint32_t> lit_patch() const { return lit_patch_; }
@@ -57,7 +57,7 @@ public:
 private:
     /// A place of the view at which is searched.
     struct Question {
-        Eigen::Vector2f cursor = Eigen::Vector2f::Zero();  ///< [pixels] of the window
+        ViewPixel cursor = ViewPixel::Zero();
         ViewCamera camera;
         int version = 0;
 
@@ -70,11 +70,11 @@ private:
     };
 
     void search(const SeenModel& seen, const Question& now);
-    void find_spot(const SeenModel& seen, const Eigen::Vector2f& cursor, float reach);
+    void find_spot(const SeenModel& seen, const ViewPixel& cursor, double reach);
     void light_opening(const PanelContext& context, const SeenModel& seen);
     void take_click(PanelContext& context);
-    void draw_offered(const PanelContext& context, const OnScreen& screen) const;
-    void draw_spot(const PanelContext& context, const OnScreen& screen) const;
+    void draw_offered(const PanelContext& context, const PixelView& screen) const;
+    void draw_spot(const PanelContext& context, const PixelView& screen) const;
     void draw_opening(PanelContext& context) const;
     [[nodiscard]] std::optional<Vec3> hit() const;
 
@@ -82,9 +82,9 @@ private:
     std::function<void()> wake_;
     Question asked_;
     std::optional<Answer> answer_;
-    std::optional<Eigen::Vector2f> clicked_;  ///< a click whose place is searched
-    std::vector<NamedPlace> offered_;         ///< for the armed parameter
-    std::optional<PickSpot> spot_;            ///< that a click would pick
+    std::optional<ViewPixel> clicked_;  ///< a click whose place is searched
+    std::vector<NamedPlace> offered_;   ///< for the armed parameter
+    std::optional<PickSpot> spot_;      ///< that a click would pick
     std::optional<std::uint32_t> lit_patch_;
     double click_time_ = -1e9;  ///< [s] of ImGui
 };

@@ -1,0 +1,160 @@
+#include "workbench/window/view/camera_control.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <imgui.h>
+
+#include "workbench/window/widgets/controls.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kTurnPerHeight = 3.5;   ///< a drag over the view's height turns by this [rad]
+constexpr double kZoomPerNotch = 1.15;   ///< of the wheel
+constexpr double kClipPerNotch = 0.02;   ///< of the way through the model [-]
+constexpr double kFlightPerNotch = 0.5;  ///< [local radii]
+constexpr double kLookHeight = 8.0;      ///< around a place that is looked at [mm]
+constexpr double kMargin = 0.12;         ///< around a framed model [-]
+constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
+
+/// From the front, somewhat from the left and above: all three planes of an image are seen.
+const ViewCamera kObliqueView = {.view = {-0.45, 0.75, -0.4}, .up = {0, 0, 1}};
+
+constexpr std::array<std::pair<KeyCommand, StandardView>, 6> kSides = {
+    {{KeyCommand::Anterior, StandardView::Anterior},
+     {KeyCommand::Posterior, StandardView::Posterior},
+     {KeyCommand::Left, StandardView::Left},
+     {KeyCommand::Right, StandardView::Right},
+     {KeyCommand::Superior, StandardView::Superior},
+     {KeyCommand::Inferior, StandardView::Inferior}}};
+
+}  // namespace
+
+void CameraControl::face(StandardView side) {
+    camera_ = facing(camera_, side);
+}
+
+void CameraControl::forget() {
+    endoscope_ = {};
+    picker_.forget();
+    centring_.reset();
+    outside_.reset();
+    framed_project_.clear();
+    framed_camera_.reset();
+}
+
+// --- framing
+
+bool CameraControl::begin(const std::filesystem::path& project, const ViewContent& content) {
+    if (framed_project_ == project || (content.surface == nullptr && !content.image)) return false;
+    framed_project_ = project;
+    camera_ = content.surface != nullptr ? facing(camera_, StandardView::Anterior) : kObliqueView;
+    frame(content);
+    return true;
+}
+
+void CameraControl::frame(const ViewContent& content) {
+    outside_.reset();
+    if (content.surface != nullptr)
+        camera_ = framed(camera_, content.surface->points(), content.aspect, kMargin);
+    else if (content.image)
+        camera_ = framed(camera_, *content.image, content.aspect, kMargin);
+    framed_camera_ = camera_;
+}
+
+void CameraControl::follow(const ViewContent& content) {
+    if (content.surface == nullptr || framed_camera_ != camera_) return;
+    const ViewCamera fitting = framed(camera_, content.surface->points(), content.aspect, kMargin);
+    const double growth = fitting.half_height / camera_.half_height;
+    const double shift = (fitting.centre - camera_.centre).norm() / camera_.half_height;
+    if (growth <= 1.0 + kSlack && growth >= 1.0 - 3.0 * kSlack && shift <= kSlack) return;
+    camera_ = fitting;
+    framed_camera_ = camera_;
+}
+
+void CameraControl::reach(const Positions& places, const ViewContent& content) {
+    if (places.empty() || content.surface == nullptr || framed_camera_ != camera_) return;
+    Positions points = places;
+    const Positions& shown = content.surface->points();
+    points.insert(points.end(), shown.begin(), shown.end());
+    camera_ = framed(camera_, points, content.aspect, kMargin);
+    framed_camera_ = camera_;
+}
+
+// --- mouse and keys
+
+void CameraControl::handle_drag(const PixelView& view, const ViewPixel& mouse, bool left_is_free) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+    const ViewPixel by(io.MouseDelta.x, io.MouseDelta.y);
+    if (!ImGui::IsItemActive() || by.norm() == 0 || !(middle || left_is_free)) return;
+    const double turn = kTurnPerHeight / view.height;
+    if (is_inside())
+        endoscope_.look_round(-turn * by.x() / 2, turn * by.y() / 2);
+    else if (middle || io.KeyShift)
+        camera_ = panned(camera_, view.aspect(), view.ndc(mouse - by), view.ndc(mouse));
+    else
+        camera_ = turned(camera_, turn * by.x(), -turn * by.y());
+}
+
+void CameraControl::handle_wheel(const PixelView& view, const ViewPixel& mouse, ClipChoice& plane) {
+    const double notches = ImGui::GetIO().MouseWheel;
+    if (notches == 0) return;
+    take_keyboard();
+    if (plane.on && ImGui::GetIO().KeyCtrl)
+        plane.place = std::clamp(plane.place + kClipPerNotch * notches, 0.0, 1.0);
+    else if (is_inside())
+        endoscope_.advance(kFlightPerNotch * notches);
+    else
+        camera_ = zoomed(camera_, view.aspect(), std::pow(kZoomPerNotch, notches), view.ndc(mouse));
+}
+
+void CameraControl::handle_keys(const PanelContext& c, const ViewContent& content, bool over) {
+    if (!over) return;
+    if (c.place.view.flies)
+        endoscope_.handle_keys(c.shown.keys);
+    else
+        handle_view_keys(c.shown.keys, content);
+}
+
+void CameraControl::handle_view_keys(const KeyCommands& keys, const ViewContent& content) {
+    for (const auto& [command, side] : kSides)
+        if (keys.has(command)) face(side);
+    if (keys.has(KeyCommand::Perspective)) switch_perspective();
+    if (keys.has(KeyCommand::FrameAll)) frame(content);
+}
+
+void CameraControl::take_look(const Workplace& place) {
+    if (std::exchange(seen_looks_, place.looks()) == place.looks() || !place.looked_at()) return;
+    camera_.centre = *place.looked_at();
+    camera_.half_height = std::min(camera_.half_height, kLookHeight);
+}
+
+void CameraControl::request_centre(const SceneView& view, const Layers& layers,
+                                   const Eigen::Vector2i& pixel) {
+    centring_ = camera_;
+    picker_.request(view, layers, pixel.x(), pixel.y());
+}
+
+void CameraControl::take_centre() {
+    const auto picked = picker_.result();
+    if (picked && picked->layer != 0 && centring_ == camera_) camera_.centre = picked->point;
+}
+
+// --- the lumen
+
+void CameraControl::fly(const PanelContext& c) {
+    endoscope_.update(c, ImGui::GetIO().DeltaTime);
+    const auto inside = endoscope_.camera();
+    if (inside && !outside_) outside_ = camera_;
+    if (inside)
+        camera_ = *inside;
+    else if (outside_)
+        camera_ = *std::exchange(outside_, std::nullopt);
+}
+
+}  // namespace vesselbench

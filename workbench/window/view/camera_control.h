@@ -1,0 +1,96 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "gpu/render/pick.h"
+#include "workbench/window/model/pixel_view.h"
+#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/endoscope.h"
+
+namespace vesselbench {
+
+/// What the camera can frame.
+struct ViewContent {
+    const Surface* surface = nullptr;  ///< that is drawn; null: none
+    std::optional<Bounds> image;       ///< of the planes that are seen without a surface
+    double aspect = 1.0;               ///< of the view [-]
+};
+
+/// The 3D view's camera: frames a model, follows mouse and keys, and flies through the lumen.
+class CameraControl {
+public:
+    /// \param renderer must outlive it
+    explicit CameraControl(Renderer& renderer) : picker_(renderer) {}
+
+    [[nodiscard]] const ViewCamera& camera() const { return camera_; }
+
+    void face(StandardView side);
+
+    void switch_perspective() { camera_.perspective = !camera_.perspective; }
+
+    /// True in the lumen.
+    [[nodiscard]] bool is_inside() const { return outside_.has_value(); }
+
+    /// True while a place is searched, or the camera flies.
+    [[nodiscard]] bool pending() const { return picker_.pending() || endoscope_.moves(); }
+
+    /// The case is closed.
+    void forget();
+
+    // --- framing
+
+    /// Frames the model of a project that is seen for the first time. \return false if it is not
+    [[nodiscard]] bool begin(const std::filesystem::path& project, const ViewContent& content);
+
+    void frame(const ViewContent& content);
+
+    /// Frames a model that has outgrown the view, or shrunk in it, unless the user moved the
+    /// camera.
+    void follow(const ViewContent& content);
+
+    /// Zooms out to places beyond the view, unless the user moved the camera. \param places [mm]
+    void reach(const Positions& places, const ViewContent& content);
+
+    // --- mouse and keys, while the view's area is ImGui's last item
+
+    /// \param left_is_free a drag with the left button belongs to the camera
+    void handle_drag(const PixelView& view, const ViewPixel& mouse, bool left_is_free);
+
+    /// \param plane of the section, which the wheel moves with Ctrl
+    void handle_wheel(const PixelView& view, const ViewPixel& mouse, ClipChoice& plane);
+
+    /// \param over the mouse is over the view
+    void handle_keys(const PanelContext& context, const ViewContent& content, bool over);
+
+    /// Turns to the place that a message names.
+    void take_look(const Workplace& place);
+
+    /// The place under the mouse becomes the centre of turns as soon as it is found, unless the
+    /// view is moved before.
+    void request_centre(const SceneView& view, const Layers& layers, const Eigen::Vector2i& pixel);
+    void take_centre();
+
+    // --- the lumen
+
+    /// Goes into the lumen, flies, and comes back to where it was before. Once a frame.
+    void fly(const PanelContext& context);
+
+    void draw_strip(PanelContext& context, ViewStrips& strips) {
+        endoscope_.draw_strip(context, strips);
+    }
+
+private:
+    void handle_view_keys(const KeyCommands& keys, const ViewContent& content);
+
+    ViewCamera camera_;
+    int seen_looks_ = 0;
+    Endoscope endoscope_;
+    Picker picker_;                            ///< for the centre
+    std::optional<ViewCamera> centring_;       ///< the camera whose centre is searched
+    std::optional<ViewCamera> outside_;        ///< the camera before a flight through the lumen
+    std::filesystem::path framed_project_;     ///< whose model the camera was set for
+    std::optional<ViewCamera> framed_camera_;  ///< as it was set; another one is the user's
+};
+
+}  // namespace vesselbench

@@ -1,0 +1,215 @@
+#include "workbench/window/view/view_scene.h"
+
+#include <algorithm>
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kLinePull = 0.01;  ///< of lines on the surface, by half the view's height [-]
+
+ViewLook look_of(const Workplace& place) {
+    return {.edges = place.settings.layers.edges,
+            .flat = place.settings.layers.flat,
+            .transparent = place.view.transparent,
+            .deviation = place.view.colouring == ColouringKind::Deviation};
+}
+
+std::optional<ValueRange> range_of(const std::shared_ptr<const DeviationMap>& map) {
+    return map ? std::optional(ValueRange{-map->full, map->full}) : std::nullopt;
+}
+
+/// The range of what is drawn in colours; none: not known, or there are no colours.
+std::optional<ValueRange> automatic_range(const Workplace& place, const ComparisonView& compared) {
+    if (compared.colours_model()) return range_of(compared.difference());
+    const auto& colours = place.view_data().colours();
+    const ColouringKind kind = place.view.colouring;
+    if (colours && colours->kind == kind) return colours->range;
+    return kind == ColouringKind::Deviation ? range_of(place.document.deviation()) : std::nullopt;
+}
+
+double line_width(const Ui& ui) {
+    return std::max(1.0, ui.em / 15.0);
+}
+
+int pixels(float length) {
+    return std::max(1, static_cast<int>(length));
+}
+
+}  // namespace
+
+ViewScene::ViewScene(const std::function<void()>& wake, DrawingGuard& guard)
+    : guard_(guard), model_(wake), compared_(wake), branch_(wake), clip_(wake), overlays_(wake) {}
+
+bool ViewScene::pending() const {
+    return model_.pending() || compared_.pending() || branch_.pending() || clip_.pending() ||
+           overlays_.pending();
+}
+
+void ViewScene::forget(PanelContext& c) {
+    model_.show(nullptr);
+    static_cast<void>(model_.update());
+    compared_.forget();
+    branch_.update(nullptr, nullptr, {});
+    clip_.forget();
+    overlays_.forget();
+    region_.show({});
+    planes_.update(c.place.slices());
+    image_box_.reset();
+    seen_scenes_ = -1;
+    target_.reset();
+    texture_ = 0;
+    drawn_.reset();
+}
+
+// --- following the case
+
+ViewScene::Change ViewScene::update(PanelContext& c, const ScreenRect& area) {
+    const bool room = take_room(c, area);
+    const bool another = take_model(c);
+    guard_.run([&] { take_planes(c); });
+    guard_.note(model_.problem());
+    guard_.note(compared_.problem());
+    const bool image = image_box_ && surface() == nullptr && !model_.pending();
+    if (another || image) return Change::Model;
+    return room ? Change::Room : Change::None;
+}
+
+/// What is compared. \return true if it leaves another room to the model in the same view
+bool ViewScene::take_room(PanelContext& c, const ScreenRect& area) {
+    compared_.update(c);
+    const bool resized = area.width != area_.width;
+    const float before = rect_.width;
+    area_ = area;
+    rect_ = compared_.room_for_model(area);
+    return before != rect_.width && !resized;
+}
+
+/// \return true if another surface is shown
+bool ViewScene::take_model(PanelContext& c) {
+    Document& document = c.place.document;
+    if (seen_scenes_ != document.scene_changes()) {
+        seen_scenes_ = document.scene_changes();
+        static_cast<void>(document.take_moves());
+        model_.show(document.shown());
+        drawn_.reset();
+    }
+    for (const SceneMove& move : document.take_moves()) model_.move(move);
+    choose_colours(c);
+    if (!model_.update()) return false;
+    drawn_.reset();
+    ++models_;
+    return model_.is_new();
+}
+
+void ViewScene::choose_colours(PanelContext& c) {
+    Document& document = c.place.document;
+    const auto& form = c.place.form();
+    model_.set_painted(form ? painted_attribute(*form) : "");
+    look_ = look_of(c.place);
+    document.want_deviation(look_.deviation);
+    model_.set_deviation(compared_.colours_model() ? compared_.difference() : document.deviation());
+    const auto& colours = c.place.view_data().colours();
+    const bool on_model =
+        colours && !compared_.colours_model() && colours->kind != ColouringKind::TetrahedraQuality;
+    model_.set_colouring(on_model ? colours : nullptr);
+    c.place.view.draw_as({c.place.view.colouring, compared_.colours_model()},
+                         automatic_range(c.place, compared_));
+    model_.set_range(c.place.view.range());
+}
+
+void ViewScene::take_planes(PanelContext& c) {
+    planes_.update(c.place.slices());
+    const SliceGrid& grid = c.place.slices().grid();
+    image_box_.reset();
+    if (planes_.any_in_space()) image_box_ = Bounds{grid.low, grid.high()};
+}
+
+void ViewScene::look_from(const ViewCamera& camera, bool inside) {
+    camera_ = camera;
+    inside_ = inside;
+}
+
+void ViewScene::choose(PanelContext& c, const Choices& choices) {
+    lit_patch_ = choices.lit_patch;
+    const auto& form = c.place.form();
+    const bool previews = c.place.document.previewed().has_value();
+    guard_.run(
+        [&] { region_.show(form && has_content() ? choices.lines : std::vector<RegionLine>()); });
+    guard_.run(
+        [&] { branch_.update(form && !previews ? &*form : nullptr, surface(), choices.spot); });
+    guard_.run([&] { clip_.update(c, surface(), camera_); });
+    guard_.run([&] { overlays_.update(c); });
+}
+
+// --- drawing
+
+ViewLook ViewScene::model_look() const {
+    ViewLook own = look_;
+    own.deviation = look_.deviation || compared_.colours_model();
+    return own;
+}
+
+Layers ViewScene::layers(const Ui& ui) const {
+    const double line = line_width(ui);
+    Layers layers = model_.layers(model_look(), line);
+    for (SurfaceLayer& layer : layers.surfaces) {
+        layer.highlighted_patch = lit_patch_;
+        layer.back_as_front = inside_;
+    }
+    planes_.add_to(layers, line);
+    clip_.add_to(layers, line);
+    overlays_.add_to(layers, line, ui.theme.dark);
+    const double pull = kLinePull * camera_.half_height;
+    branch_.add_to(layers, pull / 2);
+    region_.add_to(layers, 2 * line, pull);
+    return layers;
+}
+
+SceneView ViewScene::scene_view(const Ui& ui) const {
+    return {.camera = camera_,
+            .rectangle = {0, 0, pixels(rect_.width), pixels(rect_.height)},
+            .clip = clip_.plane(),
+            .background = Background{linear(ui.theme.view_above), linear(ui.theme.view_below)}};
+}
+
+ViewScene::DrawnAs ViewScene::now(const Ui& ui) const {
+    return {.camera = camera_,
+            .look = look_,
+            .width = pixels(area_.width),
+            .height = pixels(area_.height),
+            .dark = ui.theme.dark,
+            .lit_patch = lit_patch_,
+            .region = region_.version(),
+            .branch = branch_.version(),
+            .slices = planes_.space_version(),
+            .compared = compared_.version(),
+            .range = model_.colour_range(),
+            .clip = clip_.version(),
+            .overlays = overlays_.version(),
+            .inside = inside_};
+}
+
+unsigned ViewScene::draw(Renderer& renderer, const Ui& ui) {
+    if (guard_.run([&] { draw_picture(renderer, ui); })) return texture_;
+    drawn_.reset();
+    texture_ = 0;
+    return 0;
+}
+
+void ViewScene::draw_picture(Renderer& renderer, const Ui& ui) {
+    const DrawnAs wanted = now(ui);
+    if (drawn_ == wanted) return;
+    if (!target_) target_.emplace(wanted.width, wanted.height);
+    target_->resize(wanted.width, wanted.height);
+    target_->bind();
+    SceneView view = scene_view(ui);
+    view.rectangle.x = static_cast<int>(rect_.x - area_.x);
+    if (!compared_.hides_model()) renderer.draw(view, layers(ui));
+    compared_.draw(renderer, view, look_, line_width(ui));
+    texture_ = target_->resolve();
+    drawn_ = wanted;
+    ++drawings_;
+}
+
+}  // namespace vesselbench

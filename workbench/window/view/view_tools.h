@@ -1,0 +1,23 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/view/view_scene.h"
+
+namespace vesselbench {
+
+/// What the view's buttons ask the camera for.
+struct ToolRequests {
+    bool frame = false, switch_perspective = false;
+};
+
+/// The view's buttons, in its upper left corner. \param perspective of the camera
+[[nodiscard]] ToolRequests draw_view_tools(PanelContext& context, const ScreenRect& view,
+                                           bool perspective);
+
+/// What the colours mean.
+void draw_legend(const PanelContext& context, const ViewScene& scene);
+
+/// What to do while there is no surface.
+void draw_empty_view(PanelContext& context, const ViewScene& scene);
+
+}  // namespace vesselbench
