@@ -99,7 +99,7 @@ void print_state(const Snapshot& now, bool json) {
 std::string state_text(const LogEntry& entry) {
     if (entry.status != EditStatus::Done)
         return to_string(entry.status) + (entry.reason.empty() ? "" : ": " + entry.reason);
-    return entry.result ? change_text(entry.result->change) : "";
+    return entry.result ? effect_text(*entry.result) : "";
 }
 
 void print_log(const std::vector<LogEntry>& log) {

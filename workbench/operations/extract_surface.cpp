@@ -100,13 +100,18 @@ nlohmann::ordered_json cuts_of(const Surface& surface) {
     return cuts;
 }
 
+std::string headline_of(const Extraction& extraction) {
+    return extraction.method == ExtractionMethod::Threshold
+               ? "threshold " + to_text(extraction.threshold)
+               : "";
+}
+
 Report report_of(const Extraction& extraction) {
     const Surface& surface = extraction.surface;
-    nlohmann::ordered_json report = {{"method", to_string(extraction.method)},
-                                     {"threshold", extraction.threshold},
-                                     {"decisions", extraction.reasons},
-                                     {"vertices", surface.vertex_count()},
-                                     {"triangles", surface.triangle_count()}};
+    nlohmann::ordered_json report = {
+        {"headline", headline_of(extraction)}, {"method", to_string(extraction.method)},
+        {"threshold", extraction.threshold},   {"decisions", extraction.reasons},
+        {"vertices", surface.vertex_count()},  {"triangles", surface.triangle_count()}};
     report.update(extent_json(volume(surface), area(surface)));
     report.update({{"bodies_found", extraction.bodies},
                    {"hollows_found", extraction.hollows},

@@ -14,16 +14,28 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// What the file has and a vessel's surface should not.
+std::string headline_of(std::size_t components, std::size_t loops) {
+    std::string text;
+    if (components > 1) text = counted(components, "part");
+    if (loops > 0)
+        text += (text.empty() ? "" : ", ") + counted(loops, "hole or opening", "holes or openings");
+    return text;
+}
+
 ordered_json report_of(const SurfaceArgument& read) {
     const Surface& surface = read.surface;
     const Vec3 size = bounds(surface).max - bounds(surface).min;
-    return {{"file", read.name},
+    const std::size_t components = connected_components(*surface.topology).count();
+    const std::size_t loops = surface.topology->boundary_loops().size();
+    return {{"headline", headline_of(components, loops)},
+            {"file", read.name},
             {"units", read.units},
             {"units_reason", read.unit_reason},
             {"vertices", surface.vertex_count()},
             {"triangles", surface.triangle_count()},
-            {"components", connected_components(*surface.topology).count()},
-            {"boundary_loops", surface.topology->boundary_loops().size()},
+            {"components", components},
+            {"boundary_loops", loops},
             {"size_mm", point_json(size)},
             {"notes", read.notes}};
 }

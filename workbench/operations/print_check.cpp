@@ -33,6 +33,13 @@ Json problems_json(const PrintCheck& check) {
     return problems;
 }
 
+std::string headline_of(const PrintCheck& check) {
+    std::string text = check.printable() ? "printable" : "not printable";
+    if (check.lumen) text += formatted(check.lumen->distance, ", thinnest place %.2f mm");
+    if (check.gap) text += formatted(check.gap->distance, ", smallest gap %.2f mm");
+    return text;
+}
+
 void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const std::string& what,
                    Outcome& outcome) {
     if (!places || places->distance >= limit) return;
@@ -51,8 +58,10 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
                   outcome);
     warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
                   outcome);
-    Json report = {
-        {"printable", check.printable()}, {"unit", "mm"}, {"size_mm", point_json(check.size)}};
+    Json report = {{"headline", headline_of(check)},
+                   {"printable", check.printable()},
+                   {"unit", "mm"},
+                   {"size_mm", point_json(check.size)}};
     report.update(extent_json(check.volume, check.area));
     report.update({{"smallest_wall_distance", facing_json(check.lumen)},
                    {"smallest_gap", facing_json(check.gap)},

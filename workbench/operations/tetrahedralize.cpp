@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/table.h"
 
@@ -25,7 +26,10 @@ Json patches_json(const VolumeMesh& mesh) {
 
 Json report_json(const TetrahedralizeResult& result) {
     const TetrahedralizeReport& report = result.report;
-    return {{"cells", report.quality.cells},
+    return {{"headline",
+             counted(report.quality.cells, "tetrahedron", "tetrahedra") +
+                 formatted(report.quality.smallest_dihedral, ", smallest dihedral angle %.1f deg")},
+            {"cells", report.quality.cells},
             {"size_factor", report.size},
             {"tetgen_switches", report.switches},
             {"tetgen_attempts", report.attempts},

@@ -13,7 +13,7 @@ namespace {
 
 std::string entry_text(const LogEntry& entry) {
     const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
-    const std::string change = entry.result ? change_text(entry.result->change) : "";
+    const std::string change = entry.result ? effect_text(*entry.result) : "";
     return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
            (change.empty() ? "" : ": " + change);
 }

@@ -52,6 +52,18 @@ std::string change_text(const SurfaceChange& change) {
     return text;
 }
 
+std::string effect_text(const ResultRecord& result) {
+    std::string text;
+    if (!result.report.empty()) {
+        const Json report = Json::parse(result.report, nullptr, false);
+        if (report.is_object() && report.contains("headline") && report["headline"].is_string())
+            text = report["headline"].get<std::string>();
+    }
+    const std::string change = change_text(result.change);
+    if (!change.empty()) add_part(text, change);
+    return text;
+}
+
 Json log_json(const LogEntry& entry) {
     const EditRecord& edit = entry.edit;
     Json json = {{"edit", edit.edit.id},

@@ -14,4 +14,8 @@ namespace vesselbench {
 /// changed.
 [[nodiscard]] std::string change_text(const SurfaceChange& change);
 
+/// The same after what an operation says of its result in one line ("headline" of its report):
+/// "120,000 tetrahedra, smallest dihedral angle 11.2 deg". Empty if there is neither.
+[[nodiscard]] std::string effect_text(const ResultRecord& result);
+
 }  // namespace vesselbench

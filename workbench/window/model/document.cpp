@@ -38,7 +38,7 @@ std::string newest_variant(const Snapshot& snapshot) {
 
 /// "Remesh: volume -0.1 %, ..."
 std::string changed_text(const EditRecord& edit, const ResultRecord& result) {
-    const std::string change = change_text(result.change);
+    const std::string change = effect_text(result);
     return readable(edit.operation) + (change.empty() ? "" : ": " + change);
 }
 

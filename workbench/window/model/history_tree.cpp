@@ -66,7 +66,7 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     row.author = edit.author;
     row.time = short_time(edit.time);
     if (found->second.result && state.change != StateChange::Remove)
-        row.change = change_text(found->second.result->change);
+        row.change = effect_text(*found->second.result);
     return row;
 }
 

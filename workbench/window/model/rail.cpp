@@ -42,7 +42,7 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .reason = entry.reason,
                  .places = places_of_edit(entry)};
     if (entry.result) {
-        row.change = change_text(entry.result->change);
+        row.change = effect_text(*entry.result);
         row.warnings = entry.result->warnings;
     }
     return row;
