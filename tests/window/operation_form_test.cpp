@@ -19,6 +19,16 @@ SCENARIO("A form's texts become arguments", "[window][form]") {
     CHECK(form.arguments() == Arguments{});
 }
 
+SCENARIO("A number may be typed with a decimal comma", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    form.set("lambda", "0,25");
+    CHECK(form.field("lambda").text == "0.25");
+    CHECK(form.valid());
+    OperationForm clip(find_operation("clip-opening"));
+    clip.set("inlet", "1,2,3");  // a point keeps its commas
+    CHECK(clip.field("inlet").text == "1,2,3");
+}
+
 SCENARIO("A wrong text has the checker's error", "[window][form]") {
     OperationForm form(find_operation("smooth"));
     form.set("lambda", "2");

@@ -23,6 +23,13 @@ std::string effective_text(const FormField& field) {
     return field.parameter->default_value ? to_text(*field.parameter->default_value) : "";
 }
 
+/// A number may be written with a comma: "0,5".
+std::string with_point(const Parameter& parameter, std::string text) {
+    if (parameter.type == ParameterType::Real && std::ranges::count(text, ',') == 1)
+        std::ranges::replace(text, ',', '.');
+    return text;
+}
+
 std::string error_in(const FormField& field) {
     if (field.text.empty()) return "";
     try {
@@ -68,6 +75,7 @@ FormField& OperationForm::find(const std::string& name) {
 
 void OperationForm::set(const std::string& name, std::string text) {
     FormField& field = find(name);
+    text = with_point(*field.parameter, std::move(text));
     if (field.text == text) return;
     field.text = std::move(text);
     ++changes_;
