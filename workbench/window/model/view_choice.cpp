@@ -45,6 +45,14 @@ void ViewChoice::choose(ColouringKind kind) {
     if (kind == ColouringKind::TetrahedraQuality) clip.on = true;
 }
 
+void ViewChoice::switch_clip(bool has_cells) {
+    clip.on = !clip.on;
+    if (clip.on && has_cells && colouring == ColouringKind::Patches)
+        choose(ColouringKind::TetrahedraQuality);
+    else if (!clip.on && colouring == ColouringKind::TetrahedraQuality)
+        choose(ColouringKind::Patches);
+}
+
 void ViewChoice::draw_as(const DrawnQuantity& quantity, const std::optional<ValueRange>& range) {
     if (drawn_ != quantity) forget_range();
     drawn_ = quantity;

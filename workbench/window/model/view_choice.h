@@ -67,6 +67,10 @@ struct ViewChoice {
     /// With the automatic range.
     void choose(ColouringKind kind);
 
+    /// \param has_cells the section of a volume mesh shows its cells, unless other colours are
+    /// chosen
+    void switch_clip(bool has_cells);
+
     /// Once a frame: what the view draws, with its automatic range. The typed range of another
     /// quantity is forgotten.
     void draw_as(const DrawnQuantity& quantity, const std::optional<ValueRange>& range);

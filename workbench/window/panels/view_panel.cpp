@@ -107,12 +107,17 @@ void toggle(MeasureTool& tool, MeasureTool which) {
     tool = tool == which ? MeasureTool::None : which;
 }
 
+void switch_clip(PanelContext& c) {
+    const Scene* scene = c.place.document.shown();
+    c.place.view.switch_clip(scene != nullptr && scene->volume_mesh);
+}
+
 void draw_modes(PanelContext& c) {
     ViewChoice& view = c.place.view;
     group_heading(c.ui, "View modes and measuring");
     space(c.ui, 0.5F);
     if (draw_mode(c, "view.clip", "Clip plane", view.clip.on, KeyCommand::ClipPlane))
-        view.clip.on = !view.clip.on;
+        switch_clip(c);
     if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, KeyCommand::Flight))
         view.flies = !view.flies;
     if (draw_mode(c, "view.distance", "Distance", view.tool == MeasureTool::Distance,
@@ -173,7 +178,7 @@ void handle_view_keys(PanelContext& c) {
         c.place.settings.save();
     }
     ViewChoice& view = c.place.view;
-    if (keys.has(KeyCommand::ClipPlane)) view.clip.on = !view.clip.on;
+    if (keys.has(KeyCommand::ClipPlane)) switch_clip(c);
     if (keys.has(KeyCommand::Flight)) view.flies = !view.flies;
     if (keys.has(KeyCommand::Distance)) toggle(view.tool, MeasureTool::Distance);
     if (keys.has(KeyCommand::Diameter)) toggle(view.tool, MeasureTool::Diameter);
