@@ -104,6 +104,24 @@ SCENARIO("A file is opened by Enter or by a double click", "[window][files]") {
     REQUIRE(wait_until_idle(shell));
 }
 
+SCENARIO("The slices of a DICOM folder are opened together", "[window][files]") {
+    const std::string series = shared_data("images/dicom_series");
+    if (series.empty()) return;
+    Asking window(FileQuestion::Open);
+    if (!window.shell) return;
+    OffscreenShell& shell = *window.shell;
+    CHECK_FALSE(shell.has("file.dicom"));
+    // Not beside the shared data: the project is written next to what is opened.
+    fs::copy(series, window.folder / "series");
+    REQUIRE(shell.fill_item("file.folder", (window.folder / "series").string()));
+    REQUIRE(shell.click_item("file.dicom"));
+    CHECK_FALSE(window.asks());
+    REQUIRE(wait_until_idle(shell));
+    const Document& document = shell.app().place().document;
+    REQUIRE(document.is_open());
+    CHECK(document.shown()->image.has_value());
+}
+
 SCENARIO("A free name is numbered", "[window][files]") {
     const fs::path folder = temporary_folder();
     CHECK(free_file(folder / "a.png") == folder / "a.png");

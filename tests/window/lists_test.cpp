@@ -8,6 +8,7 @@
 #include "tests/window/window_support.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/table.h"
+#include "workbench/report/log_json.h"
 #include "workbench/window/model/folder_listing.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/message.h"
@@ -63,6 +64,18 @@ SCENARIO("Long lists of arguments are counted", "[window][rail]") {
     CHECK(argument_summary(find_operation("brush-inflate"), stroke) == "dabs=(800 numbers)");
     const Arguments box = {{"box", Value(std::vector<double>{1, 2, 3, 4, 5, 6})}};
     CHECK(argument_summary(find_operation("crop"), box) == "box=1,2,3,4,5,6");
+}
+
+SCENARIO("What an operation says of its result precedes what it changed", "[window][rail]") {
+    ResultRecord result{.report = R"({"headline":"threshold 60","triangles":2})"};
+    CHECK(effect_text(result) == "threshold 60");
+    result.change.triangles_before = 1;
+    result.change.triangles_after = 2;
+    CHECK(effect_text(result) == "threshold 60, 1 -> 2 triangles");
+    result.report = R"({"headline":7})";
+    CHECK(effect_text(result) == "1 -> 2 triangles");
+    result.report.clear();
+    CHECK(effect_text(result) == "1 -> 2 triangles");
 }
 
 SCENARIO("Edits of another variant are not in the rail", "[window][rail]") {
@@ -193,6 +206,22 @@ SCENARIO("Typed numbers are read as a whole or not at all", "[window]") {
         INFO(text);
         CHECK_FALSE(typed_number(text));
     }
+}
+
+SCENARIO("The section of a volume mesh shows its cells", "[window][view]") {
+    ViewChoice view;
+    view.switch_clip(true);
+    CHECK(view.clip.on);
+    CHECK(view.colouring == ColouringKind::TetrahedraQuality);
+    view.switch_clip(true);
+    CHECK_FALSE(view.clip.on);
+    CHECK(view.colouring == ColouringKind::Patches);
+    view.choose(ColouringKind::MeanCurvature);
+    view.switch_clip(true);
+    CHECK(view.colouring == ColouringKind::MeanCurvature);
+    ViewChoice surface;
+    surface.switch_clip(false);
+    CHECK(surface.colouring == ColouringKind::Patches);
 }
 
 SCENARIO("A typed range is of one quantity", "[window][view]") {

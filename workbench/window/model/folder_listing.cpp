@@ -1,8 +1,11 @@
 #include "workbench/window/model/folder_listing.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 
+#include "geometry/formats/dicom.h"
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_formats.h"
 
@@ -11,6 +14,9 @@ namespace vesselbench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kDicomHead = 132;  ///< bytes up to the mark of a DICOM file
+constexpr int kDicomFiles = 5;           ///< that are looked at in a folder
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -41,6 +47,14 @@ FolderEntry entry_of(const fs::directory_entry& file) {
     return entry;
 }
 
+/// Slices often have names without a suffix.
+bool is_dicom_file(const fs::path& file) {
+    std::array<char, kDicomHead> head{};
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), head.size());
+    return is_dicom({head.data(), static_cast<std::size_t>(stream.gcount())});
+}
+
 bool comes_before(const FolderEntry& a, const FolderEntry& b) {
     if (a.folder != b.folder) return a.folder;
     return lower(a.name) < lower(b.name);
@@ -62,9 +76,12 @@ FolderListing list_folder(const fs::path& folder, const std::vector<std::string>
     FolderListing listing{.folder = folder};
     std::error_code error;
     fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, error);
+    int looked_at = 0;
     for (const fs::directory_iterator end; !error && files != end; files.increment(error)) {
         FolderEntry entry = entry_of(*files);
         if (entry.name.starts_with(".")) continue;
+        if (!entry.folder && files->is_regular_file() && looked_at++ < kDicomFiles)
+            listing.has_dicom = listing.has_dicom || is_dicom_file(files->path());
         if (entry.folder || has_suffix(entry.name, suffixes)) listing.entries.push_back(entry);
     }
     if (error)

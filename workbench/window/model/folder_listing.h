@@ -19,7 +19,8 @@ struct FolderEntry {
 struct FolderListing {
     std::filesystem::path folder;
     std::vector<FolderEntry> entries;
-    std::string error;  ///< why the folder cannot be read; empty if it was
+    bool has_dicom = false;  ///< among its first files is a slice of a DICOM series
+    std::string error;       ///< why the folder cannot be read; empty if it was
 };
 
 /// \param suffixes of the files to list, lower case, with the dot; empty: all files

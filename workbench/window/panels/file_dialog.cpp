@@ -137,6 +137,17 @@ void FileDialog::draw_folder_line(PanelContext& c) {
         enter(typed_folder_);
     folder_entered_ = ImGui::IsItemDeactivated() && c.shown.keys.has(KeyCommand::Accept);
     if (folder_entered_) accept_folder(c);
+    draw_dicom_line(c);
+}
+
+/// The slices of a series are opened together, as their folder.
+void FileDialog::draw_dicom_line(PanelContext& c) {
+    if (!listing_.has_dicom || writes()) return;
+    if (!button(c.ui, "file.dicom", "Open the DICOM slices of this folder",
+                {.icon = icons::kImage, .width = ImGui::GetContentRegionAvail().x}))
+        return;
+    question_ = FileQuestion::None;
+    c.place.answer(listing_.folder);
 }
 
 /// Enter in the field of the folder: a file that was typed there is the answer.

@@ -17,6 +17,7 @@ private:
     void begin(PanelContext& context);
     void enter(const std::filesystem::path& folder);
     void draw_folder_line(PanelContext& context);
+    void draw_dicom_line(PanelContext& context);
     void accept_folder(PanelContext& context);
     void draw_entries(PanelContext& context, float height);
     void draw_entry(PanelContext& context, const FolderEntry& entry);

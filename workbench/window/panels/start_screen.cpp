@@ -97,7 +97,8 @@ void draw_examples(PanelContext& c) {
     group_heading(c.ui, "Phantoms");
     space(c.ui, 1);
     for (const std::string& name : phantom_names())
-        if (row(c.ui, "phantom." + name,
+        if (std::ranges::none_of(cases, [&](const fs::path& f) { return f.filename() == name; }) &&
+            row(c.ui, "phantom." + name,
                 {.icon = icons::kGrid, .title = readable(name), .detail = about_phantom(name)}))
             c.place.open_phantom(name);
 }
