@@ -1,5 +1,6 @@
 #include "geometry/kernel/wording.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 
@@ -53,8 +54,9 @@ std::string xml_escaped(const std::string& text) {
 }
 
 std::string formatted(double value, const char* format) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
+    const int length = std::snprintf(nullptr, 0, format, value);
+    std::string text(static_cast<std::size_t>(std::max(length, 0)), '\0');
+    std::snprintf(text.data(), text.size() + 1, format, value);
     return text;
 }
 

@@ -200,6 +200,7 @@ double ShapeImprover::improve_worst(double wanted_quality) {
         std::sort(bad.begin(), bad.end());
         bool improved = false;
         for (const auto& [q, t] : bad) {
+            state_.check_cancelled();
             if (!mesh().is_alive(t) || quality_of(t) >= wanted_quality) continue;
             if (improve_by_flips(t) || (q < 0.5 * wanted_quality && improve_by_collapses(t))) {
                 improved = true;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
@@ -14,7 +15,6 @@
 #include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/remesher.h"
 #include "meshing/remeshing/sizing_field.h"
-#include "meshing/remeshing/uniform_remesh.h"
 
 namespace vesselbench {
 
@@ -41,6 +41,8 @@ constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
 /// larger fraction of rims, need it most and can afford it.
 constexpr std::size_t kPolishBudget = 20000;
 constexpr int kFewestPolishRounds = 2, kMostPolishRounds = 8;
+
+constexpr double kMostVolumeChange = 0.2;  // [-]
 
 constexpr double kQuality = 0.5;  // below it a triangle is improved individually
 
@@ -81,11 +83,26 @@ void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
     }
 }
 
-/// One attempt that starts with the mesh `start`.
-Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Surface& start,
-                      const Progress& progress) {
+/// A count far beyond what can be made is known from the surface's area.
+void check_count(const Surface& surface, const std::vector<double>& sizes, double edge) {
+    double count = 0.0;
+    for (const auto& [a, b, c] : surface.triangles()) {
+        const double size = (sizes[a] + sizes[b] + sizes[c]) / 3.0;
+        count += 0.5 * area_normal(surface.points(), {a, b, c}).norm() /
+                 (std::sqrt(3.0) / 4.0 * size * size);
+    }
+    const auto most = static_cast<double>(Remesher::kMostTriangles);
+    if (count <= most) return;
+    throw AlgorithmFailure(
+        formatted(edge, "edges of %.3g mm would make about ") + formatted(count / 1e6, "%.3g") +
+        formatted(most / 1e6, " million triangles, more than %.0f million; use edge=") +
+        formatted(1.1 * edge * std::sqrt(count / most), "%.2g") + " or more");
+}
+
+/// One attempt.
+Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Progress& progress) {
     for (double& size : sizes) size /= Remesher::kStretch;
-    Remesher remesher(surface, sizes, start);
+    Remesher remesher(surface, sizes, surface, progress);
     run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
     return finished(remesher, progress.part(0.8, 1.0));
 }
@@ -152,15 +169,15 @@ Surface parted(const Surface& source, const Surface& result, RemeshReport& repor
     refuse_crossing(source, result);
 }
 
-Surface remeshed_until_sound(const Surface& surface, const Surface& start,
-                             std::vector<double> sizes, double gradation, RemeshReport& report,
-                             const Progress& progress) {
-    Surface result = remeshed_once(surface, sizes, start, progress);
+Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, double gradation,
+                             RemeshReport& report, const Progress& progress) {
+    check_count(surface, sizes, report.edge);
+    Surface result = remeshed_once(surface, sizes, progress);
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
         const Positions places = bad_places(result);
         if (places.empty()) return result;
         refine(surface, places, gradation, sizes);
-        result = remeshed_once(surface, sizes, surface, progress);
+        result = remeshed_once(surface, sizes, progress);
     }
     return parted(surface, result, report);
 }
@@ -184,17 +201,26 @@ Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshR
                                               .max_edge = report.max_edge,
                                               .gradation = gradation},
                                              progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, surface, std::move(sizes), gradation, report,
+    return remeshed_until_sound(surface, std::move(sizes), gradation, report,
                                 progress.part(0.2, 1.0));
 }
 
-/// CGAL supports one edge length only, and leaves slivers at rims; the rounds start from its mesh.
 Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
                 const Progress& progress) {
-    progress.report(0.0, "remeshing");
-    const Surface even = remesh_uniform(surface, report.edge);
-    const std::vector<double> sizes(surface.vertex_count(), report.edge);
-    return remeshed_until_sound(surface, even, sizes, gradation, report, progress.part(0.3, 1.0));
+    return remeshed_until_sound(surface, std::vector<double>(surface.vertex_count(), report.edge),
+                                gradation, report, progress);
+}
+
+/// What is left of a vessel that is as thin as its edges is no vessel.
+void check_volume(const Surface& before, const Surface& after, RemeshReport& report) {
+    const double was = volume(before), is = volume(after);
+    report.volume_change = was > 0.0 ? is / was - 1.0 : 0.0;
+    if (std::abs(report.volume_change) <= kMostVolumeChange) return;
+    throw AlgorithmFailure(
+        formatted(report.edge,
+                  "edges of %.3g mm are too coarse for this vessel: the volume would ") +
+        formatted(was, "change from %.4g") + formatted(is, " to %.4g mm^3; use edge=") +
+        formatted(kEdgePerRadius * report.usual_radius, "%.2g"));
 }
 
 }  // namespace
@@ -210,6 +236,7 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
         parameters.mode == RemeshMode::Uniform
             ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
             : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
+    check_volume(surface, result, report);
     result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();
     report.wall = wall_shape(result);

@@ -27,6 +27,7 @@ struct RemeshReport {
     double edge = 0.0;                      ///< [mm]
     double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
     std::size_t triangles_before = 0, triangles_after = 0;
+    double volume_change = 0.0;  ///< of the enclosed volume, relative to that before [-]
     TriangleShape wall, caps;
     /// Pairs of triangles that crossed where walls almost touch, before the walls were separated
     /// there, which leaves worse triangles; and the place of the first [mm].
@@ -51,7 +52,9 @@ struct Remeshed {
 /// \param lines centerlines for the vessel's radius; null: measured by rays
 /// \throw InvalidInput if a parameter is out of its range or the surface is not a manifold;
 ///        AlgorithmFailure that names the place if the result would intersect itself and
-///        its walls cannot be separated
+///        its walls cannot be separated; or that names an edge length if the one asked for makes
+///        more than 10 million triangles, or is so coarse that a fifth of the volume is lost;
+///        Cancelled
 [[nodiscard]] Remeshed remesh(const Surface& surface, const RemeshParameters& parameters = {},
                               const CenterlineGraph* lines = nullptr,
                               const Progress& progress = {});

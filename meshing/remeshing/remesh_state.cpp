@@ -17,13 +17,15 @@ bool turns_too_far(const Vec3& before, const Vec3& after) {
 }  // namespace
 
 RemeshState::RemeshState(const Surface& source, const std::vector<double>& source_sizes,
-                         const Surface& start)
+                         const Surface& start, const Progress& end)
     : target(source, source_sizes),
       mesh(start),
       patches(source.patches),
       sizes(mesh.vertex_count(), *std::min_element(source_sizes.begin(), source_sizes.end())),
-      hints(mesh.vertex_count(), 0) {
+      hints(mesh.vertex_count(), 0),
+      cancel(end.silent()) {
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+        check_cancelled();
         if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
         const VertexKind kind = kind_of(v);
         if (kind.features == 0 || kind.features == 2) move(v, place_for(v, kind, mesh.points[v]));

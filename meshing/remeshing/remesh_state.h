@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "meshing/remeshing/edit_mesh.h"
 #include "meshing/remeshing/remesh_target.h"
 
@@ -24,9 +25,16 @@ struct RemeshState {
     /// \param source the target geometry of the result
     /// \param source_sizes target edge length at each vertex of the source [mm], #V
     /// \param start the initial mesh: the source, or one near it with the same patches
+    /// \param end by which the passes are cancelled
     /// \throw InvalidInput that names the place if the start is not an oriented manifold
     RemeshState(const Surface& source, const std::vector<double>& source_sizes,
-                const Surface& start);
+                const Surface& start, const Progress& end = {});
+
+    /// In every turn of a long loop. \throw Cancelled if the user cancels
+    void check_cancelled() {
+        constexpr unsigned kTurns = 1024;
+        if (++turns % kTurns == 0) cancel.check_cancelled();
+    }
 
     [[nodiscard]] VertexKind kind_of(VertexId v) const;
 
@@ -63,6 +71,8 @@ struct RemeshState {
     std::vector<Patch> patches;
     std::vector<double> sizes;      ///< target edge length by vertex [mm]
     std::vector<TriangleId> hints;  ///< by vertex: the source's triangle where searches begin
+    Progress cancel;
+    unsigned turns = 0;  ///< of loops
 };
 
 }  // namespace vesselbench

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 
@@ -75,6 +78,13 @@ double Remesher::longest_share() const {
     return longest;
 }
 
+void Remesher::check_size() const {
+    if (mesh.triangle_count() <= kMostTriangles) return;
+    throw AlgorithmFailure("remeshing would make more than " +
+                           std::to_string(kMostTriangles / 1'000'000) +
+                           " million triangles; use a larger edge");
+}
+
 void Remesher::split_long_edges(double limit) {
     // In a coarse source the longest edges are split first: in arbitrary order its triangles would
     // become slivers of slivers, millions out of fifty.
@@ -88,7 +98,9 @@ void Remesher::split_edges_above(double limit) {
     for (int pass = 0; pass < kMostPasses; ++pass) {
         const std::size_t count = mesh.half_edge_count();
         for (HalfEdge h = 0; h < count; ++h) {
+            check_cancelled();
             if (!is_long(h, limit)) continue;
+            check_size();
             const VertexId a = mesh.origin(h), b = mesh.target(h);
             const VertexId near = mesh.is_feature(h) && kind_of(a).features != 2 ? b : a;
             const VertexId m = mesh.split(h, 0.5 * (mesh.points[a] + mesh.points[b]));
@@ -107,6 +119,7 @@ void Remesher::collapse_short_edges() {
     do {
         touched.begin_pass();
         for (std::uint64_t i = 0; i < count; ++i) {
+            check_cancelled();
             const auto h = static_cast<HalfEdge>(i * kScatter % count);
             if (mesh.origin(h) == EditMesh::kNone) continue;
             const VertexId a = mesh.origin(h), b = mesh.target(h);
@@ -140,6 +153,7 @@ void Remesher::collapse_defects() {
     count_valences();
     const std::uint64_t count = mesh.half_edge_count();
     for (std::uint64_t i = 0; i < count; ++i) {
+        check_cancelled();
         const auto h = static_cast<HalfEdge>(i * kScatter % count);
         if (mesh.origin(h) == EditMesh::kNone) continue;
         const VertexId a = mesh.origin(h), b = mesh.target(h);
@@ -176,6 +190,7 @@ void Remesher::flip_edges(FlipRule rule) {
     do {
         touched.begin_pass();
         for (HalfEdge h = 0; h < mesh.half_edge_count(); ++h) {
+            check_cancelled();
             if (mesh.origin(h) == EditMesh::kNone || h > mesh.twin(h)) continue;
             const VertexId a = mesh.origin(h), b = mesh.target(h);
             if (!(touched[a] || touched[b])) continue;
@@ -241,6 +256,7 @@ Vec3 Remesher::relaxed_position(VertexId v, const VertexKind& kind, RelaxRule ru
 
 void Remesher::relax(RelaxRule rule) {
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+        check_cancelled();
         if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
         const VertexKind kind = kind_of(v);
         if (kind.features != 0 && kind.features != 2) continue;
@@ -254,6 +270,7 @@ void Remesher::relax(RelaxRule rule) {
 void Remesher::keep_volume() {
     Positions lifted = mesh.points;
     for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
+        check_cancelled();
         if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
         const VertexKind kind = kind_of(v);
         if (kind.features != 0 || target.plane_normal(kind.p)) continue;

@@ -7,7 +7,7 @@
 namespace vesselbench {
 
 /// The passes of remeshing over a whole surface. They are sequential and visit edges and vertices
-/// in the order of their numbers, so that the same input gives the same bits.
+/// in the order of their numbers, so that the same input gives the same bits. All throw Cancelled.
 class Remesher : public RemeshState {
 public:
     using RemeshState::RemeshState;
@@ -15,7 +15,11 @@ public:
     /// Resulting edges are longer than `sizes` by this factor [-] (observed on tubes and vessels).
     static constexpr double kStretch = 1.07;
 
+    /// Finer meshes are refused: they would only fill the memory.
+    static constexpr std::size_t kMostTriangles = 10'000'000;
+
     /// Splits edges longer than `limit` target lengths until there are none.
+    /// \throw AlgorithmFailure beyond kMostTriangles
     void split_long_edges(double limit = kLong);
 
     /// Collapses edges shorter than 4/5 of the target length if that preserves rims, makes no long
@@ -46,6 +50,7 @@ public:
 
 private:
     [[nodiscard]] bool is_long(HalfEdge h, double limit) const;
+    void check_size() const;
     [[nodiscard]] double longest_share() const;  ///< of all edges, in target lengths
     void split_edges_above(double limit);
     void count_valences();

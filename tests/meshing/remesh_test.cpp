@@ -194,13 +194,30 @@ SCENARIO("Remeshing is deterministic and independent of unit and direction", "[m
 
 SCENARIO("Walls that almost touch are separated where no edge is short enough",
          "[meshing][remesh]") {
-    GIVEN("a dent that rests on the wall, 0.0002 mm off it, with edges of 0.8 mm") {
+    GIVEN("a dent that rests on the wall, 0.0002 mm off it, with edges of 0.5 mm") {
         const Surface body = dented(0.0002);
         REQUIRE(self_intersections(body).empty());
-        const Remeshed remeshed = remesh(body, {.mode = RemeshMode::Uniform, .edge = 0.8});
+        const Remeshed remeshed = remesh(body, {.mode = RemeshMode::Uniform, .edge = 0.5});
         CHECK(remeshed.report.crossings_parted > 0);
         check_sound(remeshed.surface, true);
     }
+}
+
+SCENARIO("An edge that makes too many triangles, or loses the vessel, is refused",
+         "[meshing][remesh]") {
+    const Surface tube = closed_tube(0.5, 20.0, 24, 60);
+    const auto mode = GENERATE(RemeshMode::Graded, RemeshMode::Uniform);
+    const auto refusal = [&](double edge) -> std::string {
+        try {
+            static_cast<void>(remesh(tube, {.mode = mode, .edge = edge}));
+        } catch (const AlgorithmFailure& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK_THAT(refusal(0.001), Catch::Contains("million triangles") && Catch::Contains("edge="));
+    CHECK_THAT(refusal(3.0), Catch::Contains("too coarse") && Catch::Contains("edge=0.14"));
+    CHECK(refusal(0.2).empty());
 }
 
 SCENARIO("Bad parameters and bad surfaces are refused", "[meshing][remesh]") {

@@ -19,6 +19,8 @@ namespace vesselbench {
 
 namespace {
 
+constexpr double kNoticedVolume = 0.03;  ///< [-]
+
 RemeshParameters parameters_from(const Arguments& arguments) {
     const auto least = arguments.optional_real("min_edge"),
                most = arguments.optional_real("max_edge");
@@ -78,6 +80,11 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
             "walls that almost touch near " + place_text(figures.crossing) +
             " crossed after remeshing and were separated there: triangles are worse, and the wall "
             "may have moved; separate the walls or use a smaller edge if that part matters");
+    if (std::abs(figures.volume_change) > kNoticedVolume)
+        outcome.warnings.push_back(
+            formatted(figures.edge, "edges of %.3g mm are coarse for this vessel: ") +
+            formatted(100.0 * figures.volume_change, "the volume changed by %+.1f %%; ") +
+            "use a smaller edge");
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
 }

@@ -1,12 +1,13 @@
-#include "meshing/remeshing/uniform_remesh.h"
+#include "tests/bench/reference_remeshing.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/stopwatch.h"
 
-namespace vesselbench {
+namespace vesselbench::bench {
 
 namespace {
 
@@ -66,16 +67,18 @@ Surface to_surface(const LabelledMesh& labelled, const std::vector<Patch>& patch
 
 }  // namespace
 
-Surface remesh_uniform(const Surface& surface, double edge) {
+RemeshingRun cgal_isotropic(const Surface& surface, double edge) {
     LabelledMesh labelled = to_mesh(surface);
+    const Stopwatch watch;
     pmp::isotropic_remeshing(faces(labelled.mesh), edge, labelled.mesh,
                              CGAL::parameters::number_of_iterations(kIterations)
                                  .number_of_relaxation_steps(3)
                                  .face_patch_map(labelled.patch)
                                  .edge_is_constrained_map(labelled.feature)
                                  .relax_constraints(true));
+    const double seconds = watch.seconds();
     labelled.mesh.collect_garbage();
-    return to_surface(labelled, surface.patches);
+    return {to_surface(labelled, surface.patches), seconds};
 }
 
-}  // namespace vesselbench
+}  // namespace vesselbench::bench
