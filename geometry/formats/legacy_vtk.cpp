@@ -284,8 +284,10 @@ private:
         if (components != 1) return;
         if (of_points_ && values.size() == raw_.positions.size())
             raw_.attributes[name] = std::move(values);
-        else if (!of_points_ && (name == "CellEntityIds" || name == "ModelFaceID"))
+        else if (!of_points_ && (name == "CellEntityIds" || name == kSimVascularFaces)) {
+            if (name == kSimVascularFaces) raw_.usual_unit = LengthUnit::Centimetre;
             parts_ = std::move(values);
+        }
     }
 
     void make_triangles() {

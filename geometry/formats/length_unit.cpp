@@ -24,9 +24,9 @@ constexpr double kThinnestOpening = 0.5;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
 
-/// Most files are in mm: another unit is considered only for an implausibility (in natural
-/// logarithms) above this one; below kCertain the guess counts as uncertain.
-constexpr double kInFavourOfMillimetres = 0.4;
+/// Another unit than the usual one, mm in most files, is considered only for an implausibility (in
+/// natural logarithms) above this one; below kCertain the guess counts as uncertain.
+constexpr double kInFavourOfUsual = 0.4;
 constexpr double kCertain = 1.2;
 
 /// Above this ratio of extent to radius the volume is meaningless (scattered or reversed
@@ -117,12 +117,12 @@ double millimetres_per(LengthUnit unit) {
     return unit == LengthUnit::Metre ? 1000.0 : unit == LengthUnit::Centimetre ? 10.0 : 1.0;
 }
 
-UnitGuess guess_length_unit(const Surface& surface) {
+UnitGuess guess_length_unit(const Surface& surface, LengthUnit usual) {
     const Figures figures = figures_of(surface);
     std::array<double, 3> off{};
     for (std::size_t i = 0; i < kUnits.size(); ++i)
         off[i] = implausibility(figures, millimetres_per(kUnits[i])) +
-                 (i == 0 ? 0.0 : kInFavourOfMillimetres);
+                 (kUnits[i] == usual ? 0.0 : kInFavourOfUsual);
     const auto best =
         static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin());
     double next = std::numeric_limits<double>::infinity();

@@ -26,6 +26,8 @@ struct UnitGuess {
 /// The unit in which the coordinates describe a vessel: compares the typical radius (twice the
 /// volume over the area; r for a tube) and the extent with those of vessels.
 /// \param surface in the file's unit, not empty
-[[nodiscard]] UnitGuess guess_length_unit(const Surface& surface);
+/// \param usual of such files: others need a better reason
+[[nodiscard]] UnitGuess guess_length_unit(const Surface& surface,
+                                          LengthUnit usual = LengthUnit::Millimetre);
 
 }  // namespace vesselbench

@@ -20,8 +20,12 @@ struct RawSurface {
     std::map<int, std::string> part_names;  ///< by part id; some parts may have none
     std::map<std::string, std::vector<double>> attributes;  ///< each #V
     std::optional<LengthUnit> unit;                         ///< if the file states it
+    std::optional<LengthUnit> usual_unit;                   ///< of the program that wrote the file
     std::vector<std::string> notes;                         ///< ignored data, for the report
 };
+
+/// Numbers of a model's faces, which SimVascular writes; its models are usually in cm.
+inline constexpr const char* kSimVascularFaces = "ModelFaceID";
 
 /// The unit after "UNITS=" in a header or comment, if it is a known one.
 [[nodiscard]] std::optional<LengthUnit> stated_unit(std::string_view text);

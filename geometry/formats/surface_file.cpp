@@ -37,6 +37,7 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
     SurfaceFile file;
     file.notes = raw.notes;
     const std::optional<LengthUnit> stated = raw.unit;
+    const LengthUnit usual = raw.usual_unit.value_or(LengthUnit::Millimetre);
     file.surface = surface_from(std::move(raw), file.notes);
     if (unit) {
         file.unit = *unit;
@@ -45,7 +46,7 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
         file.unit = *stated;
         file.unit_reason = "stated in the file";
     } else {
-        const UnitGuess guess = guess_length_unit(file.surface);
+        const UnitGuess guess = guess_length_unit(file.surface, usual);
         file.unit = guess.unit;
         file.unit_reason = guess.reason;
         file.unit_certain = guess.certain;

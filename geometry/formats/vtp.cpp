@@ -41,7 +41,7 @@ RawSurface points_of(vtkPolyData* data, const std::string& file) {
 
 /// The cell array that defines parts; none if the file has no known one.
 vtkDataArray* part_array(vtkPolyData* data) {
-    for (const char* name : {"CellEntityIds", "ModelFaceID"})
+    for (const char* name : {"CellEntityIds", kSimVascularFaces})
         if (vtkDataArray* found = data->GetCellData()->GetArray(name))
             if (found->GetNumberOfComponents() == 1 &&
                 found->GetNumberOfTuples() == data->GetNumberOfCells())
@@ -152,6 +152,8 @@ RawSurface raw_from(vtkPolyData* data, const std::string& file) {
     reader.strips(data->GetStrips(), polygons + data->GetNumberOfPolys());
     if (polygons > 0)
         raw.notes.push_back(std::to_string(polygons) + " lines or isolated points were ignored");
+    if (data->GetCellData()->HasArray(kSimVascularFaces) != 0)
+        raw.usual_unit = LengthUnit::Centimetre;
     read_names(data, raw);
     read_attributes(data, raw);
     return raw;

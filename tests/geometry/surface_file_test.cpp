@@ -205,11 +205,36 @@ SCENARIO("Units are guessed from what a vessel can be, stated or given", "[geome
     CHECK(guess(1.0).unit == LengthUnit::Millimetre);
     CHECK(guess(0.1).unit == LengthUnit::Centimetre);
     CHECK(guess(0.001).unit == LengthUnit::Metre);
+    // A pulmonary trunk in cm is nearly as plausible as a thin artery in mm.
+    const Surface trunk = open_tube(1.0, 12.0, 24, 40);
+    CHECK(guess_length_unit(trunk).unit == LengthUnit::Millimetre);
+    CHECK(guess_length_unit(trunk, LengthUnit::Centimetre).unit == LengthUnit::Centimetre);
     const std::string folder = temporary_folder();
     write_surface(cube(3.0), folder + "/c.vtp");
     CHECK(volume(read_surface(folder + "/c.vtp").surface) == Approx(27.0));
     CHECK(volume(read_surface(folder + "/c.vtp", LengthUnit::Centimetre).surface) ==
           Approx(27000.0));
+}
+
+SCENARIO("A surface with SimVascular's faces is taken to be in cm", "[geometry][io]") {
+    const Surface trunk = open_tube(1.0, 12.0, 24, 40);
+    const auto text = [&](const std::string& array) {
+        std::string file = "# vtk DataFile Version 3.0\nmodel\nASCII\nDATASET POLYDATA\nPOINTS " +
+                           std::to_string(trunk.vertex_count()) + " double\n";
+        for (const Vec3& p : trunk.points())
+            file += std::to_string(p.x()) + " " + std::to_string(p.y()) + " " +
+                    std::to_string(p.z()) + "\n";
+        const std::string count = std::to_string(trunk.triangle_count());
+        file += "POLYGONS " + count + " " + std::to_string(4 * trunk.triangle_count()) + "\n";
+        for (const auto& [a, b, c] : trunk.triangles())
+            file +=
+                "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+        file += "CELL_DATA " + count + "\nSCALARS " + array + " int 1\nLOOKUP_TABLE default\n";
+        for (std::size_t t = 0; t < trunk.triangle_count(); ++t) file += "1\n";
+        return file;
+    };
+    CHECK(read_surface(written("sv.vtk", text("ModelFaceID"))).unit == LengthUnit::Centimetre);
+    CHECK(read_surface(written("other.vtk", text("Region"))).unit == LengthUnit::Millimetre);
 }
 
 SCENARIO("The units of the real surfaces are guessed right", "[geometry][io]") {

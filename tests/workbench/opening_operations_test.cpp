@@ -87,7 +87,8 @@ std::map<std::string, std::size_t> patch_sizes(const Surface& surface) {
 
 SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][openings]") {
     const Surface tube = closed_tube(2.0, 20.0, 48, 60);
-    const Outcome outcome = run("extrude-opening", tube, {});
+    const Outcome outcome = run("extrude-opening", tube, {{"share", 1.0}});
+    CHECK(outcome.warnings.empty());
     THEN("each is three diameters longer, and the report says so") {
         CHECK(is_closed_manifold(*outcome.scene.surface));
         CHECK(enclosed_volume(*outcome.scene.surface) ==
@@ -96,6 +97,17 @@ SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][ope
         CHECK(outcome.report->at("openings")[0]["length_mm"].get<double>() ==
               Approx(12.0).epsilon(3e-3));
         check_replay("extrude-opening", tube, outcome);
+    }
+    THEN("by default they are no longer than a share of a short tube, which is said") {
+        const Outcome limited = run("extrude-opening", tube, {});
+        const double extent = bounds(tube).diagonal();
+        CHECK(limited.report->at("openings")[0]["length_mm"].get<double>() ==
+              Approx(0.3 * extent).epsilon(1e-6));
+        REQUIRE(limited.warnings.size() == 1);
+        CHECK_THAT(limited.warnings[0], Catch::Contains("share="));
+        const Outcome given = run("extrude-opening", tube, {{"length", 12.0}});
+        CHECK(given.warnings.empty());
+        CHECK(given.report->at("openings")[0]["length_mm"].get<double>() == Approx(12.0));
     }
     THEN("an unknown opening and a surface without openings are refused") {
         CHECK_THROWS_WITH(run("extrude-opening", tube, {{"opening", "outlet_9"}}),

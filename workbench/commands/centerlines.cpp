@@ -85,6 +85,8 @@ void find_centerlines(const CenterlineOptions& options, const Progress& progress
         std::cout << graph_json(graph).dump(2) << "\n";
     else
         print_table(graph);
+    if (!options.json && options.units.empty())
+        std::cout << "The file was read in mm (--units cm or m reads it otherwise).\n";
 }
 
 }  // namespace vesselbench

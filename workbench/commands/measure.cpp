@@ -34,7 +34,7 @@ void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& pr
     }
 }
 
-void print_table(const Json& document) {
+void print_table(const Json& document, const std::string& units) {
     std::vector<std::vector<std::string>> rows;
     add_rows(rows, "", document);
     rows.push_back({"bounds", numbers(document["bounds"])});
@@ -45,7 +45,9 @@ void print_table(const Json& document) {
         rows.push_back({patch["name"], patch["kind"], numbers({patch["area"]}),
                         numbers({patch["diameter"]}), numbers({patch["flatness"]}),
                         numbers(patch["centroid"]), numbers(patch["normal"])});
-    std::cout << as_columns(rows) << "\nLengths in mm, areas in mm2, volumes in mm3.\n";
+    std::cout << as_columns(rows)
+              << "\nLengths in mm, areas in mm2, volumes in mm3; the file was read in "
+              << (units.empty() ? "mm (--units cm or m reads it otherwise)" : units) << ".\n";
 }
 
 }  // namespace
@@ -59,7 +61,7 @@ void measure_surface(const MeasureOptions& options) {
     if (options.json)
         std::cout << document.dump(2) << "\n";
     else
-        print_table(document);
+        print_table(document, options.units);
 }
 
 }  // namespace vesselbench

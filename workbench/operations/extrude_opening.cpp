@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/extrude.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/operations/table.h"
@@ -42,6 +45,11 @@ std::vector<std::string> chosen_openings(const Surface& surface, const Arguments
     return names;
 }
 
+/// The usual length in diameters would make the tubes of a wide vessel the larger part of a model.
+double usual_length(const Arguments& arguments, double diameter, double extent) {
+    return std::min(arguments.real("diameters") * diameter, arguments.real("share") * extent);
+}
+
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Surface surface = surface_of(scene);
     const auto names = chosen_openings(surface, arguments);
@@ -51,8 +59,10 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         throw UsageError("extrude-opening: lengths needs one number for each opening");
     Outcome outcome;
     outcome.resolved = arguments;
+    const double extent = bounds(surface).diagonal();
     std::vector<double> lengths;
     std::string list;
+    std::vector<std::string> limited;
     ordered_json report = ordered_json::array();
     for (std::size_t i = 0; i < names.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(names.size()), names[i]);
@@ -60,10 +70,12 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         const double diameter = patch_shape(surface, patch).diameter();
         ExtrusionParameters parameters{
             .length = arguments.has("length") ? arguments.real("length")
-                                              : arguments.real("diameters") * diameter,
+                                              : usual_length(arguments, diameter, extent),
             .profile = arguments.text("profile") == "keep" ? ExtrusionProfile::Keep
                                                            : ExtrusionProfile::Circle,
             .blend = arguments.real("blend")};
+        if (!arguments.has("length") && parameters.length < arguments.real("diameters") * diameter)
+            limited.push_back(names[i]);
         if (!stored.empty()) parameters.length = stored[i];
         parameters.may_shorten = stored.empty();
         const Extrusion made = extrude_opening(surface, patch, parameters);
@@ -81,6 +93,12 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
                           {"diameter_mm", diameter},
                           {"shortened", made.shortened}});
     }
+    if (!limited.empty() && stored.empty())
+        outcome.warnings.push_back(
+            joined(limited) + (limited.size() > 1 ? ": the extrusions are" : ": the extrusion is") +
+            formatted(arguments.real("diameters"), " shorter than %g diameters, ") +
+            formatted(arguments.real("share"), "limited to %g of the model's extent; ") +
+            "length= or share= makes them longer");
     outcome.resolved.set("opening", list);
     outcome.resolved.set("lengths", lengths);
     outcome.report = std::make_shared<ordered_json>(ordered_json{{"openings", report}});
@@ -108,9 +126,16 @@ Operation extrude_opening_operation() {
                   .minimum = 0.0,
                   .maximum = 100.0,
                   .above_minimum = true},
+                 {.name = "share",
+                  .unit = "-",
+                  .default_value = 0.3,
+                  .help = "limit of diameters: of the diagonal of the surface's bounding box",
+                  .minimum = 0.0,
+                  .maximum = 100.0,
+                  .above_minimum = true},
                  {.name = "length",
                   .unit = "mm",
-                  .help = "length; default: diameters",
+                  .help = "length, whatever the diameters; default: by diameters",
                   .minimum = 0.0,
                   .above_minimum = true},
                  {.name = "profile",
