@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -47,6 +48,16 @@ SCENARIO("The figures of a change", "[session][surface_change]") {
             surface_change(scene_of(left), scene_of(make_surface(points, half)));
         CHECK(clean.largest_deviation.value() == Approx(5.0));
         CHECK(clean.mean_deviation.value() > 0.5);
+    }
+    GIVEN("triangles that run either way, which enclose no volume") {
+        std::vector<Triangle> turned(sphere.surface->triangles().begin(),
+                                     sphere.surface->triangles().end());
+        for (std::size_t t = 0; t < turned.size(); t += 3) std::swap(turned[t][0], turned[t][1]);
+        const Scene mixed = scene_of(make_surface(Positions(sphere.surface->points()), turned));
+        const SurfaceChange change = surface_change(mixed, sphere);
+        CHECK_FALSE(change.volume_before);
+        CHECK(change.volume_after.value() == Approx(volume(*sphere.surface)));
+        CHECK_FALSE(volume_change(change));
     }
     GIVEN("nothing before or nothing after") {
         const SurfaceChange made = surface_change({}, sphere);

@@ -39,8 +39,22 @@ ordered_json openings_json(const std::vector<KeptOpening>& openings) {
     return list;
 }
 
+/// What was found, in one line.
+std::string headline_of(const RepairReport& report) {
+    std::vector<std::string> parts;
+    const auto add = [&](std::size_t count, const char* noun, const char* verb) {
+        if (count > 0) parts.push_back(counted(count, noun) + " " + verb);
+    };
+    add(report.turned_triangles, "triangle", "turned");
+    add(report.removed_components, "stray part", "removed");
+    add(report.self_intersections, "self-intersection", "removed");
+    add(report.closed_holes, "hole", "closed");
+    return joined(parts);
+}
+
 ordered_json report_json(const RepairReport& report) {
-    return {{"changed", report.changed()},
+    return {{"headline", headline_of(report)},
+            {"changed", report.changed()},
             {"welded_vertices", report.welded_vertices},
             {"unused_vertices", report.unused_vertices},
             {"degenerate_triangles", report.degenerate_triangles},

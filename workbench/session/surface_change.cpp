@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/kernel/content_key.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 
@@ -124,6 +125,10 @@ SurfaceChange surface_change(const Scene& before, const Scene& after, const Prog
     const bool same_shape = had && before.surface->positions == after.surface->positions &&
                             before.surface->topology == after.surface->topology;
     change.volume_after = same_shape ? change.volume_before : volume(*after.surface);
+    // Triangles that run either way enclose no volume: any number would come out.
+    const bool rebuilt = had && before.surface->topology != after.surface->topology;
+    if (rebuilt && !manifold_defects(*before.surface->topology).inconsistent_edges.empty())
+        change.volume_before.reset();
     if (had) add_deviations(*before.surface, *after.surface, change, progress);
     return change;
 }

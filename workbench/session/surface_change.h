@@ -13,7 +13,8 @@ namespace vesselbench {
 /// measured from each vertex to its old place, with their mean over the vertices that moved. Else
 /// they are measured from the vertices of either surface to the other surface, with their mean over
 /// all vertices of both; of more than 50,000 that coincide with no vertex of the other, every n-th
-/// is measured.
+/// is measured. The volume before is unknown if its triangles do not all run the same way round and
+/// others replace them.
 /// \throw Cancelled
 [[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
                                            const Progress& progress = {});
