@@ -5,6 +5,7 @@
 #include <set>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -77,16 +78,17 @@ std::string note_of(const std::vector<Part>& parts, bool named) {
 }
 
 /// Patch table: wall, inlets, outlets, cuts, each in the order of the part numbers.
-Surface with_parts(const Surface& surface, const RawSurface& raw, std::vector<Part> parts) {
+Surface with_parts(const Surface& surface, const RawSurface& raw, std::vector<Part> parts,
+                   PlainNames& names) {
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part& a, const Part& b) { return a.kind < b.kind; });
-    std::vector<Patch> table = {{"wall", PatchKind::Wall}};
+    std::vector<Patch> table = {{names.add("wall"), PatchKind::Wall}};
     std::map<int, std::uint16_t> label;
     for (const Part& part : parts) {
         label[part.id] = 0;
         if (part.kind == PatchKind::Wall) continue;
         label[part.id] = static_cast<std::uint16_t>(table.size());
-        table.push_back({part.name, part.kind});
+        table.push_back({names.add(part.name), part.kind});
     }
     PatchLabels labels;
     labels.reserve(raw.part_ids.size());
@@ -104,10 +106,21 @@ std::optional<PatchKind> kind_of_name(const std::string& name) {
     return std::nullopt;
 }
 
+namespace {
+
+void take_attributes(Surface& surface, RawSurface& raw, std::vector<std::string>& notes) {
+    PlainNames names;
+    for (auto& [name, values] : raw.attributes)
+        surface.attributes[names.add(name)] =
+            std::make_shared<const std::vector<double>>(std::move(values));
+    if (!names.note().empty()) notes.push_back("attributes: " + names.note());
+}
+
+}  // namespace
+
 Surface surface_from(RawSurface raw, std::vector<std::string>& notes) {
     Surface surface = make_surface(std::move(raw.positions), std::move(raw.triangles));
-    for (auto& [name, values] : raw.attributes)
-        surface.attributes[name] = std::make_shared<const std::vector<double>>(std::move(values));
+    take_attributes(surface, raw, notes);
     constexpr std::size_t kMostParts = 1000;
     if (raw.part_ids.size() != surface.triangle_count()) return surface;
     std::vector<Part> parts = parts_of(raw);
@@ -118,7 +131,10 @@ Surface surface_from(RawSurface raw, std::vector<std::string>& notes) {
     else
         classify_by_shape(parts, measures_of(surface, raw, parts));
     notes.push_back(note_of(parts, named));
-    return with_parts(surface, raw, std::move(parts));
+    PlainNames names;
+    Surface patched = with_parts(surface, raw, std::move(parts), names);
+    if (!names.note().empty()) notes.push_back("openings: " + names.note());
+    return patched;
 }
 
 }  // namespace vesselbench

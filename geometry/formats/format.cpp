@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "geometry/kernel/regular_file.h"
+
 namespace vesselbench {
 
 namespace {
@@ -34,6 +36,7 @@ bool is_named_for_writing(const Format& format, const std::string& path) {
 
 bool content_fits(const Format& format, const std::string& path) {
     if (!format.sniff) return true;
+    refuse_special_file(path);
     std::ifstream in(path, std::ios::binary);
     std::string head(kSniffedBytes, '\0');
     in.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -5,6 +5,7 @@
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/image_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 
@@ -18,6 +19,7 @@ std::string image_formats_text() {
 ImageFile read_image_file(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) throw IoError(bare_name(path) + ": no such file");
+    refuse_special_file(path);
     const ImageFormat* format = row_that_reads(image_formats(), path);
     if (!format)
         bad_file(bare_name(path), "its image format is unknown", "give " + image_formats_text());

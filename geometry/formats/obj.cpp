@@ -2,6 +2,7 @@
 
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -81,6 +82,7 @@ RawSurface read_obj(const std::string& path) {
 }
 
 void write_obj(const Surface& surface, const std::string& path) {
+    require_plain_names(surface.patches);
     std::string text = "# surface of vesselbench UNITS=mm\n";
     for (const Vec3& p : surface.points()) text += "v " + numbers_text(p) + "\n";
     for (std::size_t label = 0; label < surface.patches.size(); ++label) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -227,8 +228,10 @@ public:
         raw_.unit = header_.unit;
         raw_.part_names = header_.part_names;
         for (const Element& element : header_.elements) {
+            if (element.properties.empty() && element.count > 0)
+                body_.fail("the '" + element.name + "' elements have no properties");
             // Every element takes at least one byte: a larger count means a damaged header.
-            if (!element.properties.empty() && element.count > body_.bytes_left())
+            if (element.count > body_.bytes_left())
                 body_.fail("the header announces " + std::to_string(element.count) + " '" +
                            element.name +
                            "' elements, more than the file can hold: it is truncated or damaged");
@@ -340,6 +343,8 @@ RawSurface read_ply(const std::string& path) {
 }
 
 void write_ply(const Surface& surface, const std::string& path) {
+    require_plain_names(surface.patches);
+    for (const auto& [name, values] : surface.attributes) require_plain_name(name, "an attribute");
     std::string bytes = "ply\nformat binary_little_endian 1.0\n";
     bytes += "comment surface of vesselbench UNITS=mm\n";
     for (std::size_t i = 0; i < surface.patches.size(); ++i)

@@ -3,6 +3,7 @@
 #include "geometry/formats/file_parts.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 
@@ -25,6 +26,7 @@ bool holds_surface(const std::string& path) {
 }
 
 SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit) {
+    refuse_special_file(path);
     const SurfaceFormat* format = row_that_reads(surface_formats(), path);
     if (!format)
         throw InvalidInput(bare_name(path) + ": surfaces are read from " +

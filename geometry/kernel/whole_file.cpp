@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/regular_file.h"
 
 namespace vesselbench {
 
@@ -17,6 +18,7 @@ std::string bare_name(const fs::path& path) {
 std::string file_content(const fs::path& path) {
     std::error_code error;
     if (fs::is_directory(path, error)) throw IoError(bare_name(path) + " is a folder, not a file");
+    refuse_special_file(path);
     std::ifstream file(path, std::ios::binary);
     if (!file)
         throw IoError("cannot open " + bare_name(path) + ": check that it exists and is readable");

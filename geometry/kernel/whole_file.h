@@ -12,7 +12,7 @@ namespace vesselbench {
 [[nodiscard]] std::string bare_name(const std::filesystem::path& path);
 
 /// All bytes of a file.
-/// \throw IoError if it is missing, a folder, or cannot be read to its end
+/// \throw IoError if it is missing, a folder, a device or pipe, or cannot be read to its end
 [[nodiscard]] std::string file_content(const std::filesystem::path& path);
 
 /// Writes a file completely or not at all (PendingFiles, for one file).

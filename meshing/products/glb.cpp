@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "meshing/products/text_buffer.h"
 
@@ -140,6 +141,7 @@ private:
 
 void write_glb(const Surface& surface, const std::string& path) {
     if (surface.empty()) throw InvalidInput("GLB: the surface has no triangles");
+    require_plain_names(surface.patches);
     write_file(path, GlbBuilder(surface).bytes());
 }
 

@@ -1,6 +1,7 @@
 #include "meshing/products/gmsh.h"
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "meshing/products/text_buffer.h"
 
@@ -50,6 +51,7 @@ void put_elements(TextBuffer& out, const VolumeMesh& mesh) {
 
 void write_msh(const VolumeMesh& mesh, const std::string& path) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("MSH: the volume mesh has no cells");
+    require_plain_names(mesh.patches);
     TextBuffer out;
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     put_names(out, mesh);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "meshing/products/inflow.h"
 #include "meshing/products/openfoam_mesh.h"
@@ -341,6 +342,7 @@ void write_script(const fs::path& path, bool parallel) {
 
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters) {
+    require_plain_names(mesh.patches);
     (void)flow_summary(boundary_surface(mesh), parameters);  // throws if either is wrong
     CaseWriter writer{mesh, parameters, mesh_faces(mesh), {}};
     writer.patches = foam_patches(mesh, writer.faces);

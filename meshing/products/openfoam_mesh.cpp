@@ -68,6 +68,13 @@ void write_boundary(const std::filesystem::path& folder, const std::vector<FoamP
     write_file(folder / "boundary", out.text());
 }
 
+/// OpenFOAM reads a word that begins with a digit, '-' or '.' as a number.
+std::string foam_word(const std::string& name) {
+    const char first = name.front();
+    const bool letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+    return letter || first == '_' ? name : "patch_" + name;
+}
+
 }  // namespace
 
 std::string foam_header(const std::string& kind, const std::string& location,
@@ -85,7 +92,8 @@ std::vector<FoamPatch> foam_patches(const VolumeMesh& mesh, const std::vector<Me
         if (faces[f].neighbour != MeshFace::kOutside) continue;
         const std::size_t index = faces[f].patch;
         if (patches.empty() || patches.back().index != index)
-            patches.push_back({mesh.patches[index].name, mesh.patches[index].kind, f, 0, index});
+            patches.push_back(
+                {foam_word(mesh.patches[index].name), mesh.patches[index].kind, f, 0, index});
         ++patches.back().faces;
     }
     return patches;

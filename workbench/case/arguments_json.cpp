@@ -1,8 +1,11 @@
 #include "workbench/case/arguments_json.h"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "workbench/case/point_json.h"
 
 namespace vesselbench {
@@ -25,8 +28,14 @@ struct JsonOf {
     Json operator()(const std::vector<double>& list) const { return list; }
 };
 
+std::string shown(const Json& json) {
+    return shortened(printable(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
 Value plain_value(const std::string& name, const Json& json) {
     if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_unsigned() && !std::in_range<std::int64_t>(json.get<std::uint64_t>()))
+        return json.get<double>();
     if (json.is_number_integer()) return json.get<std::int64_t>();
     if (json.is_number()) return json.get<double>();
     if (json.is_string()) return json.get<std::string>();
@@ -34,13 +43,13 @@ Value plain_value(const std::string& name, const Json& json) {
         std::vector<double> numbers;
         for (const Json& entry : json) {
             if (!entry.is_number())
-                throw UsageError("parameter '" + name + "' = " + json.dump() +
+                throw UsageError("parameter '" + name + "' = " + shown(json) +
                                  " contains something that is not a number");
             numbers.push_back(entry.get<double>());
         }
         return numbers;
     }
-    throw UsageError("parameter '" + name + "' = " + json.dump() +
+    throw UsageError("parameter '" + name + "' = " + shown(json) +
                      " must be a number, a text, true, false or a list of numbers");
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/case/json_fields.h"
 #include "workbench/case/point_json.h"
 
 namespace vesselbench {
@@ -18,10 +19,10 @@ Json or_null(const std::optional<double>& number) {
     return number ? Json(*number) : Json();
 }
 
-std::optional<double> number_in(const Json& json, const char* key) {
-    const auto found = json.find(key);
-    if (found == json.end() || !found->is_number()) return std::nullopt;
-    return found->get<double>();
+std::optional<double> number_in(JsonFields& fields, const char* key) {
+    const Json* number = fields.child(key);
+    if (number == nullptr || !number->is_number()) return std::nullopt;
+    return number->get<double>();
 }
 
 }  // namespace
@@ -101,13 +102,14 @@ Json change_json(const SurfaceChange& change) {
 }
 
 SurfaceChange change_from(const Json& json) {
-    return {.volume_before = number_in(json, "volume_before_mm3"),
-            .volume_after = number_in(json, "volume_after_mm3"),
-            .largest_deviation = number_in(json, "largest_deviation_mm"),
-            .mean_deviation = number_in(json, "mean_deviation_mm"),
-            .triangles_before = json.at("triangles_before").get<std::size_t>(),
-            .triangles_after = json.at("triangles_after").get<std::size_t>(),
-            .moved_vertices = json.at("moved_vertices").get<std::size_t>()};
+    JsonFields fields(json, "change");
+    return {.volume_before = number_in(fields, "volume_before_mm3"),
+            .volume_after = number_in(fields, "volume_after_mm3"),
+            .largest_deviation = number_in(fields, "largest_deviation_mm"),
+            .mean_deviation = number_in(fields, "mean_deviation_mm"),
+            .triangles_before = fields.required<std::size_t>("triangles_before"),
+            .triangles_after = fields.required<std::size_t>("triangles_after"),
+            .moved_vertices = fields.required<std::size_t>("moved_vertices")};
 }
 
 Json volume_quality_json(const VolumeQuality& q) {

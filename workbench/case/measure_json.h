@@ -46,7 +46,7 @@ enum class Keys {
 /// An edit's effect on the surface, units in the keys; null for what was not measured.
 [[nodiscard]] nlohmann::ordered_json change_json(const SurfaceChange& change);
 
-/// Reads it back; what is null or absent was not measured. \throw nlohmann::json::exception if a
+/// Reads it back; what is null or absent was not measured. \throw InvalidInput if a
 /// count is missing
 [[nodiscard]] SurfaceChange change_from(const nlohmann::ordered_json& json);
 

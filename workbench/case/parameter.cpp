@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 
@@ -27,6 +30,35 @@ std::string allowed_range(const Parameter& parameter) {
     return "";
 }
 
+/// The names in a text, as far as they have to follow the grammar of names.
+std::vector<std::string> names_in(const Parameter& parameter, const std::string& text) {
+    if (parameter.meaning == Meaning::Name) return {text};
+    if (parameter.meaning != Meaning::Names && parameter.meaning != Meaning::Openings &&
+        parameter.meaning != Meaning::Patches)
+        return {};
+    std::vector<std::string> names;
+    std::istringstream list(text);
+    for (std::string entry; std::getline(list, entry, ',');)
+        names.push_back(parameter.meaning == Meaning::Patches ? entry.substr(entry.find(':') + 1)
+                                                              : entry);
+    return names;
+}
+
+std::string wanted_text(const Parameter& parameter) {
+    switch (parameter.meaning) {
+        case Meaning::Name:
+            return "a name of " + plain_name_rule();
+        case Meaning::Names:
+        case Meaning::Openings:
+            return "names of " + plain_name_rule() + ", separated by commas";
+        case Meaning::Patches:
+            return "kind:name of each opening, separated by commas, the names of " +
+                   plain_name_rule();
+        default:
+            return "a text";
+    }
+}
+
 std::string wanted(const Parameter& parameter) {
     const std::string range = allowed_range(parameter);
     const std::string in_range = range.empty() ? "" : " (" + range + ")";
@@ -44,7 +76,7 @@ std::string wanted(const Parameter& parameter) {
         case ParameterType::List:
             return "numbers separated by commas" + in_range;
         case ParameterType::Text:
-            return "a text";
+            return wanted_text(parameter);
         case ParameterType::File:
             return "a file name";
     }
@@ -55,7 +87,7 @@ std::string wanted(const Parameter& parameter) {
     const std::string near = parameter.type == ParameterType::Choice
                                  ? did_you_mean(text, parameter.choices)
                                  : std::string();
-    throw UsageError("parameter '" + parameter.name + "' = '" + text +
+    throw UsageError("parameter '" + parameter.name + "' = '" + shortened(printable(text)) +
                      "' is not allowed: it must be " + wanted(parameter) + near);
 }
 
@@ -146,6 +178,8 @@ std::optional<Value> in_type(const Parameter& parameter, const Value& value) {
 bool in_range(const Parameter& parameter, const Value& value) {
     if (parameter.type == ParameterType::Choice)
         return std::ranges::count(parameter.choices, std::get<std::string>(value)) > 0;
+    if (const auto* text = std::get_if<std::string>(&value))
+        return std::ranges::all_of(names_in(parameter, *text), is_plain_name);
     return std::ranges::all_of(numbers_of(value), [&](double number) {
         return std::isfinite(number) && number <= parameter.maximum &&
                (parameter.above_minimum ? number > parameter.minimum : number >= parameter.minimum);

@@ -21,7 +21,10 @@ enum class Meaning {
     Seed,      ///< point in the image
     Box,       ///< opposite corners
     Labels,    ///< of a label image
+    Name,      ///< of an opening, attribute or neighbour (geometry/kernel/plain_name.h)
+    Names,     ///< several, separated by commas
     Openings,  ///< names of openings, separated by commas
+    Patches,   ///< kind:name of openings, separated by commas
     Planes,    ///< openings as planes
     Dabs       ///< of a brush
 };
@@ -55,7 +58,7 @@ struct Parameter {
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
 /// point, a text is parsed.
 /// \throw UsageError that names the parameter, the value and what is allowed, if the value is of
-/// another type or out of range
+/// another type or out of range, or contains a name outside the grammar of names
 [[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value);
 
 }  // namespace vesselbench

@@ -262,7 +262,8 @@ Operation brush_weight_operation() {
         {.name = "attribute",
          .type = ParameterType::Text,
          .default_value = "painted_weight",
-         .help = "name of the vertex attribute to paint; created if absent"});
+         .help = "name of the vertex attribute to paint; created if absent",
+         .meaning = Meaning::Name});
     operation.start = &live_weight;
     return operation;
 }

@@ -29,7 +29,6 @@ Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress)
     if (arguments.has("file") == arguments.has("labels"))
         throw UsageError("load-neighbour: give either file= or labels=");
     const std::string& name = arguments.text("name");
-    if (name.empty()) throw UsageError("load-neighbour: name must not be empty");
     Outcome outcome{.scene = scene, .resolved = arguments};
     Surface neighbour = arguments.has("file") ? read_surface_argument(arguments, outcome).surface
                                               : surface_of_labels(scene, arguments, progress);
@@ -54,7 +53,8 @@ Operation load_neighbour_operation() {
             .parameters = {{.name = "name",
                             .type = Text,
                             .help = "its name; a second one of the same name replaces the first",
-                            .required = true},
+                            .required = true,
+                            .meaning = Meaning::Name},
                            {.name = "file", .type = File, .help = "a surface file"},
                            {.name = "labels",
                             .type = List,

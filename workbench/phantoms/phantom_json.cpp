@@ -1,13 +1,14 @@
 #include "workbench/phantoms/phantom_json.h"
 
-#include <algorithm>
-#include <utility>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/near_names.h"
 #include "workbench/phantoms/builtin.h"
 
@@ -15,63 +16,35 @@ namespace vesselbench {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-/// An object of the description that knows its place in it, for error texts, and rejects unknown
-/// keys.
-class Node {
-public:
-    Node(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
-        if (!json_.is_object()) throw InvalidInput(place_ + " must be an object");
-    }
+void read_vector(JsonFields& node, const char* key, Vec3& value) {
+    if (const auto numbers = node.optional<std::array<double, 3>>(key))
+        value = Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+}
 
-    template <class T>
-    void read(const char* key, T& value) {
-        known_.emplace_back(key);
-        if (!json_.contains(key)) return;
-        try {
-            value = json_.at(key).get<T>();
-        } catch (const Json::exception&) {
-            throw InvalidInput(place_ + "." + key + " has the wrong type: " + json_.at(key).dump());
-        }
-    }
+/// Three numbers, or one for all.
+void read_along_axes(JsonFields& node, const char* key, Vec3& value) {
+    const Json* field = node.child(key);
+    if (field != nullptr && field->is_number())
+        value = Vec3::Constant(json_value<double>(*field, node.place_of(key)));
+    else
+        read_vector(node, key, value);
+}
 
-    void read_vector(const char* key, Vec3& value) {
-        std::vector<double> numbers = {value.x(), value.y(), value.z()};
-        read(key, numbers);
-        if (numbers.size() != 3) throw InvalidInput(place_ + "." + key + " needs three numbers");
-        value = Vec3(numbers[0], numbers[1], numbers[2]);
-    }
-
-    /// Three numbers, or one for all.
-    void read_along_axes(const char* key, Vec3& value) {
-        if (!json_.contains(key) || !json_.at(key).is_number()) return read_vector(key, value);
-        double number = 0.0;
-        read(key, number);
-        value = Vec3::Constant(number);
-    }
-
-    [[nodiscard]] const Json* child(const char* key) {
-        known_.emplace_back(key);
-        return json_.contains(key) ? &json_.at(key) : nullptr;
-    }
-
-    void refuse_unknown_keys() const {
-        for (const auto& item : json_.items())
-            if (std::find(known_.begin(), known_.end(), item.key()) == known_.end())
-                throw InvalidInput(place_ + " has an unknown key '" + item.key() + "'");
-    }
-
-    [[nodiscard]] const std::string& place() const { return place_; }
-
-private:
-    const Json& json_;
-    std::string place_;
-    std::vector<std::string> known_;
-};
+/// Calls read(item, place) for each item of a list; nothing if there is none.
+template <class Read>
+void for_each_item(JsonFields& node, const char* key, Read read) {
+    const Json* list = node.child(key);
+    if (list == nullptr) return;
+    const std::string place = node.place_of(key);
+    if (!list->is_array()) refuse_json(*list, place, "a list");
+    for (std::size_t i = 0; i < list->size(); ++i)
+        read((*list)[i], place + "[" + std::to_string(i) + "]");
+}
 
 VesselShape vessel_from(const Json& json, const std::string& place) {
-    Node node(json, place);
+    JsonFields node(json, place);
     VesselShape vessel;
     std::vector<std::array<double, 4>> knots;
     node.read("points", knots);
@@ -85,28 +58,28 @@ VesselShape vessel_from(const Json& json, const std::string& place) {
 }
 
 SphereShape sphere_from(const Json& json, const std::string& place) {
-    Node node(json, place);
+    JsonFields node(json, place);
     SphereShape sphere;
-    node.read_vector("centre", sphere.centre);
+    read_vector(node, "centre", sphere.centre);
     node.read("radius", sphere.radius);
     node.refuse_unknown_keys();
     return sphere;
 }
 
 BoxShape box_from(const Json& json, const std::string& place) {
-    Node node(json, place);
+    JsonFields node(json, place);
     BoxShape box;
-    node.read_vector("centre", box.centre);
-    node.read_vector("half_size", box.half_size);
+    read_vector(node, "centre", box.centre);
+    read_vector(node, "half_size", box.half_size);
     node.refuse_unknown_keys();
     return box;
 }
 
 TorusShape torus_from(const Json& json, const std::string& place) {
-    Node node(json, place);
+    JsonFields node(json, place);
     TorusShape torus;
-    node.read_vector("centre", torus.centre);
-    node.read_vector("axis", torus.axis);
+    read_vector(node, "centre", torus.centre);
+    read_vector(node, "axis", torus.axis);
     node.read("ring_radius", torus.ring_radius);
     node.read("tube_radius", torus.tube_radius);
     node.refuse_unknown_keys();
@@ -114,7 +87,7 @@ TorusShape torus_from(const Json& json, const std::string& place) {
 }
 
 PhantomPart part_from(const Json& json, const std::string& place) {
-    Node node(json, place);
+    JsonFields node(json, place);
     PhantomPart part;
     node.read("name", part.name);
     node.read("blend", part.blend);
@@ -134,50 +107,58 @@ PhantomPart part_from(const Json& json, const std::string& place) {
     return part;
 }
 
-std::vector<PhantomPart> parts_from(const Json* json, const std::string& place) {
+std::vector<PhantomPart> parts_from(JsonFields& node, const char* key) {
     std::vector<PhantomPart> parts;
-    if (json == nullptr) return parts;
-    for (const Json& part : *json)
-        parts.push_back(part_from(part, place + "[" + std::to_string(parts.size()) + "]"));
+    for_each_item(node, key, [&](const Json& part, const std::string& place) {
+        parts.push_back(part_from(part, place));
+    });
     return parts;
 }
 
-PhantomImaging imaging_from(const Json& json) {
-    Node node(json, "imaging");
+Deletion deletion_from(const Json& json, const std::string& place) {
+    JsonFields node(json, place);
+    Deletion deletion;
+    node.read("from", deletion.from);
+    node.read("to", deletion.to);
+    node.refuse_unknown_keys();
+    return deletion;
+}
+
+KeptApart kept_apart_from(const Json& json, const std::string& place) {
+    JsonFields node(json, place);
+    KeptApart pair;
+    node.read("first", pair.first);
+    node.read("second", pair.second);
+    node.read("gap", pair.gap);
+    node.refuse_unknown_keys();
+    return pair;
+}
+
+PhantomImaging imaging_from(const Json& json, const std::string& place) {
+    JsonFields node(json, place);
     PhantomImaging imaging;
-    node.read_vector("spacing", imaging.spacing);
-    if (const Json* size = node.child("size")) imaging.size = size->get<std::array<int, 3>>();
+    read_vector(node, "spacing", imaging.spacing);
+    imaging.size = node.optional<std::array<int, 3>>("size");
     node.read("margin", imaging.margin);
     node.read("inside", imaging.inside);
     node.read("outside", imaging.outside);
-    node.read_along_axes("blur", imaging.blur);
+    read_along_axes(node, "blur", imaging.blur);
     node.read("noise", imaging.noise);
     node.read("inhomogeneity", imaging.inhomogeneity);
     node.read("mask_slice_step", imaging.mask_slice_step);
     node.read("mask_jitter", imaging.mask_jitter);
-    if (const Json* list = node.child("deletions"))
-        for (const Json& item : *list) {
-            Node deletion(item, "imaging.deletions");
-            Deletion& added = imaging.deletions.emplace_back();
-            deletion.read("from", added.from);
-            deletion.read("to", added.to);
-            deletion.refuse_unknown_keys();
-        }
-    if (const Json* list = node.child("kept_apart"))
-        for (const Json& item : *list) {
-            Node pair(item, "imaging.kept_apart");
-            KeptApart& added = imaging.kept_apart.emplace_back();
-            pair.read("first", added.first);
-            pair.read("second", added.second);
-            pair.read("gap", added.gap);
-            pair.refuse_unknown_keys();
-        }
+    for_each_item(node, "deletions", [&](const Json& item, const std::string& at) {
+        imaging.deletions.push_back(deletion_from(item, at));
+    });
+    for_each_item(node, "kept_apart", [&](const Json& item, const std::string& at) {
+        imaging.kept_apart.push_back(kept_apart_from(item, at));
+    });
     node.refuse_unknown_keys();
     return imaging;
 }
 
 PhantomDescription description_from(const Json& json) {
-    Node node(json, "phantom");
+    JsonFields node(json, "phantom");
     PhantomDescription description;
     std::string about;
     node.read("name", description.name);
@@ -185,22 +166,21 @@ PhantomDescription description_from(const Json& json) {
     node.read("seed", description.seed);
     node.read("surface_edge", description.surface_edge);
     node.read("surface_noise", description.surface_noise);
-    description.parts = parts_from(node.child("parts"), "parts");
-    description.neighbours = parts_from(node.child("neighbours"), "neighbours");
-    if (const Json* imaging = node.child("imaging")) description.imaging = imaging_from(*imaging);
+    description.parts = parts_from(node, "parts");
+    description.neighbours = parts_from(node, "neighbours");
+    if (const Json* imaging = node.child("imaging"))
+        description.imaging = imaging_from(*imaging, node.place_of("imaging"));
     node.refuse_unknown_keys();
+    if (!description.name.empty()) require_plain_name(description.name, "the phantom");
+    for (const PhantomPart& part : description.neighbours)  // files are called after both
+        if (!part.name.empty()) require_plain_name(part.name, "a neighbour of the phantom");
     return description;
 }
 
 }  // namespace
 
 PhantomDescription phantom_from_json(const std::string& text) {
-    try {
-        return description_from(Json::parse(text));
-    } catch (const Json::exception& error) {
-        throw InvalidInput(std::string("the phantom's description cannot be used: ") +
-                           error.what());
-    }
+    return description_from(json_from_text(text, "the phantom's description"));
 }
 
 std::vector<std::string> phantom_names() {
@@ -210,7 +190,7 @@ std::vector<std::string> phantom_names() {
 }
 
 PhantomDescription phantom_named(const std::string& name) {
-    if (name.ends_with(".json")) return phantom_from_json(file_content(name));
+    if (name.ends_with(".json")) return description_from(json_from_file(name));
     return builtin_phantom(name);
 }
 

@@ -6,8 +6,11 @@
 #include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/phantoms/phantom.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
@@ -51,9 +54,7 @@ fs::path plain_path(const std::string& text) {
     return path.has_filename() ? path : path.parent_path();  // "cases/aneurysm/"
 }
 
-void make_phantom_files(Input& input, const Json& json, const Progress& progress) {
-    PhantomDescription description = builtin_phantom(json["phantom"].get<std::string>());
-    description.seed = json.value("seed", description.seed);
+void make_phantom_files(Input& input, PhantomDescription description, const Progress& progress) {
     const Phantom phantom = make_phantom(description, progress);
     const auto folder = std::make_shared<TemporaryFolder>();
     input.keep = folder;
@@ -65,39 +66,57 @@ void make_phantom_files(Input& input, const Json& json, const Progress& progress
     input.exact = phantom.exact;
 }
 
-fs::path case_file(const fs::path& folder, const Json& json, const char* key) {
-    const fs::path file = folder / json[key].get<std::string>();
+/// The file that case.json names; empty if it has no such key.
+fs::path case_file(const fs::path& folder, JsonFields& fields, const char* key) {
+    const auto name = fields.optional<std::string>(key);
+    if (!name) return {};
+    const fs::path file = folder / *name;
     if (!fs::exists(file))
-        throw IoError("case '" + folder.filename().string() + "': its " + key + " '" +
-                      file.filename().string() + "' does not exist");
+        throw IoError("its " + std::string(key) + " '" + file.filename().string() +
+                      "' does not exist");
     return file;
+}
+
+void check_recipes(const Json& recipes) {
+    if (!recipes.is_array() && !recipes.is_object())
+        refuse_json(recipes, "case.json.recipe",
+                    "a list of operations, or an object with such a list for each purpose");
 }
 
 void fill_from_case(Input& input, const fs::path& folder, const Json& json,
                     const Progress& progress) {
-    input.name = json.value("name", input.name);
-    input.units = json.value("units", "");
-    if (json.contains("recipe")) input.recipes = std::make_shared<const Json>(json["recipe"]);
-    if (json.contains("phantom")) return make_phantom_files(input, json, progress);
-    input.is_image = json.contains("image");
-    if (!input.is_image && !json.contains("surface"))
-        throw InvalidInput("case '" + input.name +
-                           "': case.json has no \"image\", \"surface\" or \"phantom\"");
-    input.file = case_file(folder, json, input.is_image ? "image" : "surface");
-    if (json.contains("mask")) input.mask = case_file(folder, json, "mask");
-    if (json.contains("exact"))
-        input.exact = read_foreign_surface(case_file(folder, json, "exact").string(), input.units);
+    JsonFields fields(json, kCaseFile);
+    fields.read("name", input.name);
+    fields.read("units", input.units);
+    if (const Json* recipes = fields.child("recipe")) {
+        check_recipes(*recipes);
+        input.recipes = std::make_shared<const Json>(*recipes);
+    }
+    if (const auto phantom = fields.optional<std::string>("phantom")) {
+        PhantomDescription description = builtin_phantom(*phantom);
+        fields.read("seed", description.seed);
+        return make_phantom_files(input, std::move(description), progress);
+    }
+    const fs::path image = case_file(folder, fields, "image");
+    input.is_image = !image.empty();
+    input.file = input.is_image ? image : case_file(folder, fields, "surface");
+    if (input.file.empty())
+        throw InvalidInput("case.json has no \"image\", \"surface\" or \"phantom\"");
+    input.mask = case_file(folder, fields, "mask");
+    if (const fs::path exact = case_file(folder, fields, "exact"); !exact.empty())
+        input.exact = read_foreign_surface(exact.string(), input.units);
 }
 
 void read_case(Input& input, const fs::path& folder, const Progress& progress) {
+    const std::string place = "case '" + folder.filename().string() + "': ";
     try {
-        const Json json = Json::parse(file_content(folder / kCaseFile));
-        fill_from_case(input, folder, json, progress);
-    } catch (const nlohmann::json::exception& error) {
-        throw InvalidInput("case '" + folder.filename().string() +
-                           "': case.json cannot be used: " + error.what());
+        fill_from_case(input, folder, json_from_file(folder / kCaseFile), progress);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(place + error.what());
     } catch (const UsageError& error) {
-        throw InvalidInput("case '" + folder.filename().string() + "': " + error.what());
+        throw InvalidInput(place + error.what());
+    } catch (const IoError& error) {
+        throw IoError(place + error.what());
     }
 }
 
@@ -108,9 +127,12 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     const fs::path path = plain_path(options.input);
     input.name = path.filename().string();
     if (!fs::exists(path)) throw IoError("'" + input.name + "' does not exist");
+    refuse_special_file(path);
     if (fs::exists(path / kCaseFile)) {
         read_case(input, path, progress);
     } else {
+        // A folder of DICOM slices is often called after the patient.
+        if (fs::is_directory(path)) input.name = "DICOM slices";
         input.is_image = fs::is_directory(path) || !holds_surface(path.string());
         input.file = path;
     }
@@ -132,6 +154,8 @@ RecipeUse recipe_use(const Input& input, const std::string& purpose) {
 Json own_recipe(const Input& input, const std::string& purpose) {
     if (!input.recipes) return nullptr;
     if (input.recipes->is_array()) return *input.recipes;
+    if (!input.recipes->is_object())
+        throw UsageError("the recipes are neither a list nor an object");
     return input.recipes->value(purpose, Json());
 }
 

@@ -5,6 +5,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/apply_recipe.h"
@@ -51,11 +52,10 @@ void keep_earlier_project(const fs::path& project, const Teller& tell) {
 
 Json recipe_json_from(const PrepareOptions& options, const Input& input) {
     if (!options.recipe.empty()) {
-        const std::string name = fs::path(options.recipe).filename().string();
         try {
-            return Json::parse(file_content(options.recipe));
-        } catch (const nlohmann::json::exception& error) {
-            throw UsageError("recipe '" + name + "' is not valid JSON: " + error.what());
+            return json_from_file(options.recipe);
+        } catch (const InvalidInput& error) {
+            throw UsageError(std::string("recipe: ") + error.what());
         }
     }
     return own_recipe(input, options.purpose);

@@ -105,12 +105,18 @@ std::optional<EditId> last_edit(const std::vector<LogEntry>& edits, bool RecipeP
     return last;
 }
 
+/// An object; empty if the edit reported nothing.
+Json report_of(const ResultRecord& result) {
+    Json report = Json::parse(result.report, nullptr, false);
+    return report.is_object() ? report : Json::object();
+}
+
 /// Quality of the volume mesh, as the edit that made it states it; null if none did.
 Json volume_mesh_json(const std::vector<LogEntry>& edits) {
     Json quality;
     for (const LogEntry& entry : edits)
         if (part_of(entry).makes_volume_mesh && entry.result)
-            quality = Json::parse(entry.result->report, nullptr, false)["quality"];
+            quality = report_of(*entry.result).value("quality", Json());
     return quality;
 }
 
@@ -170,7 +176,7 @@ void add_section(PreparedReport& report, const ReportSection& section, const Res
     if (std::ranges::find(report.sections, section.key, &ReportSection::key) ==
         report.sections.end())
         report.sections.push_back(section);
-    report.document[section.key] = Json::parse(result.report, nullptr, false);
+    report.document[section.key] = report_of(result);
 }
 
 void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {

@@ -6,9 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
@@ -33,8 +36,8 @@ std::vector<std::string> use_words() {
 void refuse_unknown_keys(const Json& entry) {
     for (const auto& [key, value] : entry.items())
         if (std::ranges::count(kKeys, key) == 0)
-            throw UsageError("there is no key '" + key + "'" + did_you_mean(key, kKeys) +
-                             " (an entry has " + joined(kKeys) + ")");
+            throw UsageError("there is no key '" + shortened(printable(key)) + "'" +
+                             did_you_mean(key, kKeys) + " (an entry has " + joined(kKeys) + ")");
 }
 
 bool word_holds(const std::string& word, const RecipeUse& use) {
@@ -42,8 +45,8 @@ bool word_holds(const std::string& word, const RecipeUse& use) {
     const std::string name = negated ? word.substr(3) : word;
     const std::vector<std::string> words = use_words();
     if (std::ranges::count(words, name) == 0)
-        throw UsageError("\"when\" contains '" + word + "'; it may contain " + joined(words) +
-                         ", each also with the prefix no-");
+        throw UsageError("\"when\" contains '" + shortened(printable(word)) + "'; it may contain " +
+                         joined(words) + ", each also with the prefix no-");
     return (std::ranges::count(use, name) > 0) != negated;
 }
 
@@ -51,20 +54,22 @@ bool is_used(const Json& entry, const RecipeUse& use) {
     if (!entry.contains("when")) return true;
     const Json& when = entry["when"];
     if (when.is_string()) return word_holds(when.get<std::string>(), use);
-    return std::ranges::all_of(when.get<std::vector<std::string>>(),
+    if (!when.is_array()) refuse_json(when, "when", "a text or a list of texts");
+    return std::ranges::all_of(json_value<std::vector<std::string>>(when, "when"),
                                [&](const std::string& word) { return word_holds(word, use); });
 }
 
 RecipeEntry entry_from_json(const Json& json) {
-    if (!json.contains("operation")) throw UsageError("it has no \"operation\"");
-    const Operation& operation = find_operation(json["operation"].get<std::string>());
+    JsonFields fields(json, "the entry");
+    const Operation& operation = find_operation(fields.required<std::string>("operation"));
     RecipeEntry entry{.given = GivenArguments(operation),
-                      .optional = json.value("optional", false),
-                      .unless_closed = json.value("unless_closed", false)};
-    if (json.contains("arguments")) entry.given = arguments_from_json(operation, json["arguments"]);
-    if (json.contains("otherwise") && !json["otherwise"].empty())
-        entry.otherwise = arguments_from_json(operation, json["otherwise"]);
-    if (json.contains("step")) entry.step = step_from(json["step"].get<std::string>());
+                      .optional = fields.optional<bool>("optional").value_or(false),
+                      .unless_closed = fields.optional<bool>("unless_closed").value_or(false)};
+    if (const Json* given = fields.child("arguments"))
+        entry.given = arguments_from_json(operation, *given);
+    if (const Json* otherwise = fields.child("otherwise"); otherwise && !otherwise->empty())
+        entry.otherwise = arguments_from_json(operation, *otherwise);
+    if (const auto step = fields.optional<std::string>("step")) entry.step = step_from(*step);
     return entry;
 }
 
@@ -89,16 +94,15 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
             if (is_used(list[i], use)) recipe.push_back(entry_from_json(list[i]));
         } catch (const UsageError& error) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
-        } catch (const nlohmann::json::exception&) {
-            throw UsageError("recipe, entry " + std::to_string(i + 1) +
-                             ": \"operation\" and \"step\" must be texts, \"optional\" and "
-                             "\"unless_closed\" true or false, \"when\" a text or a list of texts");
+        } catch (const InvalidInput& error) {
+            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
         }
     return recipe;
 }
 
 Recipe default_recipe(const RecipeUse& use) {
-    return recipe_from_json(Json::parse(builtin_recipe_texts().at("prepare")), use);
+    return recipe_from_json(json_from_text(builtin_recipe_texts().at("prepare"), "prepare.json"),
+                            use);
 }
 
 void set_arguments(Recipe& recipe, std::span<const std::string> texts) {

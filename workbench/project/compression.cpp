@@ -13,8 +13,16 @@ namespace {
 
 constexpr int kLevel = 1;  // Level 3 saves 2 % of a surface's positions for twice the time.
 
-// zstd reaches at most about 1 : 130000 (runs of one byte), so a larger claim is damage.
-constexpr std::uint64_t kLargestRatio = 200000;
+// Masks and patch labels are long runs of one value, of which zstd makes 4 bytes per 128 KiB. What
+// is larger than such a part ever is (images are embedded up to 256 MiB) must not compress as well:
+// a few KB in a file from a stranger could else demand any amount of memory.
+constexpr std::uint64_t kLargestRatio = 40000;
+constexpr std::uint64_t kLargestRun = std::uint64_t{256} << 20;  // [bytes]
+constexpr std::uint64_t kLargestRatioAbove = 1000;
+
+bool is_plausible(std::uint64_t size, std::uint64_t compressed) {
+    return size / (size > kLargestRun ? kLargestRatioAbove : kLargestRatio) <= compressed;
+}
 
 struct FreeCompressor {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -36,8 +44,10 @@ Bytes compress(std::span<const std::byte> bytes) {
 }
 
 Bytes decompress(std::span<const std::byte> blob, std::uint64_t size) {
-    if (size / kLargestRatio > blob.size() ||
-        ZSTD_getFrameContentSize(blob.data(), blob.size()) != size)
+    if (!is_plausible(size, blob.size()))
+        throw InvalidInput("the stored data is damaged: " + std::to_string(blob.size()) +
+                           " bytes announce a content of " + std::to_string(size));
+    if (ZSTD_getFrameContentSize(blob.data(), blob.size()) != size)
         throw InvalidInput("the stored data is damaged: wrong size");
     Bytes bytes(static_cast<std::size_t>(size));
     const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), blob.data(), blob.size());

@@ -11,7 +11,8 @@ namespace vesselbench {
 [[nodiscard]] Bytes compress(std::span<const std::byte> bytes);
 
 /// \param size of the content, as stored beside it
-/// \throw InvalidInput if the blob is damaged or its content has another size
+/// \throw InvalidInput if the blob is damaged, its content has another size, or the size is more
+/// than 40000 times the blob's (1000 times, above 256 MiB); nothing is then allocated
 [[nodiscard]] Bytes decompress(std::span<const std::byte> blob, std::uint64_t size);
 
 /// Stores the first bytes of all words first, then the second bytes, ...: numbers of similar size

@@ -8,6 +8,7 @@
 #include <openssl/evp.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/regular_file.h"
 
 namespace vesselbench {
 
@@ -20,6 +21,7 @@ void add_text(ContentHash& hash, const std::string& text) {
 }
 
 std::string hash_of_regular_file(const std::filesystem::path& path) {
+    refuse_special_file(path);
     std::ifstream file(path, std::ios::binary);
     if (!file) throw IoError("cannot read " + path.filename().string());
     ContentHash hash;

@@ -1,5 +1,7 @@
 #include "workbench/project/database.h"
 
+#include <utility>
+
 #include <sqlite3.h>
 
 #include "geometry/kernel/errors.h"
@@ -68,6 +70,17 @@ std::string address_of(const std::filesystem::path& file, OpenMode mode) {
                             : std::string(1, c);
     }
     return address + "?immutable=1";
+}
+
+/// A file from a stranger must not make SQLite do anything but read and write rows.
+void restrict(sqlite3* database) {
+    for (const auto& [option, value] :
+         {std::pair(SQLITE_DBCONFIG_DEFENSIVE, 1), std::pair(SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0),
+          std::pair(SQLITE_DBCONFIG_ENABLE_TRIGGER, 0), std::pair(SQLITE_DBCONFIG_ENABLE_VIEW, 0),
+          std::pair(SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0)})
+        sqlite3_db_config(database, option, value, nullptr);
+    constexpr int kLongestValue = 1 << 30;  // [bytes] of a blob or text
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLongestValue);
 }
 
 }  // namespace
@@ -150,6 +163,8 @@ Database::Database(const std::filesystem::path& file, OpenMode mode)
     database_.reset(opened);
     if (code != SQLITE_OK) fail(opened, name_);
     sqlite3_busy_timeout(opened, kPatienceMilliseconds);
+    restrict(opened);
+    run("PRAGMA cell_size_check = ON");  // notices damaged pages before they are used
     if (mode == OpenMode::Read || mode == OpenMode::Frozen) run("PRAGMA query_only = ON");
 }
 
@@ -166,6 +181,13 @@ std::int64_t Database::number(const std::string& sql) const {
     Statement statement = prepare(sql);
     if (!statement.step()) throw InvalidInput(name_ + " is damaged: a value is missing");
     return statement.integer(0);
+}
+
+bool Database::has_moved() const {
+    int moved = 0;
+    return sqlite3_file_control(database_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) ==
+               SQLITE_OK &&
+           moved != 0;
 }
 
 Interruptible::Interruptible(const Database& database, Progress progress)

@@ -53,8 +53,9 @@ enum class OpenMode {
     Temporary,  ///< no name; deleted on closing
 };
 
-/// An SQLite connection. Failures throw IoError; a damaged file, or one that is no database,
-/// InvalidInput; both name the file without its folder.
+/// An SQLite connection, which runs no triggers, views or functions of the file's schema. Failures
+/// throw IoError; a damaged file, or one that is no database, InvalidInput; both name the file
+/// without its folder.
 class Database {
 public:
     Database(const std::filesystem::path& file, OpenMode mode);
@@ -66,6 +67,10 @@ public:
     [[nodiscard]] std::int64_t number(const std::string& sql) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
+
+    /// True if the file was deleted, renamed or replaced since it was opened: what is written now
+    /// would be lost.
+    [[nodiscard]] bool has_moved() const;
 
 private:
     friend class Interruptible;

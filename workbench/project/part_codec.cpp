@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include "geometry/kernel/plain_name.h"
 #include "workbench/project/compression.h"
 #include "workbench/project/content_hash.h"
 
@@ -101,6 +102,7 @@ VolumeMesh volume_mesh_from(std::span<const std::byte> bytes) {
     for (std::uint64_t i = 0; i < patches; ++i) {
         Patch patch;
         patch.name = reader.get_text();
+        require_plain_name(patch.name, "a patch of the stored volume mesh");
         const auto kind = reader.get<std::uint8_t>();
         if (kind > static_cast<std::uint8_t>(PatchKind::Cut))
             throw InvalidInput("the stored volume mesh has an unknown kind of patch");

@@ -94,7 +94,17 @@ struct ProjectFile::Parts {
                                        std::size_t embed_limit) {
         auto parts = std::make_unique<Parts>(path, mode, embed_limit);
         check_version(parts->database);
+        check_tables(parts->database);
         return parts;
+    }
+
+    /// \throw IoError if nothing can be written, or would be lost
+    void check_writable() const {
+        if (!read_only_reason.empty()) throw IoError(read_only_reason);
+        if (!path.empty() && database.has_moved())
+            throw IoError(database.name() +
+                          " was deleted, moved or replaced while it was open: the last change is "
+                          "lost; open it again where it is now");
     }
 
     [[nodiscard]] SceneRow scene_row(ResultId id) const {
@@ -193,7 +203,7 @@ std::vector<SourceFile> ProjectFile::sources(EditRef edit) const {
 }
 
 void ProjectFile::commit(const ProjectChange& change) {
-    if (!parts_->read_only_reason.empty()) throw IoError(parts_->read_only_reason);
+    parts_->check_writable();
     const Database& database = parts_->database;
     const BlobId last = parts_->store.last();
     try {
@@ -210,6 +220,7 @@ void ProjectFile::commit(const ProjectChange& change) {
             insert_result(database, *result.record, row);
         }
         transaction.commit();
+        parts_->check_writable();  // it may have gone meanwhile
     } catch (...) {
         parts_->store.forget_after(last);
         throw;
@@ -217,7 +228,7 @@ void ProjectFile::commit(const ProjectChange& change) {
 }
 
 void ProjectFile::set_note(EditRef edit, const std::string& note) {
-    if (!parts_->read_only_reason.empty()) throw IoError(parts_->read_only_reason);
+    parts_->check_writable();
     Transaction transaction(parts_->database);
     update_note(parts_->database, edit, note);
     transaction.commit();
@@ -265,6 +276,8 @@ void ProjectFile::save_as(const std::filesystem::path& path, const Progress& pro
 }
 
 bool is_project_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
     constexpr std::string_view kHeader = "SQLite format 3";
     std::string head(kHeader.size(), ' ');
     std::ifstream file(path, std::ios::binary);

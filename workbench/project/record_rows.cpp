@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/project/stored_text.h"
 
@@ -32,45 +35,84 @@ Bytes packed_details(const ResultRecord& result) {
 }
 
 void unpack_details(std::span<const std::byte> blob, ResultRecord& result) {
-    const Json json = Json::parse(unpack_text(blob));
-    result.resolved = arguments_from_stored(json.at("resolved").get<std::string>());
-    result.warnings = json.at("warnings").get<std::vector<std::string>>();
-    result.change = change_from(json.at("change"));
-    result.report = json.at("report").get<std::string>();
+    const Json json = json_from_text(unpack_text(blob), "a result", kLargestStoredJson);
+    JsonFields fields(json, "a result");
+    result.resolved = arguments_from_stored(fields.required<std::string>("resolved"));
+    result.warnings = fields.required<std::vector<std::string>>("warnings");
+    const Json* change = fields.child("change");
+    result.change = change_from(change == nullptr ? Json() : *change);
+    result.report = fields.required<std::string>("report");
+    if (!result.report.empty())  // parsed again by whoever shows it
+        JsonFields(json_from_text(result.report, "a report", kLargestStoredJson), "a report");
 }
 
-/// Runs a reader of stored JSON. \throw InvalidInput instead of the JSON library's errors
+/// Runs a reader of stored data, whose errors then name the file.
 template <class Reader>
 auto guarded(const Database& database, Reader reader) {
     try {
         return reader();
-    } catch (const Json::exception& error) {
+    } catch (const InvalidInput& error) {
         throw InvalidInput(database.name() + " is damaged: " + error.what());
     }
 }
 
+constexpr std::int64_t kLargestId = 1'000'000'000;  // leaves room for many more
+constexpr std::int64_t kMostRevisions = 1'000'000;
+constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kLongestPath = 4096;
+constexpr std::size_t kLongestText = std::size_t{1} << 20;  // of notes and reasons
+
+std::int64_t number_in(const Statement& row, int column, std::int64_t least, std::int64_t most) {
+    const std::int64_t number = row.integer(column);
+    if (number < least || number > most)
+        throw InvalidInput("a stored number, " + std::to_string(number) + ", is not in [" +
+                           std::to_string(least) + ", " + std::to_string(most) + "]");
+    return number;
+}
+
+std::int64_t id_in(const Statement& row, int column) {
+    return number_in(row, column, 0, kLargestId);
+}
+
+EditRef edit_ref_in(const Statement& row, int column) {
+    return {id_in(row, column), static_cast<int>(number_in(row, column + 1, 0, kMostRevisions))};
+}
+
+std::string text_in(const Statement& row, int column, std::size_t longest) {
+    if (row.blob(column).size() > longest)
+        throw InvalidInput("a stored text is longer than " + std::to_string(longest) + " bytes");
+    return row.text(column);
+}
+
+EditPlace place_in(const Statement& row, int column) {
+    const auto step = number_in(row, column, 1, static_cast<int>(Step::Review));
+    std::string variant = text_in(row, column + 1, kLongestName);
+    if (!variant.empty()) require_plain_name(variant, "a variant");
+    return {static_cast<Step>(step), std::move(variant)};
+}
+
 EditRecord edit_from(const Statement& row) {
     EditRecord record;
-    record.edit = {row.integer(0), static_cast<int>(row.integer(1))};
-    record.place = {static_cast<Step>(row.integer(2)), row.text(3)};
-    record.operation = row.text(4);
-    record.author = row.text(5);
-    record.time = row.text(6);
-    record.note = row.text(7);
+    record.edit = edit_ref_in(row, 0);
+    record.place = place_in(row, 2);
+    record.operation = text_in(row, 4, kLongestName);
+    record.author = text_in(row, 5, kLongestText);
+    record.time = text_in(row, 6, kLongestName);
+    record.note = text_in(row, 7, kLongestText);
     record.given = arguments_from_stored(unpack_text(row.blob(8)));
     return record;
 }
 
 ResultRecord result_from(const Statement& row) {
     ResultRecord record;
-    record.id = row.integer(0);
-    record.edit = {row.integer(1), static_cast<int>(row.integer(2))};
-    record.input = row.integer(3);
-    record.stale_reason = row.text(4);
-    record.time = row.text(5);
+    record.id = id_in(row, 0);
+    record.edit = edit_ref_in(row, 1);
+    record.input = id_in(row, 3);
+    record.stale_reason = text_in(row, 4, kLongestText);
+    record.time = text_in(row, 5, kLongestName);
     record.duration = row.real(6);
-    record.program_version = row.text(7);
-    record.device = row.text(8);
+    record.program_version = text_in(row, 7, kLongestName);
+    record.device = text_in(row, 8, kLongestName);
     unpack_details(row.blob(9), record);
     return record;
 }
@@ -169,37 +211,51 @@ void write_states(const Database& database, const History& before, const History
             .step();
 }
 
-History read_history(const Database& database) {
-    database.run(
-        "BEGIN");  // a consistent snapshot of all tables, although another process may write
+namespace {
+
+std::map<EditRef, EditPlace> edit_places(const Database& database) {
     std::map<EditRef, EditPlace> edits;
     for (auto row = database.prepare("SELECT edit, revision, step, variant FROM edits");
          row.step();)
-        edits[{row.integer(0), static_cast<int>(row.integer(1))}] = {
-            static_cast<Step>(row.integer(2)), row.text(3)};
+        edits[edit_ref_in(row, 0)] = place_in(row, 2);
+    return edits;
+}
+
+std::vector<HistoryState> history_states(const Database& database) {
     std::vector<HistoryState> states;
     for (auto row =
              database.prepare("SELECT id, parent, change, edit, revision, last_child FROM states");
          row.step();)
-        states.push_back({row.integer(0),
-                          row.integer(1),
-                          static_cast<StateChange>(row.integer(2)),
-                          {row.integer(3), static_cast<int>(row.integer(4))},
-                          row.integer(5)});
+        states.push_back(
+            {id_in(row, 0), id_in(row, 1),
+             static_cast<StateChange>(number_in(row, 2, 0, static_cast<int>(StateChange::Remove))),
+             edit_ref_in(row, 3), id_in(row, 5)});
+    return states;
+}
+
+std::vector<HistoryResult> history_results(const Database& database) {
     std::vector<HistoryResult> results;
     for (auto row = database.prepare("SELECT id, edit, revision, input, stale FROM results");
          row.step();)
-        results.push_back({row.integer(0),
-                           {row.integer(1), static_cast<int>(row.integer(2))},
-                           row.integer(3),
-                           row.text(4)});
-    const StateId current = database.number("SELECT value FROM meta WHERE name = 'current'");
+        results.push_back(
+            {id_in(row, 0), edit_ref_in(row, 1), id_in(row, 3), text_in(row, 4, kLongestText)});
+    return results;
+}
+
+}  // namespace
+
+History read_history(const Database& database) {
+    database.run(
+        "BEGIN");  // a consistent snapshot of all tables, although another process may write
+    History history = guarded(database, [&] {
+        auto edits = edit_places(database);
+        auto states = history_states(database);
+        auto results = history_results(database);
+        const StateId current = database.number("SELECT value FROM meta WHERE name = 'current'");
+        return History(std::move(edits), std::move(states), std::move(results), current);
+    });
     database.run("COMMIT");
-    try {
-        return {std::move(edits), std::move(states), std::move(results), current};
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(database.name() + " is damaged: " + error.what());
-    }
+    return history;
 }
 
 std::map<EditRef, EditRecord> read_edits(const Database& database,
@@ -213,7 +269,7 @@ std::map<EditRef, EditRecord> read_edits(const Database& database,
              " FROM edits WHERE (edit, revision) IN (VALUES " +
              (pairs.empty() ? "(0,0)" : pairs) + ")");
          row.step();) {
-        EditRecord record = edit_from(row);
+        EditRecord record = guarded(database, [&] { return edit_from(row); });
         records.emplace(record.edit, std::move(record));
     }
     check_complete(database, records.size(), edits.size(), "an edit");
@@ -240,7 +296,11 @@ std::vector<SourceFile> read_sources(const Database& database, EditRef edit) {
         "SELECT parameter, name, hash, place FROM sources WHERE edit = ? AND revision = ?");
     row.bind(0, edit.id).bind(1, std::int64_t{edit.revision});
     std::vector<SourceFile> sources;
-    while (row.step()) sources.push_back({row.text(0), row.text(1), row.text(2), row.text(3)});
+    while (row.step())
+        sources.push_back(guarded(database, [&] {
+            return SourceFile{text_in(row, 0, kLongestName), text_in(row, 1, kLongestPath),
+                              text_in(row, 2, kLongestName), text_in(row, 3, kLongestPath)};
+        }));
     return sources;
 }
 

@@ -1,6 +1,11 @@
 #include "workbench/project/schema.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "workbench/case/version.h"
 #include "workbench/project/part_store.h"
 
@@ -10,6 +15,16 @@ namespace {
 
 constexpr std::int64_t kApplication = 0x56424e43;  // "VBNC", PRAGMA application_id
 constexpr std::int64_t kVersion = 1;               // PRAGMA user_version
+
+/// "table edits: CREATE TABLE ..." of all that the schema contains, sorted.
+std::vector<std::string> contents_of(const Database& database) {
+    std::vector<std::string> contents;
+    for (auto row = database.prepare("SELECT type, name, tbl_name, coalesce(sql, '')"
+                                     " FROM sqlite_master ORDER BY type, name");
+         row.step();)
+        contents.push_back(row.text(0) + " " + row.text(1) + " " + row.text(2) + " " + row.text(3));
+    return contents;
+}
 
 std::string writer_of(const Database& database) {
     Statement query = database.prepare("SELECT value FROM meta WHERE name = 'written by'");
@@ -53,6 +68,19 @@ void check_version(const Database& database) {
                            ", written by vesselbench " + writer_of(database) +
                            "  ; this vesselbench, " + version() + ", reads up to version " +
                            std::to_string(kVersion) + ": use the newer program");
+}
+
+void check_tables(const Database& database) {
+    const Database own("", OpenMode::Temporary);
+    make_tables(own);
+    const std::vector<std::string> ours = contents_of(own), found = contents_of(database);
+    if (found == ours) return;
+    for (const std::string& content : found)
+        if (std::ranges::count(ours, content) == 0)
+            throw InvalidInput(database.name() +
+                               " was not written by vesselbench: it contains the foreign " +
+                               shortened(printable(content), 60) + "; use a copy of it");
+    throw InvalidInput(database.name() + " is damaged: it lacks tables; use a copy of it");
 }
 
 }  // namespace vesselbench

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "geometry/kernel/plain_name.h"
+
 namespace vesselbench {
 
 namespace {
@@ -70,6 +72,12 @@ PatchKind get_patch_kind(ByteReader& reader) {
     return static_cast<PatchKind>(kind);
 }
 
+std::string get_name(ByteReader& reader) {
+    std::string name = reader.get_text();
+    require_plain_name(name, "something in the stored scene");
+    return name;
+}
+
 void check_surface(const Surface& surface) {
     if (!surface.topology && !surface.positions) return;
     if (!surface.topology || !surface.positions || !surface.patch_labels)
@@ -90,11 +98,11 @@ Surface get_surface(ByteReader& reader, const std::vector<ScenePart>& parts) {
     surface.patch_labels = part_at<PatchLabels>(parts, reader.get<std::uint32_t>());
     surface.patches.clear();
     for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
-        std::string name = reader.get_text();
+        std::string name = get_name(reader);
         surface.patches.push_back({std::move(name), get_patch_kind(reader)});
     }
     for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
-        const std::string name = reader.get_text();
+        const std::string name = get_name(reader);
         surface.attributes[name] = part_at<std::vector<double>>(parts, reader.get<std::uint32_t>());
     }
     check_surface(surface);
@@ -160,7 +168,7 @@ Scene put_together(std::span<const std::byte> manifest, const std::vector<SceneP
     if (reader.get<std::uint8_t>() != 0) scene.mask = get_image(reader, parts);
     if (reader.get<std::uint8_t>() != 0) scene.sampling = get_sampling(reader);
     for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
-        const std::string name = reader.get_text();
+        const std::string name = get_name(reader);
         scene.neighbours[name] = get_surface(reader, parts);
     }
     scene.volume_mesh = part_at<VolumeMesh>(parts, reader.get<std::uint32_t>());

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/project/compression.h"
 
 namespace vesselbench {
@@ -25,7 +27,7 @@ Json number_to_json(double number) {
 
 double number_from_json(const Json& json) {
     if (json.is_number()) return json.get<double>();
-    const auto text = json.at("real").get<std::string>();
+    const auto text = JsonFields(json, "a stored number").required<std::string>("real");
     if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
     return text == "inf" ? infinity : -infinity;
@@ -55,11 +57,16 @@ struct ToJson {
 
 Value value_from_json(const Json& json) {
     if (json.is_boolean()) return json.get<bool>();
-    if (json.is_number_integer()) return json.get<std::int64_t>();
+    if (json.is_number_integer()) return json_integer<std::int64_t>(json, "a stored number");
     if (json.is_string()) return json.get<std::string>();
-    if (json.is_object() && json.contains("x"))
-        return Vec3(number_from_json(json.at("x")), number_from_json(json.at("y")),
-                    number_from_json(json.at("z")));
+    if (json.is_object() && json.contains("x")) {
+        JsonFields point(json, "a stored point");
+        const auto number = [&](const char* key) {
+            const Json* field = point.child(key);
+            return number_from_json(field == nullptr ? Json() : *field);
+        };
+        return Vec3(number("x"), number("y"), number("z"));
+    }
     if (json.is_array()) {
         std::vector<double> list;
         for (const Json& number : json) list.push_back(number_from_json(number));
@@ -81,14 +88,11 @@ std::string stored_text(const Json& report) {
 }
 
 Arguments arguments_from_stored(const std::string& text) {
-    try {
-        Arguments arguments;
-        const Json json = Json::parse(text);
-        for (const auto& [name, value] : json.items()) arguments.set(name, value_from_json(value));
-        return arguments;
-    } catch (const Json::exception& error) {
-        throw InvalidInput(std::string("stored arguments cannot be read: ") + error.what());
-    }
+    const Json json = json_from_text(text, "the stored arguments", kLargestStoredJson);
+    if (!json.is_object()) refuse_json(json, "the stored arguments", "an object");
+    Arguments arguments;
+    for (const auto& [name, value] : json.items()) arguments.set(name, value_from_json(value));
+    return arguments;
 }
 
 Bytes pack_text(const std::string& text) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -17,6 +19,9 @@ EditPlace place_of(const Operation& operation, const EditOptions& options) {
     if (options.variant.empty())
         throw UsageError("step " + to_string(place.step) +
                          " belongs to a variant; give its name (cfd, rp, ...)");
+    if (!is_plain_name(options.variant))
+        throw UsageError("the variant '" + shortened(printable(options.variant)) +
+                         "' is not allowed: its name consists of " + plain_name_rule());
     place.variant = options.variant;
     return place;
 }

@@ -75,6 +75,7 @@ EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedAr
 
 CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
                                      const Arguments& stored) const {
+    require_bare_files(operation, stored);
     return checked_arguments(
         operation,
         with_found_files(operation, stored, store_->project().sources(edit), store_->files()));

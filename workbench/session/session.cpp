@@ -84,6 +84,7 @@ struct Session::Parts {
         const EditRef old = store.history().find(id).value();
         EditRecord edit = store.edit(old);
         const Operation& operation = options.find(edit.operation);
+        require_bare_files(operation, edit.given);
         const Arguments located =
             with_found_files(operation, given, store.project().sources(old), store.files());
         edit.given = without_folders(operation, given);

@@ -46,7 +46,7 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder&
     }
     const auto found = stack_axis_of(scene, finder);
     if (!found)
-        throw AlgorithmFailure(
+        throw InvalidInput(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases; give stack_axis=x,y,z, or staircase=false");
     figures.stack_axis_confidence = found->confidence;
@@ -98,11 +98,11 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
         const auto found = scene.neighbours.find(name);
         if (found == scene.neighbours.end())
             throw InvalidInput(operation + ": there is no neighbour '" + name +
-                               "': use load-neighbour, or name others with neighbours=");
+                                   "': use load-neighbour, or name others with neighbours=");
         const Surface& surface = found->second;
         if (surface.empty())
             throw InvalidInput(operation + ": the neighbour '" + name +
-                               "' has no triangles: load it again, or use distance=none");
+                                   "' has no triangles: load it again, or use distance=none");
         neighbours.push_back(surface);
     }
     return neighbours;
@@ -132,11 +132,11 @@ std::vector<double> painted_part(const Surface& surface, const std::string& name
     const auto attribute = surface.attributes.find(name);
     if (attribute == surface.attributes.end())
         throw InvalidInput(operation + ": the surface has no attribute '" + name +
-                           "' to use as weights");
+                               "' to use as weights");
     for (const double weight : *attribute->second)
         if (!(weight >= 0.0 && weight <= 1.0))
             throw InvalidInput(operation + ": the attribute '" + name +
-                               "' has values outside [0, 1]");
+                                   "' has values outside [0, 1]");
     return *attribute->second;
 }
 
@@ -223,7 +223,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
         {.name = "neighbours",
          .type = Text,
          .help = "names of the neighbours to consider, a,b,...; default: all that are loaded",
-         .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
+         .only_with = Condition{"distance", {"linear", "margin", "exponential"}},
+         .meaning = Meaning::Names},
         {.name = "margin",
          .unit = "mm",
          .default_value = 2.0,
@@ -244,7 +245,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .type = Text,
          .help =
              "name of a vertex attribute in [0, 1], as painted by brush-weight: vertices of 0 " +
-             action.kept + ", 1 " + action.painted_one}};
+             action.kept + ", 1 " + action.painted_one,
+         .meaning = Meaning::Name}};
 }
 
 void check_stack_axis(const Arguments& arguments, const std::string& operation) {

@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/prepare/prepare.h"
 #include "workbench/session/stored_recipes.h"
@@ -59,7 +60,7 @@ std::optional<Input> remembered_input(const fs::path& project, std::vector<std::
     if (text.empty()) return std::nullopt;
     try {
         Input input;
-        input.recipes = std::make_shared<const Json>(Json::parse(text));
+        input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
         check_recipes(input);
         return input;
     } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
 #include "workbench/window/model/local_time.h"
 
 namespace vesselbench {
@@ -46,7 +47,7 @@ Settings::Settings(fs::path folder) : folder_(std::move(folder)) {
 
 void Settings::read() {
     if (!fs::exists(folder_ / kFile)) return;
-    const Json json = Json::parse(file_content(folder_ / kFile));
+    const Json json = json_from_file(folder_ / kFile);
     dark = json.value("theme", "dark") != "light";
     scale = std::clamp(json.value("scale", 1.0), kScales.front(), kScales.back());
     for (const Json& shown : json.value("layers", Json::array()))

@@ -1,0 +1,158 @@
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/whole_file.h"
+#include "meshing/products/gmsh.h"
+#include "meshing/products/openfoam_case.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "workbench/operations/table.h"
+#include "workbench/prepare/recipe.h"
+#include "workbench/project/serialization.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// OpenFOAM compiles and runs what follows #codeStream, and loads the libraries of `libs`.
+const std::string kCode = "inlet #codeStream { code #{ system(\"id\"); #}; }";
+const std::string kLibrary = "outlet; } libs (\"/tmp/x.so\"); a {";
+
+Surface named(Surface surface, const std::string& inlet, const std::string& outlet) {
+    surface.patches[1].name = inlet;
+    surface.patches[2].name = outlet;
+    return surface;
+}
+
+VolumeMesh mesh_with(const std::string& name) {
+    VolumeMesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.tetrahedra = {{0, 1, 2, 3}};
+    mesh.boundary = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    mesh.boundary_patches = {0, 1, 2, 0};
+    mesh.patches = {
+        {"wall", PatchKind::Wall}, {name, PatchKind::Inlet}, {"outlet_1", PatchKind::Outlet}};
+    return mesh;
+}
+
+std::string all_files_in(const std::filesystem::path& folder) {
+    std::string text;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) text += file_content(entry.path());
+    return text;
+}
+
+}  // namespace
+
+SCENARIO("Names consist of letters, digits, _, - and .", "[workbench][names]") {
+    for (const char* name : {"inlet", "outlet_1", "A.b-2", "7"}) CHECK(is_plain_name(name));
+    CHECK(is_plain_name(std::string(64, 'a')));
+    for (const char* name : {"", "a b", "a;", "#a", "a,b", "a\n", "a/b", "Einla\xc3\x9f", "\x1b"})
+        CHECK_FALSE(is_plain_name(name));
+    CHECK_FALSE(is_plain_name(std::string(65, 'a')));
+}
+
+SCENARIO("A file's foreign names become plain ones, each once, with a note", "[workbench][names]") {
+    PlainNames names;
+    CHECK(names.add("outlet") == "outlet");
+    CHECK(names.note().empty());
+    CHECK(names.add("outlet 1") == "outlet_1");
+    CHECK(names.add("outlet_1") == "outlet_1_2");
+    CHECK(names.add("") == "unnamed");
+    CHECK(names.add("a\x1b[31m b") == "a_31m_b");
+    CHECK(names.add(std::string(100, 'x')) == std::string(64, 'x'));
+    CHECK(names.add(std::string(100, 'x')) == std::string(62, 'x') + "_2");
+    CHECK_THAT(names.note(), Contains("'outlet 1' is now outlet_1"));
+}
+
+SCENARIO("Texts of unknown origin are shown without terminal escapes", "[workbench][names]") {
+    CHECK(printable("Gefäß\n\tno. 1") == "Gefäß\n\tno. 1");
+    CHECK(printable("a\x1b]0;title\x07\r") == "a\\x1b]0;title\\x07\\x0d");
+    CHECK(printable("\xff\xc2\x9b") == "\\xff\\xc2\\x9b");
+    CHECK(printable("\xe2\x80\xae") == "\\xe2\\x80\\xae");  // right-to-left override
+}
+
+SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") {
+    for (const auto& [operation, parameter] :
+         std::vector<std::pair<std::string, std::string>>{{"clip-opening", "name"},
+                                                          {"clip-opening", "names"},
+                                                          {"extrude-opening", "opening"},
+                                                          {"load-neighbour", "name"},
+                                                          {"brush-weight", "attribute"},
+                                                          {"smooth", "painted"},
+                                                          {"smooth", "neighbours"}}) {
+        INFO(operation << " " << parameter);
+        GivenArguments given(find_operation(operation));
+        for (const std::string& name : {kCode, kLibrary, std::string("a,b c"), std::string("\x1b")})
+            CHECK_THROWS_AS(given.set(parameter, name), UsageError);
+        CHECK_NOTHROW(given.set(parameter, std::string("inlet_1")));
+    }
+    const Json recipe = {
+        {{"operation", "clip-opening"}, {"arguments", {{"tip", {0, 0, 0}}, {"name", kCode}}}}};
+    CHECK_THROWS_WITH(recipe_from_json(recipe, {}),
+                      Contains("recipe, entry 1") && Contains("letters, digits"));
+}
+
+SCENARIO("Writers refuse names that other programs would run", "[workbench][names]") {
+    const std::string folder = temporary_folder();
+    const Surface surface = named(closed_tube(2.0, 10.0, 12, 4), kCode, "outlet_1");
+    for (const char* suffix : {".ply", ".obj"}) {
+        CHECK_THROWS_AS(write_surface(surface, folder + "/a" + suffix), InvalidInput);
+        CHECK_FALSE(std::filesystem::exists(folder + "/a" + suffix));
+    }
+    Surface painted = closed_tube(2.0, 10.0, 12, 4);
+    painted.attributes["x\nelement evil 1"] =
+        std::make_shared<const std::vector<double>>(painted.vertex_count());
+    CHECK_THROWS_AS(write_surface(painted, folder + "/b.ply"), InvalidInput);
+    for (const std::string& name : {kCode, kLibrary}) {
+        CHECK_THROWS_AS(write_msh(mesh_with(name), folder + "/c.msh"), InvalidInput);
+        CHECK_THROWS_AS(write_openfoam_case(folder + "/case", mesh_with(name), {}), InvalidInput);
+    }
+    CHECK(names_in(folder).empty());
+}
+
+SCENARIO("OpenFOAM reads every plain name as a word", "[workbench][names]") {
+    const std::string folder = temporary_folder() + "/case";
+    write_openfoam_case(folder, mesh_with("1.5e3"), {});
+    CHECK_THAT(file_content(folder + "/constant/polyMesh/boundary"), Contains("    patch_1.5e3\n"));
+}
+
+SCENARIO("A stored scene with such a name is refused", "[workbench][names]") {
+    Scene scene;
+    scene.surface = named(closed_tube(2.0, 10.0, 12, 4), "inlet", kLibrary);
+    CHECK_THROWS_AS(decode_scene(encode_scene(scene)), InvalidInput);
+    scene.surface.reset();
+    scene.volume_mesh = std::make_shared<const VolumeMesh>(mesh_with(kCode));
+    CHECK_THROWS_AS(decode_scene(encode_scene(scene)), InvalidInput);
+}
+
+SCENARIO("A stranger's surface with such names becomes a harmless OpenFOAM case",
+         "[workbench][names]") {
+    const std::string folder = temporary_folder();
+    // VTP holds any name, and its reader gets what another program wrote.
+    write_surface(named(fine_tube(3.0, 24.0, 18), kCode, kLibrary), folder + "/tube.vtp");
+    const auto run = [](const std::vector<std::string>& arguments) {
+        const ProgramRun result = run_program(program_path(), arguments);
+        INFO(result.err);
+        CHECK(result.exit_code == 0);
+        return result.out;
+    };
+    const std::string project = folder + "/p.vbench";
+    run({"new", project, folder + "/tube.vtp"});
+    run({"apply", project, "tetrahedralize", "--variant", "cfd"});
+    run({"export", project, folder + "/case/", "--variant", "cfd"});
+    const std::string text = all_files_in(folder + "/case");
+    CHECK_THAT(text, Contains("inlet_codeStream_code_system_id"));
+    CHECK_THAT(text, Contains("outlet_libs_tmp_x.so_a"));
+    CHECK_THAT(text, !Contains("#code") && !Contains("/tmp/x.so"));
+}

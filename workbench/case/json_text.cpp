@@ -1,0 +1,75 @@
+#include "workbench/case/json_text.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string place_in(std::string_view text, std::size_t at) {
+    const std::string_view before = text.substr(0, at);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t newline = before.find_last_of('\n');
+    const std::size_t column = newline == std::string_view::npos ? at + 1 : at - newline;
+    return ", line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+/// The place of the first bracket that is too deep; the end of the text if there is none.
+std::size_t too_deep(std::string_view text) {
+    std::size_t depth = 0;
+    bool in_text = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_text && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_text = !in_text;
+        else if (!in_text && (c == '[' || c == '{') && ++depth > kDeepestJson)
+            return i;
+        else if (!in_text && (c == ']' || c == '}') && depth > 0)
+            --depth;
+    }
+    return text.size();
+}
+
+[[noreturn]] void too_large(const std::string& name, std::uintmax_t size, std::size_t largest) {
+    throw InvalidInput(name + " has " + std::to_string(size) + " bytes, but JSON of at most " +
+                       std::to_string(largest) + " bytes is read");
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_from_text(std::string_view text, const std::string& name,
+                                      std::size_t largest) {
+    if (text.size() > largest) too_large(name, text.size(), largest);
+    if (const std::size_t at = too_deep(text); at < text.size())
+        throw InvalidInput(name + place_in(text, at) + ": lists and objects are more than " +
+                           std::to_string(kDeepestJson) + " deep inside each other");
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        const std::size_t at =
+            std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
+        throw InvalidInput(
+            name + place_in(text, at) +
+            (at == text.size() ? ": the JSON text ends too early" : ": this is not valid JSON"));
+    } catch (const Json::exception&) {
+        throw InvalidInput(name + " contains a number that is too large");
+    }
+}
+
+nlohmann::ordered_json json_from_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error && size > kLargestJsonFile) too_large(bare_name(file), size, kLargestJsonFile);
+    return json_from_text(file_content(file), bare_name(file));
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace vesselbench {
+
+/// Arrays and objects inside each other. Code that walks through JSON calls itself for each level.
+constexpr std::size_t kDeepestJson = 64;
+/// [bytes] of recipes, cases and phantoms.
+constexpr std::size_t kLargestJsonFile = std::size_t{16} << 20;
+/// [bytes] of what the program itself stores or sends: the dabs of a long stroke.
+constexpr std::size_t kLargestStoredJson = std::size_t{256} << 20;
+
+/// Parses JSON of any origin; the only way to do so.
+/// \param name of the text in error texts
+/// \throw InvalidInput that names the line and column, if the text is larger or deeper than allowed
+/// or not JSON
+[[nodiscard]] nlohmann::ordered_json json_from_text(std::string_view text, const std::string& name,
+                                                    std::size_t largest = kLargestJsonFile);
+
+/// The same for a file. \throw IoError if it cannot be read
+[[nodiscard]] nlohmann::ordered_json json_from_file(const std::filesystem::path& file);
+
+}  // namespace vesselbench
