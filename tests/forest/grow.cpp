@@ -78,7 +78,7 @@ public:
         : plan_(plan), dice_(plan.seed ^ 0x5eedf0e57ULL), thinnest_(0.5 * kThinnest * plan.trunk) {
         const double voxels =
             plan.kind == CaseKind::OpenSurface || plan.kind == CaseKind::ClosedSurface
-                ? 0.45
+                ? 0.8
                 : std::max(1.0, 0.4 * plan.anisotropy);
         gap_ = voxels * 2.0 * thinnest_;
     }
@@ -319,7 +319,7 @@ private:
     void add_kiss() {
         // an image cannot show a gap below a voxel: there they look joined
         const double gap =
-            (is_image(plan_.kind) || plan_.kind == CaseKind::VoxelSurface ? 0.1 : 1.3) *
+            (is_image(plan_.kind) || plan_.kind == CaseKind::VoxelSurface ? 0.1 : 2.2) *
             edge_for(plan_, tree_);
         for (int attempt = 0; attempt < 400; ++attempt) {
             const std::size_t own = any_branch(), host = any_branch();

@@ -86,6 +86,7 @@ public:
     Judge(const Truth& truth, const Surface& surface, const Json& report, bool flow)
         : truth_(truth), surface_(surface), flow_(flow), distance_(surface) {
         const auto tubes = tube_lengths(report);
+        if (!flow && !tubes.empty()) fail("tubes", counted(tubes.size(), "tube") + " at ends");
         for (const PatchMeasures& patch : measure_patches(surface)) {
             if (patch.kind == PatchKind::Wall) continue;
             const auto tube = tubes.find(patch.name);

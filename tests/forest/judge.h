@@ -17,7 +17,7 @@ namespace vesselbench::forest {
 /// length beyond its parent's wall, up to where its sections are whole; the genus is the truth's
 /// (surfaces, where kissing vessels are distinct).
 /// Right for printing: closed, manifold, one part, no vessel longer than a diameter misses over
-/// 10 %, genus as above, and nothing is added beyond the vessels.
+/// 10 %, genus as above, no tubes at the ends, and nothing is added beyond the vessels.
 /// \return {"right", "failures": [{"what", "text"}], "openings": [...]}
 [[nodiscard]] nlohmann::ordered_json judge(const Truth& truth, const std::filesystem::path& result,
                                            bool flow);
