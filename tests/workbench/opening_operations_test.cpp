@@ -139,6 +139,15 @@ SCENARIO("clip-opening opens every end, and replays what it decided", "[workbenc
             CHECK(opening["tilt_deg"].get<double>() < 0.5);
         check_replay("clip-opening", tube, outcome);
     }
+    THEN("the report says what became of every end") {
+        const auto& ends = outcome.report->at("ends");
+        REQUIRE(ends.size() == 2);
+        for (const auto& end : ends) {
+            CHECK(end["fate"] == "kept");
+            CHECK(end["diameter_mm"].get<double>() == Approx(4.0).epsilon(0.05));
+            CHECK_FALSE(end["opening"].is_null());
+        }
+    }
     THEN("one end can be opened alone, with a name and a kind") {
         const Outcome one = run("clip-opening", tube,
                                 {{"tip", Vec3(0, 0, 30)},
@@ -200,13 +209,13 @@ SCENARIO("remove-branch names the branch by a point", "[workbench][openings]") {
 
 SCENARIO("The decisions of clip-opening are read back from its arguments", "[operations]") {
     const std::vector<PlannedOpening> openings = {
-        {.place = {.tip = {1, 2, 3}, .plane = {{4, 5, 6}, {0, 0, 1}}}, .keep = true},
+        {.place = {.tip = {1, 2, 3}, .plane = {{4, 5, 6}, {0, 0, 1}}}, .way = OpeningWay::KeepCap},
         {.place = {.tip = {7, 8, 9}, .plane = {{10, 11, 12}, {0, -1, 0}}}}};
     const std::vector<double> planes = planes_argument(openings);
     const auto read = openings_in(planes);
     REQUIRE(read.size() == 2);
-    CHECK(read[0].keep);
-    CHECK_FALSE(read[1].keep);
+    CHECK(read[0].way == OpeningWay::KeepCap);
+    CHECK(read[1].way == OpeningWay::Cut);
     CHECK(read[1].place.tip == Vec3(7, 8, 9));
     CHECK(read[1].place.plane.point == Vec3(10, 11, 12));
     CHECK(planes_argument(read) == planes);
@@ -216,4 +225,11 @@ SCENARIO("The decisions of clip-opening are read back from its arguments", "[ope
     CHECK(names_argument(patches) == "inlet:inlet,outlet:a:b");
     CHECK(patches_in("inlet:inlet,outlet:a:b") == patches);
     CHECK(patches_in("inlet:inlet,outlet").size() == 1);
+    const std::vector<Patch> odd = {{"a,b", PatchKind::Outlet}, {"5%2C,", PatchKind::Inlet}};
+    CHECK(patches_in(names_argument(odd)) == odd);
+    const std::vector<PlannedClosing> closings = {{{1, 2, 3}, ClosingWay::WallCap},
+                                                  {{4, 5, 6}, ClosingWay::RemoveStub}};
+    CHECK(closings_argument(closings_in(closings_argument(closings))) ==
+          closings_argument(closings));
+    CHECK(closings_in({1, 2, 3, 7}).empty());
 }

@@ -22,6 +22,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// After so many ends could not be cut as planned, the rest of them is given up.
+constexpr int kMostPlans = 12;
+/// Closed ends at least this wide, in diameters of the widest opening, are named in the warnings.
+constexpr double kLargeEnd = 0.5;
+
 void check_arguments(const Arguments& arguments) {
     if ((arguments.has("name") || arguments.has("kind")) && !arguments.has("tip") &&
         !arguments.has("planes"))
@@ -30,37 +35,128 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: give distance or radii, not both");
     if (arguments.has("planes") != arguments.has("names"))
         throw UsageError("clip-opening: give planes and names together");
+    if (arguments.has("closed") && arguments.list("closed").size() % 3 != 0)
+        throw UsageError("clip-opening: closed needs three numbers for each end");
 }
 
-OpeningPlan decide(const Surface& surface, const Arguments& arguments, const Progress& progress) {
-    const OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
-                                     .distance = arguments.optional_real("distance"),
-                                     .radii = arguments.optional_real("radii")};
-    OpeningPlan plan =
-        plan_openings(surface, *lines_for_openings(surface, options.tip, progress), options);
+/// What was decided, and the surface made by it.
+struct Clipping {
+    OpeningPlan plan;
+    Surface surface;
+};
+
+OpeningPlanOptions plan_options(const Arguments& arguments) {
+    OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
+                               .distance = arguments.optional_real("distance"),
+                               .radii = arguments.optional_real("radii"),
+                               .strict = arguments.flag("strict")};
+    if (!options.tip) options.inlet = arguments.optional_point("inlet");
+    if (arguments.has("closed")) {
+        const std::vector<double> numbers = arguments.list("closed");
+        for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+            options.closed.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    }
+    return options;
+}
+
+void name_opening(OpeningPlan& plan, const Arguments& arguments) {
     const auto kind = arguments.optional_text("kind");
     const auto name = arguments.optional_text("name");
     if (kind || name)
         for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
-    return plan;
+}
+
+/// With one end alone, the inlet is the nearest opening; with all of them, the end that was named.
+InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
+    if (arguments.has("tip")) return {.point = arguments.optional_point("inlet")};
+    if (plan.inlet) return {.point = plan.openings[*plan.inlet].place.plane.point};
+    return {.promote = true};
+}
+
+/// Plans and cuts; where a cut fails, plans again without it.
+Clipping decide(const Surface& surface, const Arguments& arguments, const Progress& progress) {
+    OpeningPlanOptions options = plan_options(arguments);
+    const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.7));
+    for (int plans = 1;; ++plans) {
+        Clipping made{.plan = plan_openings(surface, *graph, options), .surface = {}};
+        const bool for_flow = !options.tip && arguments.text("check") == "flow";
+        if (for_flow) check_flow(made.plan);
+        name_opening(made.plan, arguments);
+        ClippedSurface clipped =
+            clip_openings(surface, made.plan, inlet_choice(made.plan, arguments), graph.get(),
+                          progress.part(0.7, 1.0));
+        if (clipped.failed.empty()) {
+            made.surface = std::move(clipped.surface);
+            return made;
+        }
+        if (options.strict || options.tip || plans == kMostPlans)
+            throw AlgorithmFailure(clipped.failed.front().why);
+        options.failed.insert(options.failed.end(), clipped.failed.begin(), clipped.failed.end());
+    }
 }
 
 /// The plan resolved by an earlier run.
-OpeningPlan stored(const Arguments& arguments) {
-    OpeningPlan plan{.openings = openings_in(arguments.list("planes")), .warnings = {}};
+OpeningPlan stored_plan(const Arguments& arguments) {
+    OpeningPlan plan{.openings = openings_in(arguments.list("planes"))};
     const std::vector<Patch> patches = patches_in(arguments.text("names"));
-    if (plan.openings.empty() || patches.size() < plan.openings.size())
+    if (arguments.has("closings")) plan.closings = closings_in(arguments.list("closings"));
+    const bool nothing = plan.openings.empty() && plan.closings.empty();
+    if (nothing || patches.size() < plan.openings.size())
         throw UsageError(
             "clip-opening: planes needs 10 numbers per opening (tip, point, unit normal, 1 for a "
-            "kept cap), and names as many entries kind:name");
+            "kept cap, 2 for a rim capped as it is, 3 for another name only), and names as many "
+            "entries kind:name");
     for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
+    plan.ends = ends_of(plan);
     return plan;
+}
+
+/// A plan of all openings names all of them. One of a single end, or typed by hand, leaves the
+/// others to the inlet that is asked for.
+InletChoice stored_inlet(const OpeningPlan& plan, const Surface& clipped,
+                         const Arguments& arguments) {
+    const auto others = std::ranges::count_if(
+        clipped.patches, [](const Patch& patch) { return patch.kind != PatchKind::Wall; });
+    if (static_cast<std::size_t>(others) <= plan.openings.size()) return {};
+    return {.point = arguments.optional_point("inlet")};
+}
+
+Clipping repeat(const Surface& surface, const Arguments& arguments, const Progress& progress) {
+    Clipping made{.plan = stored_plan(arguments), .surface = {}};
+    const bool stubs =
+        std::ranges::count(made.plan.closings, ClosingWay::RemoveStub, &PlannedClosing::way) > 0;
+    const auto graph = stubs ? lines_for_openings(surface, std::nullopt, progress.part(0.0, 0.7))
+                             : std::shared_ptr<const CenterlineGraph>();
+    ClippedSurface clipped =
+        clip_openings(surface, made.plan, {}, graph.get(), progress.part(0.7, 1.0));
+    if (!clipped.failed.empty()) throw AlgorithmFailure(clipped.failed.front().why);
+    const InletChoice inlet = stored_inlet(made.plan, clipped.surface, arguments);
+    made.surface =
+        inlet.point ? name_openings(clipped.surface, {}, inlet.point) : std::move(clipped.surface);
+    return made;
+}
+
+/// Adds the openings beside the plan that got another name or kind, so that the record has all that
+/// was decided.
+void add_renamed(OpeningPlan& plan, const Surface& before, const Surface& surface,
+                 const std::vector<PatchMeasures>& patches) {
+    std::vector<bool> planned(surface.patches.size(), false);
+    for (const PlannedOpening& opening : plan.openings)
+        if (const auto p = nearest_opening(surface, opening.place.plane.point)) planned[*p] = true;
+    for (const PatchMeasures& patch : patches)
+        if (patch.kind != PatchKind::Wall && !planned[patch.row] &&
+            std::ranges::count(before.patches, surface.patches[patch.row]) == 0)
+            plan.openings.push_back(
+                {.place = {.tip = patch.centroid, .plane = {patch.centroid, patch.normal}},
+                 .way = OpeningWay::Rename,
+                 .patch = surface.patches[patch.row]});
 }
 
 struct Resolved {
     std::vector<double> planes;
     std::string names;
     ordered_json openings = ordered_json::array();
+    std::vector<std::string> patches;  ///< of the plan's openings
 };
 
 /// Figures of an opening in the report.
@@ -71,52 +167,81 @@ ordered_json figures_of(const Surface& surface, const std::vector<PatchMeasures>
                         Keys::WithUnits);
 }
 
-Resolved describe(const Surface& surface, const OpeningPlan& plan) {
+Resolved describe(const Surface& before, const Surface& surface, OpeningPlan plan) {
     const std::vector<PatchMeasures> patches = measure_patches(surface);
+    const std::size_t planned = plan.openings.size();
+    add_renamed(plan, before, surface, patches);
     std::vector<Patch> made;
     Resolved resolved{.planes = planes_argument(plan.openings)};
-    for (const auto& opening : plan.openings) {
-        const auto& place = opening.place;
-        const std::size_t p = nearest_opening(surface, place.plane.point).value_or(0);
+    for (std::size_t i = 0; i < plan.openings.size(); ++i) {
+        const auto& opening = plan.openings[i];
+        const std::size_t p = nearest_opening(surface, opening.place.plane.point).value_or(0);
         made.push_back(surface.patches[p]);
+        resolved.patches.push_back(surface.patches[p].name);
+        if (i >= planned) continue;
         ordered_json figures = figures_of(surface, patches, p);
-        figures["distance_from_tip_mm"] = place.distance;
-        figures["kept"] = opening.keep;
+        figures["distance_from_tip_mm"] = opening.place.distance;
+        figures["kept"] = opening.way != OpeningWay::Cut;
         resolved.openings.push_back(std::move(figures));
     }
     resolved.names = names_argument(made);
     return resolved;
 }
 
-/// Removes openings that were not made from the plan, with a warning.
-void leave_out(OpeningPlan& plan, const std::vector<std::size_t>& left_out) {
-    for (auto i = left_out.rbegin(); i != left_out.rend(); ++i) {
-        const auto opening = plan.openings.begin() + static_cast<std::ptrdiff_t>(*i);
-        plan.warnings.push_back("the end at " + place_text(opening->place.tip) +
-                                " was left closed: a cut there would remove the ends of other "
-                                "vessels, too; choose the place with tip=x,y,z distance=...");
-        plan.openings.erase(opening);
+std::string end_text(const EndRecord& end) {
+    return "the end at " + place_text(end.place) + ", diameter " + formatted(end.diameter) + " mm";
+}
+
+/// What a user should know about the ends, worst first. Small closed ends are counted only.
+std::vector<std::string> end_warnings(const OpeningPlan& plan) {
+    double widest = 0.0;
+    for (const EndRecord& end : plan.ends)
+        if (end.opening) widest = std::max(widest, end.diameter);
+    std::vector<std::string> warnings;
+    std::size_t small = 0;
+    for (const EndRecord& end : plan.ends) {
+        const bool plain = end.fate == EndFate::Kept || end.why.empty() || end.asked;
+        if (plain) continue;
+        if (end.fate == EndFate::Closed && end.diameter < kLargeEnd * widest)
+            ++small;
+        else
+            warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);
     }
+    if (small > 0)
+        warnings.push_back(counted(small, "smaller end") + " stayed closed: see the report");
+    return warnings;
+}
+
+ordered_json ends_json(const OpeningPlan& plan, const Resolved& resolved) {
+    ordered_json list = ordered_json::array();
+    for (const EndRecord& end : plan.ends)
+        list.push_back(
+            {{"place_mm", {end.place.x(), end.place.y(), end.place.z()}},
+             {"diameter_mm", end.diameter},
+             {"fate", to_string(end.fate)},
+             {"opening", end.opening ? ordered_json(resolved.patches[*end.opening]) : nullptr},
+             {"why", end.why}});
+    return list;
 }
 
 Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
-    OpeningPlan plan = arguments.has("planes")
-                           ? stored(arguments)
-                           : decide(surface, arguments, progress.part(0.0, 0.9));
-    std::vector<std::size_t> left_out;
-    Surface clipped = clip_openings(surface, plan, arguments.optional_point("inlet"), &left_out,
-                                    progress.part(0.9, 1.0));
-    leave_out(plan, left_out);
-    const Resolved resolved = describe(clipped, plan);
+    Clipping made = arguments.has("planes") ? repeat(surface, arguments, progress)
+                                            : decide(surface, arguments, progress);
+    const Resolved resolved = describe(surface, made.surface, made.plan);
     Outcome outcome;
     outcome.resolved = arguments;
     outcome.resolved.set("planes", resolved.planes);
     outcome.resolved.set("names", resolved.names);
-    outcome.report = std::make_shared<ordered_json>(ordered_json{{"openings", resolved.openings}});
-    outcome.warnings = plan.warnings;
-    outcome.scene = with_surface(scene, std::move(clipped));
+    if (!made.plan.closings.empty())
+        outcome.resolved.set("closings", closings_argument(made.plan.closings));
+    outcome.report = std::make_shared<ordered_json>(
+        ordered_json{{"openings", resolved.openings}, {"ends", ends_json(made.plan, resolved)}});
+    outcome.warnings = end_warnings(made.plan);
+    outcome.warnings.insert(outcome.warnings.end(), made.plan.warnings.begin(),
+                            made.plan.warnings.end());
+    outcome.scene = with_surface(scene, std::move(made.surface));
     return outcome;
 }
 
@@ -142,57 +267,93 @@ private:
     Outcome made_;
 };
 
+std::vector<Parameter> chosen_parameters() {
+    using enum ParameterType;
+    return {{.name = "tip",
+             .type = Point,
+             .unit = "mm",
+             .help = "a point near the tip of the branch to open; default: every vessel end",
+             .meaning = Meaning::Tip},
+            {.name = "distance",
+             .unit = "mm",
+             .help = "distance of the cut from the tip along the centerline; default: the nearest "
+                     "straight place",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "radii",
+             .unit = "-",
+             .help = "the same distance in radii of the vessel at its tip",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "inlet",
+             .type = Point,
+             .unit = "mm",
+             .help = "a point near the opening where the blood flows in; default: the largest "
+                     "opening",
+             .meaning = Meaning::Inlet},
+            {.name = "name",
+             .type = Text,
+             .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size",
+             .meaning = Meaning::Name},
+            {.name = "kind",
+             .type = Choice,
+             .help = "role of the opening at tip for the solver; default: by size",
+             .choices = {"inlet", "outlet"}},
+            {.name = "closed",
+             .type = List,
+             .unit = "mm",
+             .help = "ends that stay closed on purpose: x,y,z of each"},
+            {.name = "strict",
+             .type = Flag,
+             .default_value = false,
+             .help = "cut every end perpendicular to its vessel, also one with a flat rim; the "
+                     "first end that cannot be cut is a failure"},
+            {.name = "check",
+             .type = Choice,
+             .default_value = "flow",
+             .help = "flow: fail unless there are two openings and the largest end is one of "
+                     "them; none: no such check",
+             .choices = {"flow", "none"}}};
+}
+
+/// What an earlier run decided.
+std::vector<Parameter> resolved_parameters() {
+    using enum ParameterType;
+    return {
+        {.name = "planes",
+         .type = List,
+         .unit = "mm",
+         .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
+                 "plane, unit normal out of the vessel, 1 if a good cap was kept, 2 if a flat "
+                 "rim was capped as it is, 3 if only its name changed; they are used as they are",
+         .meaning = Meaning::Planes},
+        {.name = "names",
+         .type = Text,
+         .help = "with planes: kind:name of each opening, separated by commas",
+         .meaning = Meaning::Patches},
+        {.name = "closings",
+         .type = List,
+         .unit = "mm",
+         .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
+                 "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
+                 "stub was removed"}};
+}
+
+std::vector<Parameter> parameters() {
+    std::vector<Parameter> all = chosen_parameters();
+    for (Parameter& parameter : resolved_parameters()) all.push_back(std::move(parameter));
+    return all;
+}
+
 }  // namespace
 
 Operation clip_opening_operation() {
-    using enum ParameterType;
     return {
         .name = "clip-opening",
         .usual_step = Step::Openings,
         .allowed = {Step::Branches, Step::LocalRepair, Step::Openings},
-        .summary = "cut vessel ends perpendicular to the centerline and cap them flat",
-        .parameters =
-            {{.name = "tip",
-              .type = Point,
-              .unit = "mm",
-              .help = "a point near the tip of the branch to open; default: every vessel end",
-              .meaning = Meaning::Tip},
-             {.name = "distance",
-              .unit = "mm",
-              .help = "distance of the cut from the tip along the centerline; default: the nearest "
-                      "straight place",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "radii",
-              .unit = "-",
-              .help = "the same distance in radii of the vessel at its tip",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "inlet",
-              .type = Point,
-              .unit = "mm",
-              .help = "a point near the opening where the blood flows in; default: the largest "
-                      "opening",
-              .meaning = Meaning::Inlet},
-             {.name = "name",
-              .type = Text,
-              .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size",
-              .meaning = Meaning::Name},
-             {.name = "kind",
-              .type = Choice,
-              .help = "role of the opening at tip for the solver; default: by size",
-              .choices = {"inlet", "outlet"}},
-             {.name = "planes",
-              .type = List,
-              .unit = "mm",
-              .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
-                      "plane, unit normal out of the vessel, 1 if a good cap was kept; they are "
-                      "used as they are",
-              .meaning = Meaning::Planes},
-             {.name = "names",
-              .type = Text,
-              .help = "with planes: kind:name of each opening, separated by commas",
-              .meaning = Meaning::Patches}},
+        .summary = "open vessel ends: cap flat rims, cut the others perpendicular to the vessel",
+        .parameters = parameters(),
         .start = &started<LiveClipping>,
         .thesis = "4.2.7",
         .recipe = {.cuts_ends = true}};

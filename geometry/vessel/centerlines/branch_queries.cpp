@@ -200,6 +200,11 @@ std::optional<std::size_t> nearest_tip(const CenterlineGraph& graph, const Vec3&
     return best;
 }
 
+std::size_t other_node(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
+    return starts_at(graph, branch, node) ? graph.branches[branch].end_node
+                                          : graph.branches[branch].start_node;
+}
+
 std::optional<BranchPlace> inward_from_tip(const CenterlineGraph& graph, std::size_t tip,
                                            double distance) {
     const std::size_t b = branch_of_tip(graph, tip);

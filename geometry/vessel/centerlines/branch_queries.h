@@ -61,6 +61,11 @@ struct NearestPlace {
 /// The branch that ends at a tip. \throw InvalidInput if the node is not a tip
 [[nodiscard]] std::size_t branch_of_tip(const CenterlineGraph& graph, std::size_t tip);
 
+/// The branch's other end node.
+/// \throw InvalidInput if the branch does not end at the node
+[[nodiscard]] std::size_t other_node(const CenterlineGraph& graph, std::size_t branch,
+                                     std::size_t node);
+
 /// The place `distance` [mm] of arc length inward from the tip, on the tip's own branch; empty if
 /// the branch is shorter.
 [[nodiscard]] std::optional<BranchPlace> inward_from_tip(const CenterlineGraph& graph,

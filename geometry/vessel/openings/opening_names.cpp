@@ -64,7 +64,7 @@ std::string free_patch_name(const std::string& stem, int first, const std::vecto
 }
 
 Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                      const std::optional<Vec3>& inlet) {
+                      const std::optional<Vec3>& inlet, bool promote) {
     auto patches = surface.patches;
     const auto areas = patch_areas(surface);
     std::vector<std::size_t> open;
@@ -88,10 +88,13 @@ Surface name_openings(const Surface& surface, const std::vector<std::string>& un
                 patch = {patch.name == "inlet" ? free_patch_name("outlet", 1, patches) : patch.name,
                          PatchKind::Outlet};
         if (const auto p = nearest_opening(surface, *inlet)) make_inlet(*p);
-    } else if (!has_inlet && !open.empty()) {
+    } else if (!has_inlet && areas.size() > 1) {
         const auto largest = std::max_element(areas.begin() + 1, areas.end());
         const auto p = static_cast<std::size_t>(largest - areas.begin());
-        if (p == open.front()) make_inlet(p);
+        if (!open.empty() && (promote || p == open.front()))
+            make_inlet(open.front());
+        else if (open.empty() && promote && patches[p].kind == PatchKind::Outlet)
+            make_inlet(p);
     }
     for (const std::size_t p : open) {
         patches[p].kind = PatchKind::Outlet;

@@ -18,9 +18,11 @@ namespace vesselbench {
 /// outlet_2 ... by descending area. An inlet that is named as an outlet, or the other way round, is
 /// renamed.
 /// \param inlet a point near the opening that is the inlet [mm]; none: the largest, unless a patch
-/// of that kind exists
+/// of that kind exists or the largest is not in `unnamed`
+/// \param promote without an inlet, the largest of `unnamed`, else the largest outlet, becomes one
 [[nodiscard]] Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                                    const std::optional<Vec3>& inlet = std::nullopt);
+                                    const std::optional<Vec3>& inlet = std::nullopt,
+                                    bool promote = false);
 
 /// The opening whose centroid is nearest to a point; empty if there is no opening.
 [[nodiscard]] std::optional<std::size_t> nearest_opening(const Surface& surface, const Vec3& point);

@@ -22,29 +22,40 @@ constexpr double kMargin = 0.25;
 constexpr double kBlindMargin = 0.5;
 /// The line's last stretch may turn: directions are measured at least this far inward [tip radii].
 constexpr double kSteady = 1.0;
-/// Largest fraction of a branch that may be given up; in a vessel without furcations, at each end.
+/// Largest fraction of a branch that is searched for the first whole section; in a vessel without
+/// furcations, at each end.
 constexpr double kMostOfBranch = 0.6;
 constexpr double kMostOfVessel = 0.2;
 constexpr double kMostOfObliqueVessel = 0.65;  // if its end is cut very obliquely
+/// Fraction of a branch that may be given up for a straighter place.
+constexpr double kGivenUp = 0.1;
 /// Bend assumed where the axis cannot be measured [deg].
 constexpr double kUnmeasuredCost = 60.0;
 /// Bend that weighs as much as one radius of vessel given up [deg].
 constexpr double kCostPerRadius = 5.0;
 /// A section is whole if it is hardly larger half a radius farther inward.
 constexpr double kWholeShare = 0.85;
+/// Where none is, this much of it has to be there.
+constexpr double kHalfWholeShare = 0.5;
+/// Across a furcation, a cut is searched up to this many radii behind it.
+constexpr double kBehindFurcation = 1.0;
 constexpr int kMostTurns = 12;
 constexpr double kConvergedTilt = 0.02;  // [deg]
 
-/// One branch seen from its tip.
-class BranchFromTip {
+/// One branch seen from one of its nodes, the end.
+class BranchFromEnd {
 public:
-    BranchFromTip(const Surface& surface, const CenterlineGraph& graph, std::size_t tip)
+    BranchFromEnd(const Surface& surface, const CenterlineGraph& graph, std::size_t tip)
+        : BranchFromEnd(surface, graph, tip, branch_of_tip(graph, tip), tip_radius(graph, tip)) {}
+
+    BranchFromEnd(const Surface& surface, const CenterlineGraph& graph, std::size_t end,
+                  std::size_t branch, double radius_there)
         : graph_(graph),
-          tip_(tip),
-          branch_(branch_of_tip(graph, tip)),
-          radius(tip_radius(graph, tip)),
+          tip_(end),
+          branch_(branch),
+          radius(radius_there),
           length(branch_length(graph.branches[branch_])),
-          near_(part_near(surface, graph.nodes[tip].position, reach())) {}
+          near_(part_near(surface, graph.nodes[end].position, reach())) {}
 
     Vec3 position(double s) const {
         return point_at(graph_.branches[branch_],
@@ -53,14 +64,15 @@ public:
 
     Vec3 outward(double s) const {
         const double steady = std::max(s, std::min(kSteady * radius, 0.5 * length));
-        return outward_direction(graph_, tip_, std::min(steady, length), radius);
+        const BranchPlace place = place_from_node(graph_, branch_, tip_, std::min(steady, length));
+        const Vec3 forward = tangent_at(graph_.branches[branch_], place.abscissa, radius);
+        return graph_.branches[branch_].start_node == tip_ ? Vec3(-forward) : forward;
     }
 
     /// Largest arc length from the tip at which a cut may be placed: up to where the branch becomes
     /// a separate vessel, or in the outer part of a stub that never does.
     double reach_of_cut() const {
-        const auto& branch = graph_.branches[branch_];
-        const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
+        const std::size_t other = other_node(graph_, branch_, tip_);
         if (graph_.nodes[other].is_tip()) return kMostOfVessel * length;
         const double own = length - furcation_zone_end(graph_, branch_, other);
         return std::min(std::max(own, 0.5 * length), kMostOfBranch * length);
@@ -69,8 +81,7 @@ public:
     /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
     /// middle. If it is too far, it meets the cut at the other end, which then reports it.
     double utmost_cut() const {
-        const auto& branch = graph_.branches[branch_];
-        const std::size_t other = branch.start_node == tip_ ? branch.end_node : branch.start_node;
+        const std::size_t other = other_node(graph_, branch_, tip_);
         if (graph_.nodes[other].is_tip()) return kMostOfObliqueVessel * length;
         return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
     }
@@ -96,13 +107,14 @@ public:
         return curve;
     }
 
-    /// True if the section is closed and, at an end that may be rounded, has its full area.
-    bool is_whole(double s, bool blind) const {
+    /// True if the section is closed and, at an end that may be rounded, has this share of its full
+    /// area.
+    bool is_whole(double s, bool blind, double share = kWholeShare) const {
         const Vec3 normal = outward(s);
         const auto here = section({position(s), normal});
         if (!blind) return here.has_value();
         const auto inward = section({position(s) - 0.5 * radius * normal, normal});
-        return here && inward && std::abs(here->area) >= kWholeShare * std::abs(inward->area);
+        return here && inward && std::abs(here->area) >= share * std::abs(inward->area);
     }
 
     /// The plane at s whose normal is the axis measured from there; empty without a closed section.
@@ -149,22 +161,28 @@ private:
     throw AlgorithmFailure("the branch with its tip at " + place_text(tip) + " " + why);
 }
 
-OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
-    const bool blind = branch.is_blind();
+/// The first whole section from the tip.
+double first_whole(const BranchFromEnd& branch, bool blind, const Vec3& tip) {
     const double utmost = blind ? branch.reach_of_cut() : branch.utmost_cut();
     double first = 0.5 * kSearchStep * branch.radius;
     while (first < utmost && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
-    const double end = first < branch.reach_of_cut() ? branch.reach_of_cut() : utmost;
-    if (first >= end)
+    if (first >= utmost)
         fail(tip,
              "has no whole section before its furcation or its other end: remove it "
              "(remove-branch), or give the distance from its tip");
-    first = std::min(first + (blind ? kBlindMargin : kMargin) * branch.radius, 0.5 * (first + end));
+    return first;
+}
+
+OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
+    const bool blind = branch.is_blind();
+    const double whole = first_whole(branch, blind, tip);
+    const double last = std::max(whole, kGivenUp * branch.length);
+    const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
     std::optional<OpeningPlace> best;
     double least = 0.0;
     for (int k = 0; k < kCandidates; ++k) {
         const double s = first + k * kCandidateStep * branch.radius;
-        if (s > end) break;
+        if (k > 0 && s > last) break;
         const auto place = branch.place(s);
         if (!place) continue;
         const double bent = place->measured ? place->bend_deg + place->tilt_deg : kUnmeasuredCost;
@@ -178,12 +196,27 @@ OpeningPlace place_by_itself(const BranchFromTip& branch, const Vec3& tip) {
     return *best;
 }
 
+/// Places from the end inward, up to a distance from it; the first one that is accepted.
+std::optional<OpeningPlace> first_accepted(const BranchFromEnd& branch, double utmost,
+                                           const PlaceTest& accepts) {
+    const bool blind = branch.is_blind();
+    for (double s = 0.5 * kSearchStep * branch.radius; s < utmost;
+         s += kSearchStep * branch.radius) {
+        if (!branch.is_whole(s, blind, kHalfWholeShare)) continue;
+        auto place = branch.place(s);
+        if (!place) continue;
+        place->share = s / branch.length;
+        if (accepts(*place)) return place;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 OpeningPlace choose_opening_place(const Surface& surface, const CenterlineGraph& graph,
                                   std::size_t tip, std::optional<double> distance) {
     const Vec3 at = graph.nodes.at(tip).position;
-    const BranchFromTip branch(surface, graph, tip);
+    const BranchFromEnd branch(surface, graph, tip);
     if (!distance) return place_by_itself(branch, at);
     if (*distance > branch.length)
         fail(at, "is only " + std::to_string(branch.length) + " mm long: choose a distance below");
@@ -192,6 +225,43 @@ OpeningPlace choose_opening_place(const Surface& surface, const CenterlineGraph&
         fail(at, "has no closed section " + std::to_string(*distance) +
                      " mm from its tip: choose another distance");
     return *place;
+}
+
+std::optional<OpeningPlace> nearest_opening_place(const Surface& surface,
+                                                  const CenterlineGraph& graph, std::size_t tip,
+                                                  const PlaceTest& accepts) {
+    const BranchFromEnd branch(surface, graph, tip);
+    return first_accepted(branch, branch.length, accepts);
+}
+
+std::optional<OpeningPlace> place_across_furcation(const Surface& surface,
+                                                   const CenterlineGraph& graph, std::size_t tip,
+                                                   const PlaceTest& accepts) {
+    const std::size_t own = branch_of_tip(graph, tip);
+    const std::size_t node = other_node(graph, own, tip);
+    if (graph.nodes[node].is_tip()) return std::nullopt;
+    const double before = branch_length(graph.branches[own]);
+    for (const std::size_t b : graph.nodes[node].branches) {
+        if (b == own || graph.branches[b].start_node == graph.branches[b].end_node) continue;
+        const double zone = furcation_zone_end(graph, b, node);
+        const double radius =
+            radius_at(graph.branches[b], place_from_node(graph, b, node, zone).abscissa);
+        const BranchFromEnd branch(surface, graph, node, b, radius);
+        const auto place =
+            first_accepted(branch, std::min(zone + kBehindFurcation * radius, branch.length),
+                           [&](const OpeningPlace& found) {
+                               OpeningPlace whole = found;
+                               whole.tip = graph.nodes[tip].position;
+                               whole.distance += before;
+                               return accepts(whole);
+                           });
+        if (!place) continue;
+        OpeningPlace found = *place;
+        found.tip = graph.nodes[tip].position;
+        found.distance += before;
+        return found;
+    }
+    return std::nullopt;
 }
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -26,9 +27,9 @@ struct OpeningPlace {
 inline constexpr double kBendDeg = 15.0;
 
 /// Chooses the plane at which a branch is opened, perpendicular to the vessel's axis just inside
-/// (axis_inward, iterated until the normal is that axis). Without a distance: as close to the tip
-/// as the section is whole and the vessel straight, never beyond the furcation; if no stretch is
-/// straight, the least bent one.
+/// (axis_inward, iterated until the normal is that axis). Without a distance: the first whole
+/// section from the tip, never beyond the furcation; a straighter one behind it is preferred while
+/// at least 90 % of the branch's length remain.
 /// \param tip node of the graph with one branch
 /// \param distance from the tip along the centerline [mm]
 /// \throw AlgorithmFailure if there is no closed section there, or the branch is too short; the
@@ -36,5 +37,22 @@ inline constexpr double kBendDeg = 15.0;
 [[nodiscard]] OpeningPlace choose_opening_place(const Surface& surface,
                                                 const CenterlineGraph& graph, std::size_t tip,
                                                 std::optional<double> distance = std::nullopt);
+
+/// True if an opening can be made there.
+using PlaceTest = std::function<bool(const OpeningPlace&)>;
+
+/// The place nearest to the tip that is accepted, anywhere on the branch; the section is closed and
+/// has at least half of the vessel's area. Empty if there is none.
+[[nodiscard]] std::optional<OpeningPlace> nearest_opening_place(const Surface& surface,
+                                                                const CenterlineGraph& graph,
+                                                                std::size_t tip,
+                                                                const PlaceTest& accepts);
+
+/// The same across the branch's furcation, on one of the other branches: where a vessel ends in a
+/// furcation whose branches are too short to be cut. `distance` counts from the tip.
+[[nodiscard]] std::optional<OpeningPlace> place_across_furcation(const Surface& surface,
+                                                                 const CenterlineGraph& graph,
+                                                                 std::size_t tip,
+                                                                 const PlaceTest& accepts);
 
 }  // namespace vesselbench

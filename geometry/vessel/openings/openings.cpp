@@ -2,227 +2,186 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <set>
+#include <numeric>
 #include <utility>
 
-#include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/clip.h"
+#include "geometry/vessel/openings/cut_trial.h"
 #include "geometry/vessel/openings/opening_axis.h"
-#include "geometry/vessel/openings/opening_names.h"
+#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// A cap of a file is kept if it is flat to this fraction of its diameter and perpendicular to
-/// within this angle.
-constexpr double kKeptFlatness = 1e-5;
-constexpr double kKeptTiltDeg = 2.0;
+/// A cap at an image's border, and any cap if ends are cut strictly, is kept if it is perpendicular
+/// to its vessel within this angle [deg] and, if strict, flat to this fraction of its diameter.
+constexpr double kKeptTiltDeg = 3.0;
+constexpr double kStrictTiltDeg = 2.0;
+constexpr double kStrictFlatness = 1e-5;
 /// If a larger fraction of a branch is given up, a warning says so.
-constexpr double kNoticedShare = 0.4;
+constexpr double kNoticedShare = 0.1;
+/// A larger tilt of an opening is mentioned [deg].
+constexpr double kNoticedTiltDeg = 2.0;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
-/// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
-constexpr double kSacToNeck = 1.4;
-constexpr double kSacLength = 2.5;
-
-/// A vessel end visible in the surface itself.
-struct End {
-    Vec3 centre = Vec3::Zero();
-    double diameter = 0.0;
-    std::optional<std::size_t> patch;  ///< its cap; none: an open border
-    std::optional<std::size_t> tip;    ///< node of the graph
-};
 
 std::string degrees_text(double angle) {
     return formatted(angle, "%.0f degrees");
 }
 
-std::vector<End> visible_ends(const Surface& surface) {
-    std::vector<End> ends;
-    for (const auto& loop : surface.topology->boundary_loops()) {
-        const double length = mean_edge(surface.points(), loop) * static_cast<double>(loop.size());
-        ends.push_back(
-            {loop_centre(surface, loop), length / std::numbers::pi, std::nullopt, std::nullopt});
-    }
-    for (std::size_t p = 0; p < surface.patches.size(); ++p) {
-        if (surface.patches[p].kind == PatchKind::Wall) continue;
-        const PatchShape shape = patch_shape(surface, p);
-        ends.push_back({shape.plane.point, shape.diameter(), p, std::nullopt});
-    }
-    return ends;
-}
-
-/// Assigns a tip to each end, the closest pairs first.
-void match_tips(std::vector<End>& ends, const CenterlineGraph& graph) {
-    struct Pair {
-        double distance;
-        std::size_t end, tip;
-    };
-
-    std::vector<Pair> pairs;
-    for (std::size_t e = 0; e < ends.size(); ++e)
-        for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
-            if (!graph.nodes[n].is_tip()) continue;
-            const double distance = (graph.nodes[n].position - ends[e].centre).norm();
-            if (distance < kEndReach * ends[e].diameter) pairs.push_back({distance, e, n});
-        }
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
-    std::set<std::size_t> taken;
-    for (const Pair& pair : pairs)
-        if (!ends[pair.end].tip && taken.insert(pair.tip).second) ends[pair.end].tip = pair.tip;
-}
-
-/// The part of a branch beyond the wall of the vessel it leaves.
-struct BlindBranch {
-    double length = 0.0;  ///< [mm]
-    double widest = 0.0;  ///< largest radius [mm]
-    bool bulges = false;  ///< wider than its neck, or than every vessel it joins: a sac
-
-    [[nodiscard]] bool is_short() const { return length < kSacLength * widest; }
-};
-
-/// Radius of a branch beyond the furcation at `node` [mm].
-double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
-    const double zone = furcation_zone_end(graph, branch, node);
-    return radius_at(graph.branches[branch], place_from_node(graph, branch, node, zone).abscissa);
-}
-
-BlindBranch blind_branch(const CenterlineGraph& graph, std::size_t tip, std::size_t root) {
-    const std::size_t index = branch_of_tip(graph, tip);
-    const auto& branch = graph.branches[index];
-    const double whole = branch_length(branch);
-    const double zone = furcation_zone_end(graph, index, root);
-    BlindBranch found{.length = whole - zone};
-    double neck = std::numeric_limits<double>::infinity();
-    for (double s = zone; s <= whole; s += 0.02 * whole + 1e-9) {
-        const double r = radius_at(branch, place_from_node(graph, index, root, s).abscissa);
-        neck = std::min(neck, r);
-        found.widest = std::max(found.widest, r);
-        found.bulges = found.bulges || r > kSacToNeck * neck;
-    }
-    double others = 0.0;
-    for (const std::size_t other : graph.nodes[root].branches)
-        if (other != index) others = std::max(others, radius_beyond(graph, other, root));
-    found.bulges = found.bulges || found.widest > kSacToNeck * others;
-    return found;
-}
-
-bool is_good_cap(const Surface& surface, std::size_t patch) {
-    const PatchShape shape = patch_shape(surface, patch);
-    return shape.flatness <= kKeptFlatness * shape.diameter() &&
-           opening_tilt_deg(surface, patch) <= kKeptTiltDeg;
-}
-
-PlannedOpening kept_cap(const Surface& surface, std::size_t patch, const Vec3& tip) {
-    const PatchShape shape = patch_shape(surface, patch);
-    const auto axis = axis_at_patch(surface, patch);
-    return {.place = {.tip = tip,
-                      .plane = shape.plane,
-                      .distance = 0.0,
-                      .diameter = shape.diameter(),
-                      .tilt_deg = axis ? axis->tilt_deg : 0.0,
-                      .bend_deg = axis ? axis->bend_deg : 0.0,
-                      .measured = axis.has_value()},
-            .keep = true,
-            .patch = std::nullopt};
+OpeningPlace place_on(const Plane& plane, double diameter, const Vec3& tip,
+                      const std::optional<OpeningAxis>& axis) {
+    return {.tip = tip,
+            .plane = plane,
+            .diameter = diameter,
+            .tilt_deg = axis ? axis->tilt_deg : 0.0,
+            .bend_deg = axis ? axis->bend_deg : 0.0,
+            .measured = axis.has_value()};
 }
 
 class Planner {
 public:
     Planner(const Surface& surface, const CenterlineGraph& graph, const OpeningPlanOptions& options)
-        : surface_(surface), graph_(graph), options_(options), ends_(visible_ends(surface)) {
-        match_tips(ends_, graph);
+        : surface_(surface),
+          graph_(graph),
+          options_(options),
+          ends_(find_surface_ends(surface, graph)),
+          made_(ends_.size()),
+          records_(ends_.size()),
+          decided_(ends_.size(), false),
+          trials_(surface, graph, ends_) {
+        for (std::size_t e = 0; e < ends_.size(); ++e)
+            records_[e] = {.place = ends_[e].centre, .diameter = ends_[e].diameter};
     }
 
     OpeningPlan run() {
-        if (options_.tip) {
-            plan_tip(tip_to_open(graph_, *options_.tip));
-        } else {
-            plan_visible();
-            if (all_ends_are_cuts() || plan_.openings.size() < 2) plan_blind();
-        }
-        if (plan_.openings.empty())
+        if (ends_.empty())
             throw AlgorithmFailure(
                 "no vessel end that could be opened was found: give one with tip=x,y,z");
-        return std::move(plan_);
+        if (options_.tip)
+            plan_one(end_of_tip(tip_to_open(graph_, *options_.tip)));
+        else
+            plan_all();
+        return finished();
     }
 
 private:
-    void plan_visible() {
-        for (const End& end : ends_) {
-            if (end.tip)
-                plan_tip(*end.tip);
-            else if (end.patch)
-                plan_.warnings.push_back("the patch '" + surface_.patches[*end.patch].name +
-                                         "' at " + place_text(end.centre) +
-                                         " is not at a vessel's tip and was left unchanged");
-            else
-                plan_.warnings.push_back("the open border at " + place_text(end.centre) +
-                                         " is not at a vessel's tip: close it with fill-hole");
+    std::size_t end_of_tip(std::size_t tip) const {
+        for (std::size_t e = 0; e < ends_.size(); ++e)
+            if (ends_[e].tip && *ends_[e].tip == tip) return e;
+        return 0;
+    }
+
+    void plan_one(std::size_t end) {
+        for (std::size_t e = 0; e < ends_.size(); ++e) decided_[e] = e != end;
+        if (!keep(end) && !cut(end)) throw AlgorithmFailure(records_[end].why);
+        records_ = {records_[end]};
+        made_ = {made_[end]};
+    }
+
+    void plan_all() {
+        const std::optional<std::size_t> inlet = named_inlet();
+        leave_closed();
+        for (std::size_t e = 0; e < ends_.size(); ++e)
+            if (!decided_[e] && ends_[e].is_visible()) static_cast<void>(keep(e));
+        const bool blind_too = opens_blind_ends();
+        std::vector<std::size_t> order(ends_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::stable_sort(order, std::greater{},
+                                 [&](std::size_t e) { return ends_[e].diameter; });
+        for (const bool visible : {true, false})
+            for (const std::size_t e : order)
+                if (!decided_[e] && ends_[e].is_visible() == visible)
+                    plan_end(e, blind_too || e == inlet);
+        if (!inlet) return;
+        if (!made_[*inlet])
+            throw AlgorithmFailure("the inlet at " + place_text(ends_[*inlet].centre) +
+                                   " cannot be opened: " + records_[*inlet].why);
+        inlet_ = inlet;
+    }
+
+    std::optional<std::size_t> named_inlet() const {
+        if (!options_.inlet) return std::nullopt;
+        const auto end = end_near(ends_, *options_.inlet);
+        if (end) return end;
+        const auto nearest = std::ranges::min_element(
+            ends_, {}, [&](const SurfaceEnd& e) { return (e.centre - *options_.inlet).norm(); });
+        throw AlgorithmFailure("no vessel ends near inlet=" + coordinates_text(*options_.inlet) +
+                               "; the nearest end is at " + place_text(nearest->centre));
+    }
+
+    void leave_closed() {
+        for (const Vec3& point : options_.closed) {
+            const auto end = end_near(ends_, point);
+            if (!end)
+                throw AlgorithmFailure("no vessel ends near closed=" + coordinates_text(point));
+            records_[*end].asked = true;
+            close(*end, "left closed as asked");
         }
     }
 
     /// Open rims and named caps determine the vessel ends. Cuts at an image's border do not: other
     /// vessels may end inside the image. Nor does a single end: blood has to enter and leave.
-    bool all_ends_are_cuts() const {
-        return std::all_of(ends_.begin(), ends_.end(), [&](const End& end) {
-            return end.patch && surface_.patches[*end.patch].kind == PatchKind::Cut;
-        });
+    bool opens_blind_ends() const {
+        const auto determines = [&](const SurfaceEnd& end) {
+            return !end.rim.empty() ||
+                   (end.patch && surface_.patches[*end.patch].kind != PatchKind::Cut);
+        };
+        const auto is_end = [&](const SurfaceEnd& end) {
+            const auto e = static_cast<std::size_t>(&end - ends_.data());
+            return end.is_visible() && (end.tip || made_[e]);
+        };
+        return std::ranges::none_of(ends_, determines) || std::ranges::count_if(ends_, is_end) < 2;
     }
 
-    void plan_blind() {
-        for (std::size_t n = 0; n < graph_.nodes.size(); ++n) {
-            const bool visible = std::any_of(ends_.begin(), ends_.end(),
-                                             [&](const End& end) { return end.tip == n; });
-            if (!graph_.nodes[n].is_tip() || visible) continue;
-            plan_blind_tip(n);
-        }
+    void plan_end(std::size_t e, bool blind_too) {
+        const SurfaceEnd& end = ends_[e];
+        if (!end.is_visible() && !blind_too && !is_wider_than_all(e))
+            return close(e,
+                         "a closed end: the surface's own rims are its openings; tip=x,y,z "
+                         "opens it");
+        if (!end.is_visible() && e != inlet_ && looks_closed(e)) return;
+        if (cut(e)) return;
+        if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
+        if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
+        close(e, records_[e].why);
+    }
+
+    /// A blind branch beside open rims is an end after all if it is the widest one, and long.
+    bool is_wider_than_all(std::size_t e) const {
+        for (std::size_t other = 0; other < ends_.size(); ++other)
+            if (ends_[other].is_visible() && made_[other] &&
+                ends_[other].diameter >= ends_[e].diameter)
+                return false;
+        const auto blind = blind_branch(graph_, *ends_[e].tip);
+        return !options_.strict && blind && !blind->is_short() && !blind->bulges;
     }
 
     /// An aneurysm stays closed, as does a branch too short to be opened. If cuts already provide
     /// inflow and outflow, a short blind stub is not an opening either.
-    void plan_blind_tip(std::size_t tip) {
-        const std::size_t index = branch_of_tip(graph_, tip);
-        const auto& branch = graph_.branches[index];
-        const std::size_t root = branch.start_node == tip ? branch.end_node : branch.start_node;
-        if (!graph_.nodes[root].is_tip()) {
-            const BlindBranch blind = blind_branch(graph_, tip, root);
-            if (blind.is_short() && (blind.bulges || ends_.size() >= 2)) {
-                plan_.warnings.push_back("the branch with its tip at " +
-                                         place_text(graph_.nodes[tip].position) +
-                                         (blind.bulges ? " looks like an aneurysm" : " is short") +
-                                         " and was not opened; tip=x,y,z opens it");
-                return;
-            }
-        }
-        try {
-            plan_tip(tip);
-        } catch (const AlgorithmFailure& failure) {
-            plan_.warnings.push_back(std::string("left closed: ") + failure.what());
-        }
+    bool looks_closed(std::size_t e) {
+        const auto blind = blind_branch(graph_, *ends_[e].tip);
+        if (!blind || !blind->is_short()) return false;
+        const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
+        if (!blind->bulges && visible < 2) return false;
+        records_[e].sac = blind->bulges;
+        close(e, std::string(blind->bulges ? "it looks like an aneurysm" : "its branch is short") +
+                     "; tip=x,y,z opens it");
+        return true;
     }
 
-    void plan_tip(std::size_t tip) {
-        const auto end = std::find_if(ends_.begin(), ends_.end(),
-                                      [&](const End& e) { return e.tip && *e.tip == tip; });
-        const bool capped = end != ends_.end() && end->patch;
-        PlannedOpening opening;
-        if (capped && !options_.distance && !options_.radii && is_good_cap(surface_, *end->patch))
-            opening = kept_cap(surface_, *end->patch, graph_.nodes[tip].position);
-        else
-            opening.place = choose_opening_place(surface_, graph_, tip, distance(tip));
-        if (capped && surface_.patches[*end->patch].kind != PatchKind::Cut)
-            opening.patch = surface_.patches[*end->patch];
-        warn_of_place(opening);
-        plan_.openings.push_back(std::move(opening));
+    bool is_stub(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        if (!end.tip || end.patch || has_failed(e, graph_.nodes[*end.tip].position)) return false;
+        const auto blind = blind_branch(graph_, *end.tip);
+        return blind && blind->is_stub();
     }
+
+    /// The place of the cuts was given.
+    bool is_fixed() const { return options_.distance || options_.radii; }
 
     std::optional<double> distance(std::size_t tip) const {
         if (options_.distance) return options_.distance;
@@ -230,59 +189,219 @@ private:
         return std::nullopt;
     }
 
+    bool has_failed(std::size_t e, const Vec3& place) const {
+        return std::ranges::any_of(options_.failed, [&](const FailedCut& failed) {
+            return (failed.place - place).norm() < 1e-6 * (1.0 + ends_[e].diameter);
+        });
+    }
+
+    // --- keeping ---------------------------------------------------------------------------------
+
+    /// Keeps a good cap or rim as it is.
+    bool keep(std::size_t e) {
+        if (is_fixed()) return false;
+        const auto place = ends_[e].patch ? kept_cap(e) : kept_rim(e);
+        if (!place || has_failed(e, place->plane.point)) return false;
+        const bool cap = ends_[e].patch.has_value();
+        std::string why = cap ? "its flat cap was kept" : "its flat rim was capped as it is";
+        if (place->measured && place->tilt_deg > kNoticedTiltDeg)
+            why += ", tilted by " + degrees_text(place->tilt_deg) + " against the vessel's axis";
+        make(e, *place, cap ? OpeningWay::KeepCap : OpeningWay::CapRim, EndFate::Kept, why);
+        trials_.protect(ends_[e]);
+        return true;
+    }
+
+    Vec3 tip_place(const SurfaceEnd& end) const {
+        return end.tip ? graph_.nodes[*end.tip].position : end.centre;
+    }
+
+    std::optional<OpeningPlace> kept_cap(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        const PatchShape shape = patch_shape(surface_, *end.patch);
+        const auto axis = axis_at_patch(surface_, *end.patch);
+        const double tilt = axis ? axis->tilt_deg : 90.0;
+        const bool named = surface_.patches[*end.patch].kind != PatchKind::Cut;
+        const bool good = options_.strict
+                              ? end.tip && shape.flatness <= kStrictFlatness * shape.diameter() &&
+                                    tilt <= kStrictTiltDeg
+                              : is_flat(shape) && (named || tilt <= kKeptTiltDeg);
+        if (!good) return std::nullopt;
+        return place_on(shape.plane, shape.diameter(), tip_place(end), axis);
+    }
+
+    std::optional<OpeningPlace> kept_rim(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        if (end.rim.empty() || options_.strict) return std::nullopt;
+        const RimShape rim = rim_shape(surface_, end.rim);
+        if (!rim.is_good()) return std::nullopt;
+        const double diameter = rim.diameter();
+        const auto axis =
+            axis_inward(part_near(surface_, rim.plane.point, 2.5 * diameter), rim.plane, diameter);
+        return place_on(rim.plane, diameter, tip_place(end), axis);
+    }
+
+    // --- cutting ---------------------------------------------------------------------------------
+
+    /// Cuts an end at the chosen place, else at the nearest one that can be cut. False: there is
+    /// none, and the record says why.
+    bool cut(std::size_t e) {
+        const SurfaceEnd& end = ends_[e];
+        EndRecord& record = records_[e];
+        if (!end.tip) {
+            record.why = end.patch ? "its cap is not flat, and no vessel's tip is there"
+                                   : "its rim is not flat, and no vessel's tip is there";
+            return false;
+        }
+        try {
+            const OpeningPlace place =
+                choose_opening_place(surface_, graph_, *end.tip, distance(*end.tip));
+            if (is_free(place, e)) return make_cut(e, place, "");
+        } catch (const AlgorithmFailure& failure) {
+            record.why = failure.what();
+        }
+        if (options_.strict || is_fixed()) return false;
+        const auto free = [&](const OpeningPlace& place) { return is_free(place, e); };
+        const std::string why = record.why;
+        if (const auto place = nearest_opening_place(surface_, graph_, *end.tip, free))
+            return make_cut(e, *place, "cut at the nearest place that can be: " + why);
+        const auto blind = blind_branch(graph_, *end.tip);
+        if (blind && blind->length < kLongestAcross * end.diameter)
+            if (const auto place = place_across_furcation(surface_, graph_, *end.tip, free))
+                return make_cut(e, *place, "cut across its furcation: " + why);
+        record.why = why;
+        return false;
+    }
+
+    bool is_free(const OpeningPlace& place, std::size_t e) {
+        if (has_failed(e, place.plane.point)) return false;
+        if (options_.tip && is_fixed()) return true;  // as the user says
+        const std::string problem = trials_.problem_of(place, e);
+        if (problem.empty()) return true;
+        records_[e].why = "the branch with its tip at " + place_text(place.tip) + ": " + problem;
+        return false;
+    }
+
+    bool make_cut(std::size_t e, const OpeningPlace& place, const std::string& why) {
+        make(e, place, OpeningWay::Cut, EndFate::Opened, why);
+        if (options_.tip && is_fixed()) return true;
+        for (const std::size_t other : trials_.taken_along())
+            if (!decided_[other]) {
+                records_[other].fate = EndFate::Removed;
+                records_[other].why =
+                    "part of the end at " + place_text(ends_[e].centre) + ", which was cut off";
+                decided_[other] = true;
+            }
+        trials_.take();
+        return true;
+    }
+
+    void make(std::size_t e, const OpeningPlace& place, OpeningWay way, EndFate fate,
+              const std::string& why) {
+        PlannedOpening opening{.place = place, .way = way, .patch = std::nullopt};
+        const auto& patch = ends_[e].patch;
+        if (patch && surface_.patches[*patch].kind != PatchKind::Cut)
+            opening.patch = surface_.patches[*patch];
+        made_[e] = opening;
+        decided_[e] = true;
+        records_[e].fate = fate;
+        records_[e].why = why;
+        if (way == OpeningWay::Cut) warn_of_place(opening);
+    }
+
+    void close(std::size_t e, const std::string& why) {
+        decided_[e] = true;
+        records_[e].fate = EndFate::Closed;
+        records_[e].why = why;
+        const SurfaceEnd& end = ends_[e];
+        if (!options_.strict && end.is_visible())
+            plan_.closings.push_back(
+                {end.centre, end.patch ? ClosingWay::WallCap : ClosingWay::FillRim});
+    }
+
+    void remove(std::size_t e) {
+        decided_[e] = true;
+        records_[e].fate = EndFate::Removed;
+        records_[e].why = "a stub shorter than its parent is wide: " + records_[e].why;
+        plan_.closings.push_back({graph_.nodes[*ends_[e].tip].position, ClosingWay::RemoveStub});
+    }
+
     void warn_of_place(const PlannedOpening& opening) {
-        if (opening.place.bend_deg > kBendDeg)
-            plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
+        const OpeningPlace& place = opening.place;
+        const std::string at = place_text(place.plane.point);
+        if (place.bend_deg > kBendDeg)
+            plan_.warnings.push_back("the opening at " + at +
                                      " lies in a bend: the vessel turns by " +
-                                     degrees_text(opening.place.bend_deg) + " over one diameter");
-        if (opening.place.share > kNoticedShare)
-            plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
-                                     " gives up " +
-                                     std::to_string(std::lround(100.0 * opening.place.share)) +
-                                     " % of its branch: the end is oblique or ragged, or bent");
-        if (!opening.place.measured)
-            plan_.warnings.push_back("the vessel behind the opening at " +
-                                     place_text(opening.place.plane.point) +
+                                     degrees_text(place.bend_deg) + " over one diameter");
+        if (place.share > kNoticedShare)
+            plan_.warnings.push_back("the opening at " + at + " gives up " +
+                                     std::to_string(std::lround(100.0 * place.share)) +
+                                     " % of its branch: the end is oblique or ragged");
+        if (!place.measured)
+            plan_.warnings.push_back("the vessel behind the opening at " + at +
                                      " is too short to measure its axis: the opening follows the "
                                      "centerline's direction");
-        if (opening.place.tilt_deg > kKeptTiltDeg)
-            plan_.warnings.push_back("the opening at " + place_text(opening.place.plane.point) +
-                                     " is tilted by " + degrees_text(opening.place.tilt_deg) +
-                                     " against the vessel's axis");
+        if (place.tilt_deg > kNoticedTiltDeg)
+            plan_.warnings.push_back("the opening at " + at + " is tilted by " +
+                                     degrees_text(place.tilt_deg) + " against the vessel's axis");
     }
+
+    OpeningPlan finished() {
+        for (std::size_t e = 0; e < made_.size(); ++e) {
+            if (!made_[e]) continue;
+            records_[e].opening = plan_.openings.size();
+            if (e == inlet_) plan_.inlet = plan_.openings.size();
+            plan_.openings.push_back(*made_[e]);
+        }
+        plan_.ends = records_;
+        const auto rank = [](const EndRecord& end) {
+            const bool plain = end.fate == EndFate::Opened && end.why.empty();
+            return std::pair(static_cast<int>(end.fate) + (plain ? 1 : 0), -end.diameter);
+        };
+        std::ranges::stable_sort(plan_.ends, {}, rank);
+        return std::move(plan_);
+    }
+
+    /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
+    static constexpr double kLongestAcross = 3.0;
 
     const Surface& surface_;
     const CenterlineGraph& graph_;
     OpeningPlanOptions options_;
-    std::vector<End> ends_;
+    std::vector<SurfaceEnd> ends_;
+    std::vector<std::optional<PlannedOpening>> made_;  ///< by end
+    std::vector<EndRecord> records_;                   ///< by end
+    std::vector<bool> decided_;                        ///< by end
+    CutTrials trials_;
+    std::optional<std::size_t> inlet_;
     OpeningPlan plan_;
 };
 
-double distance_to_vertices(const Surface& surface, const Vec3& point) {
-    double squared = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : surface.points()) squared = std::min(squared, (p - point).squaredNorm());
-    return std::sqrt(squared);
-}
+/// Ends at least this wide beside the largest opening count as large [-].
+constexpr double kAsLarge = 1.1;
 
-/// True if the cut for opening i removed the surface at another opening's place that is not merely
-/// another tip of the same ragged end.
-bool takes_another_end(const Surface& before, const Surface& after, const OpeningPlan& plan,
-                       std::size_t i) {
-    constexpr double kSameEnd = 2.0;  // diameters of the cut
-    const auto patch = nearest_opening(after, plan.openings[i].place.plane.point);
-    const double diameter = patch ? patch_shape(after, *patch).diameter() : 0.0;
-    for (std::size_t j = 0; j < plan.openings.size(); ++j) {
-        const OpeningPlace &own = plan.openings[i].place, &other = plan.openings[j].place;
-        if (j == i || (own.tip - other.tip).norm() < kSameEnd * diameter) continue;
-        // an existing opening is searched at its cap, a future one at its tip
-        const Vec3& at = j < i ? other.plane.point : other.tip;
-        const double was = distance_to_vertices(before, at);
-        if (distance_to_vertices(after, at) > 1.5 * was + 0.1 * diameter) return true;
-    }
-    return false;
+std::string ends_text(const OpeningPlan& plan) {
+    std::string text;
+    for (const EndRecord& end : plan.ends)
+        text += "\n  " + to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
+                formatted(end.diameter) + " mm" + (end.why.empty() ? "" : ": " + end.why);
+    return text;
 }
 
 }  // namespace
+
+std::string to_string(EndFate fate) {
+    switch (fate) {
+        case EndFate::Closed:
+            return "closed";
+        case EndFate::Removed:
+            return "removed";
+        case EndFate::Opened:
+            return "opened";
+        case EndFate::Kept:
+            return "kept";
+    }
+    return "";
+}
 
 std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
     const auto tip = nearest_tip(graph, point);
@@ -299,40 +418,24 @@ OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
     return Planner(surface, graph, options).run();
 }
 
-Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
-                      const std::optional<Vec3>& inlet, std::vector<std::size_t>* left_out,
-                      const Progress& progress) {
-    Surface result = surface;
-    std::vector<std::string> unnamed;
-    for (std::size_t i = 0; i < plan.openings.size(); ++i) {
-        progress.report(static_cast<double>(i) / static_cast<double>(plan.openings.size()),
-                        "cutting");
-        const PlannedOpening& opening = plan.openings[i];
-        if (opening.keep) {
-            const auto patch = nearest_opening(result, opening.place.plane.point);
-            if (!patch)
-                throw AlgorithmFailure("there is no cap at " +
-                                       place_text(opening.place.plane.point) + " any longer");
-            if (opening.patch) {
-                auto patches = result.patches;
-                patches[*patch] = *opening.patch;
-                result = result.with_patches(*result.patch_labels, patches);
-            } else {
-                unnamed.push_back(result.patches[*patch].name);
-            }
-            continue;
-        }
-        Patch patch{free_patch_name("opening", 1, result.patches), PatchKind::Cut};
-        if (opening.patch) patch = *opening.patch;
-        Surface cut = clip_branch(result, opening.place.plane, patch);
-        if (takes_another_end(result, cut, plan, i)) {
-            if (left_out != nullptr) left_out->push_back(i);
-            continue;
-        }
-        if (!opening.patch) unnamed.push_back(patch.name);
-        result = std::move(cut);
-    }
-    return name_openings(result, unnamed, inlet);
+void check_flow(const OpeningPlan& plan) {
+    const std::string remedy =
+        "; open an end by hand with clip-opening tip=x,y,z distance=..., or leave it closed on "
+        "purpose with closed=x,y,z; check=none makes a model that is not for flow";
+    if (plan.openings.size() < 2)
+        throw AlgorithmFailure("a flow needs two openings, and there " +
+                               std::string(plan.openings.empty() ? "is none" : "is one only") +
+                               ". The ends found:" + ends_text(plan) + remedy);
+    double largest = 0.0;
+    for (const EndRecord& end : plan.ends)
+        if (end.opening) largest = std::max(largest, end.diameter);
+    for (const EndRecord& end : plan.ends)
+        if (end.fate == EndFate::Closed && !end.sac && !end.asked &&
+            end.diameter > kAsLarge * largest)
+            throw AlgorithmFailure(
+                "the largest end, at " + place_text(end.place) + " with a diameter of " +
+                formatted(end.diameter) + " mm, is closed (" + end.why +
+                "): blood would enter elsewhere. The ends found:" + ends_text(plan) + remedy);
 }
 
 }  // namespace vesselbench

@@ -10,22 +10,73 @@
 
 namespace vesselbench {
 
+/// How an opening is made.
+enum class OpeningWay {
+    Cut,      ///< the vessel is cut at the plane and capped
+    KeepCap,  ///< a flat cap exists already: only its name may change
+    CapRim,   ///< a flat rim exists already: it is capped as it is
+    Rename,   ///< it exists already and is not an end of the plan: it gets a name only
+};
+
 /// An opening to be made, or a cap that can be kept.
 struct PlannedOpening {
     OpeningPlace place;
-    bool keep = false;  ///< a flat, perpendicular cap exists already: only its name may change
+    OpeningWay way = OpeningWay::Cut;
     std::optional<Patch> patch;  ///< name and kind, if known; otherwise chosen by size
+};
+
+/// What becomes of an end that gets no opening.
+enum class ClosingWay {
+    FillRim,     ///< its rim is closed as wall
+    WallCap,     ///< its cap becomes wall
+    RemoveStub,  ///< the branch is removed (remove_branch)
+};
+
+struct PlannedClosing {
+    Vec3 place = Vec3::Zero();  ///< centre of the rim or cap, or the branch's tip [mm]
+    ClosingWay way = ClosingWay::FillRim;
+};
+
+enum class EndFate { Closed, Removed, Opened, Kept };
+
+[[nodiscard]] std::string to_string(EndFate fate);  ///< "closed", "removed", "opened", "kept"
+
+/// A vessel end and what was decided about it.
+struct EndRecord {
+    Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
+    double diameter = 0.0;      ///< of the vessel there [mm]
+    EndFate fate = EndFate::Closed;
+    std::string why;                                    ///< empty: opened at the chosen place
+    bool sac = false;                                   ///< closed since it looks like an aneurysm
+    bool asked = false;                                 ///< closed since the caller wants it so
+    std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 
 struct OpeningPlan {
     std::vector<PlannedOpening> openings;
-    std::vector<std::string> warnings;  ///< ends left closed, bends, doubtful axes
+    std::vector<PlannedClosing> closings;
+    std::vector<EndRecord> ends;        ///< every end found, worst first
+    std::vector<std::string> warnings;  ///< about the places of openings: bends, doubtful axes
+    std::optional<std::size_t> inlet;   ///< the opening that was named as the inlet
+};
+
+/// A place where a cut was tried without success.
+struct FailedCut {
+    Vec3 tip = Vec3::Zero();  ///< [mm]
+    Vec3 place = Vec3::Zero();
+    std::string why;
 };
 
 struct OpeningPlanOptions {
     std::optional<Vec3> tip;         ///< near the one branch to open [mm]; none: all vessel ends
     std::optional<double> distance;  ///< from the tip [mm]; none: chosen automatically
     std::optional<double> radii;     ///< the same in radii of the tip's vessel
+    /// Every end is cut perpendicular to its vessel at its chosen place; the first one that cannot
+    /// be ends the plan with its failure.
+    bool strict = false;
+    std::optional<Vec3> inlet;      ///< near the end that is the inlet: it has to be opened [mm]
+    Positions closed;               ///< near the ends that stay closed [mm]
+    std::vector<FailedCut> failed;  ///< places to be avoided
 };
 
 /// A border or a cap belongs to a tip within this many of its diameters [-].
@@ -37,22 +88,38 @@ inline constexpr double kEndReach = 1.5;
 /// \throw AlgorithmFailure if there is none; the text names the nearest one
 [[nodiscard]] std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point);
 
-/// Decides where the vessel ends are cut. All ends: the open borders and known caps at a tip; if
-/// there are fewer than two of these, or only cuts at an image's border, every other tip as well,
-/// except an aneurysm's sac (a branch no longer than its width, behind a neck).
-/// \throw AlgorithmFailure if there is no end, or no branch has its tip near `tip`
+/// Decides what becomes of the vessel ends. All ends: the open borders and known caps; if there are
+/// fewer than two of these, or only cuts at an image's border, every other tip as well, except an
+/// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a named flat
+/// cap is kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
+/// the nearest place with a whole section; else its branch is removed if it is a stub, shorter than
+/// its parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no
+/// branch has its tip near `tip`, the end at `tip` or `inlet` cannot be opened
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {});
 
-/// Cuts and caps as planned. name_openings assigns a name and a kind to unnamed openings. A cut
-/// that would remove another vessel's end as well is left out: it is in a neck of the network, not
-/// at an end.
-/// \param inlet a point near the opening that is the inlet [mm]; none: the largest, unless a patch
-/// of that kind exists
-/// \param left_out if not null, receives the indices of the openings left out, ascending
-[[nodiscard]] Surface clip_openings(const Surface& surface, const OpeningPlan& plan,
-                                    const std::optional<Vec3>& inlet = std::nullopt,
-                                    std::vector<std::size_t>* left_out = nullptr,
-                                    const Progress& progress = {});
+/// What a flow needs of a plan: two openings, the largest end among them.
+/// \throw AlgorithmFailure that lists all ends with their reasons, and what to do
+void check_flow(const OpeningPlan& plan);
+
+struct ClippedSurface {
+    Surface surface;
+    std::vector<FailedCut> failed;  ///< openings left out; empty: everything was done
+};
+
+/// Who becomes the inlet.
+struct InletChoice {
+    std::optional<Vec3> point;  ///< near the opening that is the inlet [mm]
+    /// Without one, and if every opening is an outlet, the largest becomes the inlet.
+    bool promote = false;
+};
+
+/// Does what the plan says, and names the openings (name_openings).
+/// \param graph for the removal of stubs; may be null if there are none
+/// \throw AlgorithmFailure if a kept cap or a rim is not there
+[[nodiscard]] ClippedSurface clip_openings(const Surface& surface, const OpeningPlan& plan,
+                                           const InletChoice& inlet = {},
+                                           const CenterlineGraph* graph = nullptr,
+                                           const Progress& progress = {});
 
 }  // namespace vesselbench

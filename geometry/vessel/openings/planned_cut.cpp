@@ -62,7 +62,8 @@ Plane chosen_plane(const CutBranch& branch, const CutQuestion& question) {
     const OpeningPlan plan = plan_openings(branch.surface, *branch.graph, {.tip = question.tip});
     const PlannedOpening& opening = plan.openings.front();
     Plane plane = opening.place.plane;
-    if (opening.keep) plane.point -= kBehindCap * opening.place.diameter * plane.normal;
+    if (opening.way != OpeningWay::Cut)
+        plane.point -= kBehindCap * opening.place.diameter * plane.normal;
     return plane;
 }
 

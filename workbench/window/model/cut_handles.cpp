@@ -62,7 +62,6 @@ std::vector<FieldText> plane_texts(const OperationForm& form, const Cut& cut, co
     const PlannedOpening opening{
         .place = {.tip = rounded_place(cut.branch->graph->nodes[cut.branch->tip].position),
                   .plane = {rounded_place(plane.point), normal}},
-        .keep = false,
         .patch = patch_of(form, cut)};
     return {{"distance", ""},
             {"radii", ""},

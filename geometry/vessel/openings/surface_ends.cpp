@@ -1,0 +1,158 @@
+#include "geometry/vessel/openings/surface_ends.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "geometry/editing/editable_surface.h"
+#include "geometry/editing/hole_filling.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/openings.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A point this far from an end does not mean it [radii].
+constexpr double kFarthestEnd = 4.0;
+/// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
+constexpr double kSacToNeck = 1.4;
+constexpr double kSacLength = 2.5;
+/// A stub is shorter than this many of its parent's diameters.
+constexpr double kStubShare = 1.0;
+
+std::vector<SurfaceEnd> visible_ends(const Surface& surface) {
+    std::vector<SurfaceEnd> ends;
+    for (auto& loop : surface.topology->boundary_loops()) {
+        const double length = mean_edge(surface.points(), loop) * static_cast<double>(loop.size());
+        const VertexId vertex = loop.front();
+        const Vec3 centre = loop_centre(surface, loop);
+        ends.push_back({.centre = centre,
+                        .diameter = length / std::numbers::pi,
+                        .patch = std::nullopt,
+                        .rim = std::move(loop),
+                        .tip = std::nullopt,
+                        .vertex = vertex});
+    }
+    for (std::size_t p = 0; p < surface.patches.size(); ++p) {
+        if (surface.patches[p].kind == PatchKind::Wall) continue;
+        const auto& labels = *surface.patch_labels;
+        const auto first = std::ranges::find(labels, static_cast<std::uint16_t>(p));
+        if (first == labels.end()) continue;
+        const auto triangle = static_cast<TriangleId>(first - labels.begin());
+        const PatchShape shape = patch_shape(surface, p);
+        ends.push_back({.centre = shape.plane.point,
+                        .diameter = shape.diameter(),
+                        .patch = p,
+                        .rim = {},
+                        .tip = std::nullopt,
+                        .vertex = surface.triangles()[triangle][0]});
+    }
+    return ends;
+}
+
+/// Assigns a tip to each end, the closest pairs first.
+void match_tips(std::vector<SurfaceEnd>& ends, const CenterlineGraph& graph) {
+    struct Pair {
+        double distance;
+        std::size_t end, tip;
+    };
+
+    std::vector<Pair> pairs;
+    for (std::size_t e = 0; e < ends.size(); ++e)
+        for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+            if (!graph.nodes[n].is_tip()) continue;
+            const double distance = (graph.nodes[n].position - ends[e].centre).norm();
+            if (distance < kEndReach * ends[e].diameter) pairs.push_back({distance, e, n});
+        }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+    std::set<std::size_t> taken;
+    for (const Pair& pair : pairs)
+        if (!ends[pair.end].tip && taken.insert(pair.tip).second) ends[pair.end].tip = pair.tip;
+}
+
+VertexId nearest_vertex(const Surface& surface, const Vec3& point) {
+    VertexId best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    const Positions& points = surface.points();
+    for (VertexId v = 0; v < points.size(); ++v)
+        if (const double d = (points[v] - point).squaredNorm(); d < least) {
+            least = d;
+            best = v;
+        }
+    return best;
+}
+
+/// Radius of a branch beyond the furcation at `node` [mm].
+double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
+    const double zone = furcation_zone_end(graph, branch, node);
+    return radius_at(graph.branches[branch], place_from_node(graph, branch, node, zone).abscissa);
+}
+
+}  // namespace
+
+std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const CenterlineGraph& graph) {
+    std::vector<SurfaceEnd> ends = visible_ends(surface);
+    match_tips(ends, graph);
+    std::set<std::size_t> taken;
+    for (SurfaceEnd& end : ends)
+        if (end.tip) {
+            taken.insert(*end.tip);
+            end.diameter = 2.0 * tip_radius(graph, *end.tip);
+        }
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        if (graph.nodes[n].is_tip() && !taken.contains(n))
+            ends.push_back({.centre = graph.nodes[n].position,
+                            .diameter = 2.0 * tip_radius(graph, n),
+                            .patch = std::nullopt,
+                            .rim = {},
+                            .tip = n,
+                            .vertex = nearest_vertex(surface, graph.nodes[n].position)});
+    return ends;
+}
+
+std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends, const Vec3& point) {
+    std::optional<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        const double distance = (ends[e].centre - point).norm();
+        if (distance >= least || distance > 0.5 * kFarthestEnd * ends[e].diameter) continue;
+        least = distance;
+        best = e;
+    }
+    return best;
+}
+
+bool BlindBranch::is_short() const {
+    return length < kSacLength * widest;
+}
+
+bool BlindBranch::is_stub() const {
+    return length < kStubShare * 2.0 * parent;
+}
+
+std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_t tip) {
+    const std::size_t index = branch_of_tip(graph, tip);
+    const std::size_t root = other_node(graph, index, tip);
+    if (graph.nodes[root].is_tip()) return std::nullopt;
+    const auto& branch = graph.branches[index];
+    const double whole = branch_length(branch);
+    const double zone = furcation_zone_end(graph, index, root);
+    BlindBranch found{.length = whole - zone};
+    double neck = std::numeric_limits<double>::infinity();
+    for (double s = zone; s <= whole; s += 0.02 * whole + 1e-9) {
+        const double r = radius_at(branch, place_from_node(graph, index, root, s).abscissa);
+        neck = std::min(neck, r);
+        found.widest = std::max(found.widest, r);
+        found.bulges = found.bulges || r > kSacToNeck * neck;
+    }
+    for (const std::size_t other : graph.nodes[root].branches)
+        if (other != index)
+            found.parent = std::max(found.parent, radius_beyond(graph, other, root));
+    found.bulges = found.bulges || found.widest > kSacToNeck * found.parent;
+    return found;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "geometry/vessel/centerlines/centerline_graph.h"
+#include "geometry/vessel/openings/rim_shape.h"
+
+namespace vesselbench {
+
+/// An end of a vessel: an open border, a cap, or the tip of a closed branch.
+struct SurfaceEnd {
+    Vec3 centre = Vec3::Zero();        ///< of its rim or cap; else the tip [mm]
+    double diameter = 0.0;             ///< of the vessel there [mm]
+    std::optional<std::size_t> patch;  ///< its cap
+    std::vector<VertexId> rim;         ///< its open border, as from Topology::boundary_loops
+    std::optional<std::size_t> tip;    ///< node of the graph
+    VertexId vertex = 0;               ///< of the surface there
+
+    [[nodiscard]] bool is_visible() const { return patch || !rim.empty(); }
+};
+
+/// All ends: open borders, caps, then the tips that belong to none of them.
+[[nodiscard]] std::vector<SurfaceEnd> find_surface_ends(const Surface& surface,
+                                                        const CenterlineGraph& graph);
+
+/// The end nearest to a point; empty if there is none within 4 of its radii.
+[[nodiscard]] std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends,
+                                                  const Vec3& point);
+
+/// The part of a branch beyond the wall of the vessel it leaves.
+struct BlindBranch {
+    double length = 0.0;  ///< [mm]
+    double widest = 0.0;  ///< largest radius [mm]
+    double parent = 0.0;  ///< radius of the widest other vessel at the furcation [mm]
+    bool bulges = false;  ///< wider than its neck, or than every vessel it joins: a sac
+
+    /// Not longer than a sac may be.
+    [[nodiscard]] bool is_short() const;
+
+    /// So short that removing it changes little: shorter than its parent is wide.
+    [[nodiscard]] bool is_stub() const;
+};
+
+/// Empty for a vessel without a furcation.
+[[nodiscard]] std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph,
+                                                      std::size_t tip);
+
+}  // namespace vesselbench
