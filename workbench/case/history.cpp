@@ -86,7 +86,7 @@ History::History(std::map<EditRef, EditPlace> edits, std::vector<HistoryState> s
     for (HistoryResult& result : results) {
         if (!edits_.contains(result.edit) || result.input >= result.id)
             throw InvalidInput("result " + std::to_string(result.id) + " has no edit");
-        result_by_input_[{result.edit, result.input}] = result.id;
+        if (!result.dropped) result_by_input_[{result.edit, result.input}] = result.id;
         results_[result.id] = std::move(result);
     }
 }

@@ -51,6 +51,7 @@ struct HistoryResult {
     EditRef edit;
     ResultId input = 0;        ///< the result it ran on
     std::string stale_reason;  ///< if not empty, the edit does not apply; its input passes through
+    bool dropped = false;  ///< its scene was dropped to save space: the edit is pending there again
 };
 
 enum class EditStatus : std::uint8_t {
@@ -107,7 +108,7 @@ public:
     /// Names of the variants that have edits in the current state, ascending.
     [[nodiscard]] std::vector<std::string> variants() const;
 
-    /// The result of an edit on an input, if it ever ran on it.
+    /// The result of an edit on an input, if it ever ran on it and was not dropped.
     [[nodiscard]] const HistoryResult* result_of(EditRef edit, ResultId input) const;
 
     /// The newest result of this revision that is not stale, on any input.

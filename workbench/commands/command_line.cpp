@@ -262,6 +262,20 @@ void add_replay(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_compact(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command =
+        add_command(line, "compact",
+                    "Make a project smaller: drop results of undone edits, which can be computed "
+                    "again; no edit is lost",
+                    [options] {
+                        compact(*options);
+                        return 0;
+                    });
+    add_project(command, options->project);
+    add_json(command, options->json);
+}
+
 void add_input(CLI::App& command, InputArguments& input) {
     command
         .add_option("INPUT", input.input,
@@ -535,6 +549,7 @@ void set_up(CommandLine& line) {
     add_log(line);
     add_undo_and_redo(line);
     add_replay(line);
+    add_compact(line);
     add_export(line);
     add_measure(line);
     add_picture(line);

@@ -80,6 +80,9 @@ void show_log(const LogOptions& options);
 /// Runs every edit again and compares. \return false if something differs
 bool replay_project(const LogOptions& options, const Progress& progress);
 
+/// Drops results that can be computed again, and prints which.
+void compact(const LogOptions& options);
+
 struct StepBackOptions {
     std::string project;
     std::optional<std::int64_t> edit;  ///< none: one state back or forward

@@ -12,6 +12,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
+#include "workbench/session/compaction.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -297,6 +298,28 @@ bool replay_project(const LogOptions& options, const Progress& progress) {
     if (json["same"] == true) return true;
     complain("the replay differs from the stored results");
     return false;
+}
+
+void compact(const LogOptions& options) {
+    const Compaction done = compact_project(options.project);
+    if (options.json) {
+        std::cout << Json({{"dropped", done.dropped},
+                           {"bytes_before", done.before},
+                           {"bytes_after", done.after}})
+                         .dump(2)
+                  << "\n";
+        return;
+    }
+    std::vector<std::string> list;
+    for (const auto& [operation, count] : done.dropped)
+        list.push_back(std::to_string(count) + " " + operation);
+    if (list.empty())
+        std::cout << "nothing to drop: the current state needs every result\n";
+    else
+        std::cout << "dropped results of undone or changed edits: " << joined(list)
+                  << "; they are computed again where they are needed\n";
+    std::cout << formatted(static_cast<double>(done.before) / 1024.0, "%.0f KB, now ")
+              << formatted(static_cast<double>(done.after) / 1024.0, "%.0f KB\n");
 }
 
 }  // namespace vesselbench

@@ -136,6 +136,21 @@ void PartStore::recall(const ScenePart& part) {
     if (const auto id = find(content_hash(part))) hold(*id, part);
 }
 
+void PartStore::keep_only(std::set<BlobId> parts) {
+    // A base is older than what differs from it: from the newest on, one pass finds all.
+    Statement row = database_->prepare("SELECT id, base FROM blobs ORDER BY id DESC");
+    std::vector<BlobId> unused;
+    while (row.step()) {
+        if (!parts.contains(row.integer(0)))
+            unused.push_back(row.integer(0));
+        else if (!row.is_null(1))
+            parts.insert(row.integer(1));
+    }
+    for (const BlobId id : unused)
+        database_->prepare("DELETE FROM blobs WHERE id = ?").bind(0, id).step();
+    forget_after(0);
+}
+
 BlobId PartStore::last() const {
     return database_->number("SELECT coalesce(max(id), 0) FROM blobs");
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -42,6 +43,9 @@ public:
 
     /// Uses the part in place of the stored one with the same content, during its lifetime.
     void recall(const ScenePart& part);
+
+    /// Removes what none of these parts consists of, inside the caller's transaction.
+    void keep_only(std::set<BlobId> parts);
 
     /// After a rollback: forgets what was stored since.
     void forget_after(BlobId last);

@@ -264,6 +264,27 @@ std::vector<std::string> ProjectFile::damages(ResultId id, const Progress& progr
     return vesselbench::damages(parts_->store, parts_->scene_row(id), progress);
 }
 
+void ProjectFile::drop_scenes(const std::set<ResultId>& kept) {
+    parts_->check_writable();
+    const Database& database = parts_->database;
+    const History before = history();
+    {
+        Transaction transaction(database);
+        std::set<BlobId> used;
+        for (const auto& [id, result] : before.results()) {
+            if (result.dropped || !result.stale_reason.empty()) continue;
+            if (kept.contains(id))
+                for (const BlobId blob : parts_->scene_row(id).blobs) used.insert(blob);
+            else
+                database.prepare("UPDATE results SET scene = NULL WHERE id = ?").bind(0, id).step();
+        }
+        parts_->store.keep_only(std::move(used));
+        transaction.commit();
+    }
+    database.run("VACUUM");
+    database.run("PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
 void ProjectFile::save_as(const std::filesystem::path& path, const Progress& progress) const {
     write_whole(path, [&](const std::filesystem::path& unfinished) {
         progress.check_cancelled();

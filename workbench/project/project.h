@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,11 @@ public:
     /// Names of the stored parts of a result whose content does not match their checksum.
     [[nodiscard]] std::vector<std::string> damages(ResultId id,
                                                    const Progress& progress = {}) const;
+
+    /// Drops the scenes of all other results, and returns the space to the file system. Their
+    /// records stay: an edit whose result was dropped is pending there, with what it had resolved.
+    /// The history has to be read again. \throw IoError if it cannot be written
+    void drop_scenes(const std::set<ResultId>& kept);
 
     /// \throw IoError if the file exists or cannot be written; Cancelled: then there is no file
     void save_as(const std::filesystem::path& path, const Progress& progress = {}) const;

@@ -235,10 +235,11 @@ std::vector<HistoryState> history_states(const Database& database) {
 
 std::vector<HistoryResult> history_results(const Database& database) {
     std::vector<HistoryResult> results;
-    for (auto row = database.prepare("SELECT id, edit, revision, input, stale FROM results");
+    for (auto row = database.prepare(
+             "SELECT id, edit, revision, input, stale, stale = '' AND scene IS NULL FROM results");
          row.step();)
-        results.push_back(
-            {id_in(row, 0), edit_ref_in(row, 1), id_in(row, 3), text_in(row, 4, kLongestText)});
+        results.push_back({id_in(row, 0), edit_ref_in(row, 1), id_in(row, 3),
+                           text_in(row, 4, kLongestText), row.integer(5) != 0});
     return results;
 }
 
