@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -139,6 +140,29 @@ SCENARIO("A print model is closed where its end could not be opened", "[workbenc
     CHECK_THAT(result.err, Contains("clip-opening was skipped") && Contains("fill-hole"));
     const ProgramRun measured = run({"measure", out + "/print.stl", "--json"});
     CHECK(Json::parse(measured.out)["closed"] == true);
+}
+
+SCENARIO("prepare goes on where it stopped", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
+    const std::vector<std::string> command = {
+        "prepare", folder + "/tube.stl", "--units", "mm", "--for", "cfd", "--out", out};
+    auto coarse = command;
+    coarse.insert(coarse.end(), {"--set", "remesh.edge=20"});
+    const ProgramRun stopped = run(coarse);
+    REQUIRE(stopped.exit_code == 1);
+    CHECK_THAT(stopped.err, Contains("--resume"));
+    REQUIRE(run({"apply", out + "/project.vbench", "smooth", "iterations=2"}).exit_code == 0);
+    auto again = command;
+    again.emplace_back("--resume");
+    const ProgramRun resumed = run(again);
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    CHECK_THAT(resumed.err, !Contains("load-surface") && !Contains("clip-opening") &&
+                                Contains("remesh") && Contains("tetrahedralize"));
+    const Names made = names_in(out);
+    CHECK(std::ranges::count(made, "openfoam") == 1);
+    CHECK(std::ranges::count(made, "project.1.vbench") == 0);
 }
 
 SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {

@@ -302,6 +302,8 @@ void add_prepare(CommandLine& line) {
         ->type_name(joined(purpose_names(), "|"));
     command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
+    command.add_flag("--resume", options->resume,
+                     "Go on in the folder's project after the last edit of the recipe");
     command
         .add_option("--set", options->settings,
                     "operation.parameter=value: change an argument of the recipe")

@@ -173,6 +173,7 @@ struct PrepareArguments {
     std::string recipe;
     std::vector<std::string> settings;  ///< "operation.parameter=value"
     std::string out;
+    bool resume = false;
     bool json = false;
 };
 

@@ -42,7 +42,8 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,
                                          .arguments = arguments.settings,
-                                         .out = arguments.out},
+                                         .out = arguments.out,
+                                         .resume = arguments.resume},
                                         remark, progress);
     if (arguments.json) return print_prepared(arguments, made);
     const std::filesystem::path out = arguments.out;

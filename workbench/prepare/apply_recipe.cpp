@@ -1,5 +1,6 @@
 #include "workbench/prepare/apply_recipe.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/kernel/wording.h"
@@ -83,7 +84,7 @@ std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
                                       const std::string& variant, const Teller& tell,
                                       const Progress& progress) {
     std::vector<std::string> warnings;
-    const double share = 1.0 / static_cast<double>(recipe.size());
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         if (is_left_out(session, recipe[i], variant)) continue;
         const double from = share * static_cast<double>(i);

@@ -1,5 +1,7 @@
 #include "workbench/prepare/prepare.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
@@ -77,6 +79,34 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     return recipe;
 }
 
+bool is_edit_of(const LogEntry& made, const RecipeEntry& entry, const std::string& variant) {
+    const Step step = entry.step.value_or(entry.given.operation().usual_step);
+    return made.edit.operation == entry.given.operation().name && made.edit.place.step == step &&
+           (made.edit.place.variant.empty() || made.edit.place.variant == variant);
+}
+
+/// The entries after the last one that has an edit in the log, in the recipe's order.
+Recipe rest_of(Recipe recipe, const std::vector<LogEntry>& log, const std::string& variant) {
+    std::size_t done = 0;
+    auto from = log.begin();
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const auto found = std::find_if(from, log.end(), [&](const LogEntry& made) {
+            return is_edit_of(made, recipe[i], variant);
+        });
+        if (found == log.end()) continue;
+        from = found + 1;
+        done = i + 1;
+    }
+    recipe.erase(recipe.begin(), recipe.begin() + static_cast<std::ptrdiff_t>(done));
+    return recipe;
+}
+
+Session resumed(const fs::path& project) {
+    Session session = Session::open(project, {.find = find_operation});
+    if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
+    return session;
+}
+
 /// So that a reopened project still has them.
 void keep_recipes(const fs::path& project, const Input& input) {
     if (input.recipes) store_recipes(project, input.recipes->dump());
@@ -105,15 +135,19 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     PrepareOptions for_recipe = options;
     PreparedCase prepared{.purpose = options.purpose, .input = input};
     prepared.flow = take_flow_parameters(for_recipe.arguments);
-    const Recipe recipe = recipe_for(for_recipe, input);
+    Recipe recipe = recipe_for(for_recipe, input);
     const bool new_folder = !fs::exists(options.out);
     make_folder(options.out);
     const fs::path project = options.out / "project.vbench";
-    keep_earlier_project(project, tell);
-    bool any_edit = false;
+    if (!options.resume) keep_earlier_project(project, tell);
+    bool any_edit = options.resume;
     try {
-        Session session = Session::create(project, {.find = find_operation});
-        keep_recipes(project, input);
+        Session session =
+            options.resume ? resumed(project) : Session::create(project, {.find = find_operation});
+        if (options.resume)
+            recipe = rest_of(std::move(recipe), session.log(), options.purpose);
+        else
+            keep_recipes(project, input);
         const Teller noting = [&](const std::string& text) {
             any_edit = true;
             tell(text);
@@ -128,14 +162,14 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             throw AlgorithmFailure(error.what());  // the model lacks something the product needs
         }
     } catch (const UnusableSource&) {
-        clear_away(project, new_folder);
+        if (!options.resume) clear_away(project, new_folder);
         throw;
     } catch (const std::exception&) {
         if (!any_edit)
             clear_away(project, new_folder);
         else
             tell("the completed edits are kept in " + project.filename().string() +
-                 "; no other file was written");
+                 "; no other file was written; --resume goes on there, also after an edit by hand");
         throw;
     }
 }
