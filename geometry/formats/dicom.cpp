@@ -132,6 +132,19 @@ std::vector<float> scaled(const std::vector<char>& raw, std::size_t count, doubl
     return voxels;
 }
 
+/// \throw InvalidInput if the file cannot hold the pixels that its header announces
+void check_announced(const gdcm::Image& image, std::uintmax_t file_size, const std::string& name) {
+    constexpr std::uintmax_t kLargestRatio = 1000;  // of the compressions in use
+    const gdcm::TransferSyntax& syntax = image.GetTransferSyntax();
+    const bool compressed =
+        syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
+    if (image.GetBufferLength() / (compressed ? kLargestRatio : 1) > file_size)
+        bad_file(name,
+                 "its header announces " + std::to_string(image.GetBufferLength()) +
+                     " bytes of pixels, which cannot be in " + std::to_string(file_size) + " bytes",
+                 "the file is truncated or damaged: copy it again");
+}
+
 std::vector<float> pixels_of(const gdcm::Image& image, std::size_t count, const std::string& name) {
     std::vector<char> raw(image.GetBufferLength());
     const gdcm::PixelFormat& format = image.GetPixelFormat();
@@ -229,6 +242,7 @@ Frames read_frames(const std::string& path) {
                  "copy or export it again");
     if (messages.tell_of_truncation())
         bad_file(name, "its pixel data is truncated", "the file is truncated: copy it again");
+    check_announced(reader.GetImage(), fs::file_size(path), name);
     return frames_of(reader, name);
 }
 

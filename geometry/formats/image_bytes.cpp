@@ -27,6 +27,8 @@ constexpr std::size_t kMostVoxels = std::size_t{1} << 30;
 /// Data is inflated piecewise: a damaged header never causes a large allocation.
 constexpr std::size_t kPiece = std::size_t{1} << 22;
 
+constexpr std::size_t kLargestRatio = 1032;  ///< of zlib
+
 template <class T>
 T stored_value(const char* at, bool swap) {
     std::array<char, sizeof(T)> raw;
@@ -210,6 +212,11 @@ private:
 
 std::string inflated(std::string_view compressed, std::size_t wanted, const std::string& name,
                      bool only_head) {
+    if (wanted / kLargestRatio > compressed.size())
+        bad_file(name,
+                 "it announces " + std::to_string(wanted) + " bytes, which cannot be in " +
+                     std::to_string(compressed.size()) + " compressed ones",
+                 "the file is damaged: copy or download it again");
     Inflater inflater(compressed, name);
     std::string out;
     while (out.size() < wanted) {

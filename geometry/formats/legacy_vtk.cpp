@@ -55,6 +55,7 @@ public:
 
     std::vector<double> numbers(std::size_t count, const std::string& type, bool binary,
                                 const char* what) {
+        if (count > bytes_.size() - at_) cut_off(what);  // before anything is allocated
         std::vector<double> values(count);
         if (!binary) {
             for (double& value : values) {

@@ -81,7 +81,10 @@ void check_vti_header(std::string_view bytes, const std::string& name) {
         if (!low || !high || !(std::abs(*low) < 1e9) || !(std::abs(*high) < 1e9)) damaged(name);
         size[i] = static_cast<long long>(*high) - static_cast<long long>(*low) + 1;
     }
-    (void)checked_voxel_count(size, name);
+    const std::size_t count = checked_voxel_count(size, name);
+    const bool compressed = head.find(" compressor=\"") != std::string_view::npos;
+    constexpr std::size_t kLargestRatio = 8000;  // of LZMA, the best of VTK's compressors
+    if (count / (compressed ? kLargestRatio : 1) > bytes.size()) damaged(name);
     require_vtk_xml(bytes, name);
 }
 

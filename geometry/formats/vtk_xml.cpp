@@ -27,14 +27,6 @@ public:
 
 }  // namespace
 
-void require_vtk_xml(std::string_view bytes, const std::string& name) {
-    if (bytes.find("<VTKFile") == std::string_view::npos)
-        throw InvalidInput(name + " is not a VTK XML file: '<VTKFile' is missing");
-    if (bytes.rfind("</VTKFile>") == std::string_view::npos)
-        throw InvalidInput(
-            name + " ends without '</VTKFile>': it is truncated; copy or download it again");
-}
-
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::string& path) {
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     vtkNew<vtkXMLPolyDataReader> reader;

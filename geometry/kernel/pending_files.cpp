@@ -1,12 +1,16 @@
 #include "geometry/kernel/pending_files.h"
 
-#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
@@ -54,24 +58,74 @@ void rename_to_free_name(const fs::path& from, const fs::path& to) {
     rename_over(from, to);  // not every file system can refuse to replace
 }
 
-}  // namespace
+const std::string kPartial = ".partial-";
 
-PendingFiles::PendingFiles() {
-    static std::atomic<int> count = 0;
-    folder_name_ = ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(++count);
+/// The process in a temporary folder's name; 0 if it is none.
+pid_t process_of(const std::string& name) {
+    pid_t process = 0;
+    const char* const begin = name.data() + kPartial.size();
+    const auto [end, error] = std::from_chars(begin, name.data() + name.size(), process);
+    return error == std::errc{} && *end == '-' ? process : 0;
 }
 
-PendingFiles::~PendingFiles() {
+/// True if nobody writes to the folder any more: its process has ended, and no process, of another
+/// machine or container either, holds its lock.
+bool is_abandoned(const fs::path& folder) {
+    const pid_t process = process_of(folder.filename().string());
+    if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH) return false;
+    const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (lock < 0) return false;
+
+    struct stat info {};
+
+    const bool own = ::fstat(lock, &info) == 0 && info.st_uid == ::geteuid();
+    const bool abandoned = own && ::flock(lock, LOCK_EX | LOCK_NB) == 0;
+    ::close(lock);
+    return abandoned;
+}
+
+/// Removes what processes that were killed have left in a folder.
+void remove_abandoned(const fs::path& parent) {
     std::error_code ignored;
-    for (const auto& [temporary, own] : files_) fs::remove_all(temporary.parent_path(), ignored);
+    std::vector<fs::path> abandoned;
+    for (const auto& entry : fs::directory_iterator(parent, ignored))
+        if (entry.path().filename().string().starts_with(kPartial) && is_abandoned(entry.path()))
+            abandoned.push_back(entry.path());
+    for (const fs::path& folder : abandoned) fs::remove_all(folder, ignored);
+}
+
+}  // namespace
+
+PendingFiles::PendingFiles() = default;
+
+PendingFiles::~PendingFiles() {
+    remove_folders();
+}
+
+void PendingFiles::remove_folders() {
+    std::error_code ignored;
+    for (const TemporaryFolder& folder : folders_) {
+        fs::remove_all(folder.path, ignored);
+        if (folder.lock >= 0) ::close(folder.lock);
+    }
+    folders_.clear();
+}
+
+fs::path PendingFiles::folder_beside(const fs::path& final_name) {
+    const fs::path parent = folder_of(final_name);
+    for (const TemporaryFolder& folder : folders_)
+        if (folder.parent == parent) return folder.path;
+    remove_abandoned(parent);
+    std::string name = (parent / (kPartial + std::to_string(::getpid()) + "-XXXXXX")).string();
+    if (::mkdtemp(name.data()) == nullptr) cannot_write(final_name, errno);
+    const int lock = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (lock >= 0) ::flock(lock, LOCK_EX | LOCK_NB);
+    folders_.push_back({parent, name, lock});
+    return name;
 }
 
 fs::path PendingFiles::add(const fs::path& final_name) {
-    const fs::path folder = folder_of(final_name) / folder_name_;
-    std::error_code error;
-    fs::create_directory(folder, error);
-    if (error) cannot_write(final_name, error.value());
-    files_.emplace_back(folder / final_name.filename(), final_name);
+    files_.emplace_back(folder_beside(final_name) / final_name.filename(), final_name);
     return files_.back().first;
 }
 
@@ -94,12 +148,9 @@ void PendingFiles::commit(Existing existing) {
     for (const auto& [temporary, own] : files_)
         existing == Existing::Keep ? rename_to_free_name(temporary, own)
                                    : rename_over(temporary, own);
-    std::error_code ignored;
-    for (const auto& [temporary, own] : files_) {
-        flush_to_disk(folder_of(own), own);
-        fs::remove_all(temporary.parent_path(), ignored);
-    }
+    for (const auto& [temporary, own] : files_) flush_to_disk(folder_of(own), own);
     files_.clear();
+    remove_folders();
 }
 
 void make_folder(const fs::path& folder) {

@@ -13,7 +13,9 @@ namespace vesselbench {
 enum class Existing { Replace, Keep };
 
 /// Files and folders that appear under their final names only when all of them are complete. Until
-/// commit() they are written to a temporary folder beside them; uncommitted ones are removed.
+/// commit() they are written to a temporary folder beside them, of an unpredictable name;
+/// uncommitted ones are removed. What a killed process left behind is removed by the next one that
+/// writes there.
 class PendingFiles {
 public:
     PendingFiles();
@@ -38,7 +40,15 @@ public:
     void commit(Existing existing = Existing::Replace);
 
 private:
-    std::string folder_name_;  // of the temporary folders, unique
+    struct TemporaryFolder {
+        std::filesystem::path parent, path;
+        int lock = -1;  // held for as long as the folder is in use
+    };
+
+    [[nodiscard]] std::filesystem::path folder_beside(const std::filesystem::path& final_name);
+    void remove_folders();
+
+    std::vector<TemporaryFolder> folders_;
     std::vector<std::pair<std::filesystem::path, std::filesystem::path>>
         files_;  // temporary, final
 };

@@ -180,6 +180,19 @@ Outcome crash(const Scene&, const Arguments&, Progress&) {
     return {};
 }
 
+Outcome be_stopped(const Scene&, const Arguments&, Progress&) {
+    std::raise(SIGTERM);
+    return {};
+}
+
+Outcome read_much(const Scene& scene, const Arguments& arguments, Progress&) {
+    const std::vector<char> content(static_cast<std::size_t>(arguments.integer("megabytes")) << 20,
+                                    '\1');
+    Outcome result = made(scene, arguments);
+    result.warnings.push_back(std::to_string(content.back()));
+    return result;
+}
+
 Outcome hang(const Scene&, const Arguments&, Progress& progress) {
     for (int i = 0; i < 6000; ++i) {
         progress.report(0.001 * (i % 1000), "waiting");
@@ -277,6 +290,8 @@ std::vector<Operation> make_operations() {
         isolated(operation("far-bump", Step::LocalRepair, bump, bump_parameters)),
         isolated(operation("crash", Step::Smoothing, crash, {})),
         isolated(operation("crash-on-file", Step::Source, crash, {file})),
+        isolated(operation("be-stopped", Step::Source, be_stopped, {file})),
+        isolated(operation("read-much", Step::Source, read_much, {file, whole("megabytes", 100)})),
         isolated(operation("hang", Step::Smoothing, hang, {})),
         isolated(operation("greedy", Step::Smoothing, greedy, {})),
         isolated(

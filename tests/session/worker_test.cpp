@@ -1,5 +1,6 @@
 #include "workbench/worker/worker.h"
 
+#include <fstream>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -91,12 +92,25 @@ SCENARIO("The session survives whatever its workers do", "[session][worker]") {
         CHECK(text.find("bad.stl") != std::string::npos);
         CHECK(text.find("somewhere") == std::string::npos);
     }
+    THEN("a worker that somebody stops is nobody's fault") {
+        CHECK_THROWS_AS(run("be-stopped", {}, {{"file", std::string("good.stl")}}), Cancelled);
+    }
     THEN("one that takes too long is stopped") {
         WorkerOptions worker = test::test_worker();
         worker.time_limit = 1s;
         CHECK_THROWS_AS(run("hang", {}, {}, worker), AlgorithmFailure);
     }
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    THEN("one that reads a file gets memory for its size") {
+        const std::string file = test::temporary_folder() + "/a.stl";
+        std::ofstream(file) << std::string(std::size_t{8} << 20, 'x');
+        const auto read = [&](std::int64_t megabytes) {
+            return run("read-much", {}, {{"file", file}, {"megabytes", megabytes}});
+        };
+        CHECK_NOTHROW(read(350));  // 16 x 8 MiB + 256 MiB is 384 MiB
+        CHECK_THROWS_AS(read(600), InvalidInput);
+        CHECK(text_of([&] { (void)read(600); }).find("384 MiB for a file") != std::string::npos);
+    }
     THEN("one that wants too much memory is refused it") {  // sanitizers need all address space
         WorkerOptions worker = test::test_worker();
         worker.memory_limit = std::size_t{2} << 30;

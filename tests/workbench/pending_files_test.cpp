@@ -1,6 +1,10 @@
 #include "geometry/kernel/pending_files.h"
 
+#include <csignal>
+
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
@@ -52,6 +56,38 @@ SCENARIO("Files appear only when all of them are complete", "[workbench][pending
             CHECK(test::names_in((folder / "case").string()).empty());
         }
     }
+}
+
+SCENARIO("Temporary folders cannot be foreseen or read by others", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder();
+    PendingFiles first, second;
+    const fs::path a = first.add(folder / "a"), b = second.add(folder / "a");
+    CHECK(a.parent_path() != b.parent_path());
+    CHECK(first.add(folder / "b").parent_path() == a.parent_path());
+    CHECK((fs::status(a.parent_path()).permissions() &
+           (fs::perms::group_all | fs::perms::others_all)) == fs::perms::none);
+}
+
+SCENARIO("What killed processes left behind is removed", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder();
+    const pid_t child = fork();
+    if (child == 0) {
+        PendingFiles files;
+        files.add_text(folder / "a.txt", "half");
+        raise(SIGKILL);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(test::names_in(folder.string()).size() == 1);
+    fs::create_directory(folder / ".partial-notes");  // somebody's own
+    PendingFiles alive;
+    alive.add_text(folder / "b.txt", "still being written");
+    PendingFiles files;
+    files.add_text(folder / "c.txt", "whole");
+    files.commit();
+    alive.commit();
+    CHECK(test::names_in(folder.string()) ==
+          std::vector<std::string>{".partial-notes", "b.txt", "c.txt"});
 }
 
 SCENARIO("Folders that cannot be used are refused by name", "[workbench][pending-files]") {

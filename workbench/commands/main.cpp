@@ -4,6 +4,8 @@
 #include <new>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/kernel/errors.h"
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
@@ -30,8 +32,12 @@ int run(int argc, char** argv) {
         return tell(error.what(), kWrongUsage);
     } catch (const vesselbench::InvalidInput& error) {
         return tell(error.what(), kBadInput);
+    } catch (const vesselbench::Cancelled&) {
+        return tell("stopped (cancelled); what was finished before is kept", kFailed);
     } catch (const vesselbench::IoError& error) {
         return tell(error.what(), kBadInput);
+    } catch (const nlohmann::json::exception&) {
+        return tell("stored or given JSON data are not as expected", kFailed);
     } catch (const std::bad_alloc&) {
         return tell("not enough memory for this model: crop it or make it coarser", kFailed);
     } catch (const std::exception& error) {
@@ -43,8 +49,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (argc == 2 && std::string_view(argv[1]) == "--worker") {
-        std::signal(SIGINT,
-                    SIG_IGN);  // a terminal signals all processes; the session ends its worker
+        for (const int signal : {SIGINT, SIGTERM})  // sent to the whole group: the session stops
+            std::signal(signal, SIG_IGN);           // and ends its worker itself
         return vesselbench::worker_main(vesselbench::find_operation);
     }
     // A full disk or a closed pipe then causes a failed write, which is reported and cleaned

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -20,6 +24,9 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
 #include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
 
@@ -27,10 +34,11 @@ namespace vesselbench {
 
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// The worker's ends: request on stdin, outcome and progress on these; stdout goes to stderr.
+// The worker's ends: request on stdin, outcome and progress on these; stdout and stderr go nowhere.
 constexpr int kOutcome = 3;
 constexpr int kProgress = 4;
 constexpr int kFirstFree = 10;
@@ -136,11 +144,53 @@ private:
     std::span<const std::byte> bytes_;
 };
 
+bool is_detached_header(const fs::path& path) {
+    const std::string suffix = lower_case(path.extension().string());
+    return suffix == ".mhd" || suffix == ".nhdr";
+}
+
+/// Bytes of the regular files in a folder and its folders.
+std::uintmax_t folder_size(const fs::path& folder) {
+    std::error_code error;
+    std::uintmax_t size = 0;
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+         at.increment(error)) {
+        std::error_code ignored;
+        if (at->is_regular_file(ignored)) size += at->file_size(ignored);
+    }
+    return size;
+}
+
+/// The content of an input file [bytes], as far as its size tells. A mask compresses to less than a
+/// hundredth, so that an image may hold more than its file, up to the size of a large mask.
+std::uintmax_t content_size(const fs::path& path) {
+    constexpr std::uintmax_t kMaskRatio = 128, kLargestMask = std::uintmax_t{256} << 20;
+    std::error_code error;
+    if (fs::is_directory(path, error)) return folder_size(path);
+    if (is_detached_header(path)) return folder_size(fs::absolute(path).parent_path());
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error) return 0;
+    const std::string suffix = lower_case(path.extension().string());
+    const bool image = suffix == ".gz" || suffix == ".nrrd" || suffix == ".mha" || suffix == ".vti";
+    return image ? size + std::min(kMaskRatio * size, kLargestMask) : size;
+}
+
+/// Memory for reading the operation's files [bytes]; none if it reads no file.
+std::optional<std::uint64_t> reader_memory(const Operation& operation, const Arguments& arguments) {
+    constexpr std::uint64_t kPerByte = 16, kBase = std::uint64_t{256} << 20;
+    std::optional<std::uint64_t> bytes;
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.type == ParameterType::File && arguments.has(parameter.name))
+            bytes = bytes.value_or(kBase) + kPerByte * content_size(arguments.text(parameter.name));
+    return bytes;
+}
+
 void write_request(int descriptor, const Operation& operation, const Scene& scene,
                    const Arguments& arguments, const WorkerOptions& options,
                    const Progress& progress) {
     ByteWriter head;
     head.put<std::uint64_t>(options.memory_limit);
+    head.put<std::uint64_t>(reader_memory(operation, arguments).value_or(0));
     head.put_text(operation.name);
     head.put_text(stored_text(arguments));
     write_all(descriptor, head.bytes());
@@ -164,9 +214,12 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
                      const Progress& progress) {
     Outcome outcome;
     const std::string report = reader.get_text();
-    if (!report.empty()) outcome.report = std::make_shared<const Json>(Json::parse(report));
+    if (!report.empty())
+        outcome.report =
+            std::make_shared<const Json>(json_from_text(report, "a report", kLargestStoredJson));
     outcome.resolved = arguments_from_stored(reader.get_text());
-    outcome.warnings = Json::parse(reader.get_text()).get<std::vector<std::string>>();
+    outcome.warnings = json_value<std::vector<std::string>>(
+        json_from_text(reader.get_text(), "the warnings", kLargestStoredJson), "the warnings");
     outcome.device = reader.get_text();
     outcome.scene = decode_scene(reader.get_bytes(reader.left()), known, progress);
     return outcome;
@@ -180,7 +233,11 @@ public:
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, request.number(), STDIN_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+        // Libraries print what they think of a file, up to asserts: nothing for a user.
+        for (const int shown : {STDOUT_FILENO, STDERR_FILENO})
+            if (!kSanitized)
+                posix_spawn_file_actions_addopen(&actions, shown, "/dev/null", O_WRONLY, 0);
+        if (kSanitized) posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, outcome.number(), kOutcome);
         posix_spawn_file_actions_adddup2(&actions, progress.number(), kProgress);
         std::vector<char*> words;
@@ -272,13 +329,31 @@ std::optional<std::string> file_of(const Operation& operation, const Arguments& 
     }
 }
 
+/// Somebody stopped the whole group of processes: no fault of a file or an operation.
+bool stopped_by_signal(int status) {
+    if (!WIFSIGNALED(status)) return false;
+    const int signal = WTERMSIG(status);
+    return signal == SIGTERM || signal == SIGINT || signal == SIGHUP || signal == SIGQUIT;
+}
+
 std::string how_it_ended(int status) {
     if (WIFSIGNALED(status)) return std::string("crashed (") + strsignal(WTERMSIG(status)) + ")";
     return "ended early (code " + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
-std::string gigabytes(std::size_t bytes) {
-    return std::to_string((bytes + (std::size_t{1} << 29)) >> 30) + " GiB";
+std::string memory_text(std::uint64_t bytes) {
+    const bool giga = bytes >= std::uint64_t{1} << 30U;
+    return formatted(std::ldexp(static_cast<double>(bytes), giga ? -30 : -20)) +
+           (giga ? " GiB" : " MiB");
+}
+
+/// What a worker may need: all of it, or what reading its files may take.
+std::string memory_text(const WorkerOptions& options, const Operation& operation,
+                        const Arguments& arguments) {
+    const auto reading = reader_memory(operation, arguments);
+    if (!reading || (options.memory_limit > 0 && options.memory_limit < *reading))
+        return memory_text(options.memory_limit);
+    return memory_text(*reading) + " for a file of this size (save it uncompressed if it is good)";
 }
 
 /// The worker's report of an error thrown by the operation.
@@ -317,6 +392,39 @@ void limit(int resource, std::size_t bytes) {
     setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
+/// Writable memory that this process has now [bytes]; 0 if unknown.
+std::uint64_t memory_now() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmData:")) return std::stoull(line.substr(7)) * 1024;
+    return 0;
+}
+
+/// During its lifetime, this process may take so much more memory. Unlike the address space, this
+/// counts what can be written to, so that libraries and reserved memory of threads do not matter.
+class MemoryBudget {
+public:
+    explicit MemoryBudget(std::uint64_t bytes) {
+        constexpr std::uint64_t kStack = std::uint64_t{9} << 20;  // of a thread, with its arena
+        const std::uint64_t own = memory_now();
+        if (bytes == 0 || own == 0 || kSanitized) return;
+        set(own + bytes + kStack * std::thread::hardware_concurrency());
+    }
+
+    ~MemoryBudget() { set(RLIM_INFINITY); }
+
+    MemoryBudget(const MemoryBudget&) = delete;
+    MemoryBudget& operator=(const MemoryBudget&) = delete;
+
+private:
+    static void set(std::uint64_t bytes) {
+        rlimit now{};
+        if (getrlimit(RLIMIT_DATA, &now) != 0) return;
+        now.rlim_cur = std::min<rlim_t>(bytes, now.rlim_max);
+        setrlimit(RLIMIT_DATA, &now);
+    }
+};
+
 /// Writes "fraction text" lines, at a readable rate.
 Progress::Receiver progress_lines() {
     return [last = Clock::time_point{}](double fraction, std::string_view what) mutable {
@@ -332,13 +440,17 @@ Bytes run_request(const OperationLookup& find) {
     const Mapping request(STDIN_FILENO);
     ByteReader reader(request.bytes());
     const auto memory = reader.get<std::uint64_t>();
+    const auto reading = reader.get<std::uint64_t>();
     if (memory > 0 && !kSanitized) limit(RLIMIT_AS, memory);
     const Operation& operation = find(reader.get_text());
     const auto arguments =
         CheckedArguments::from_parent_process(arguments_from_stored(reader.get_text()));
     const Scene scene = decode_scene(reader.get_bytes(reader.left()));
     Progress progress(progress_lines(), {});
-    const Outcome outcome = run_here(operation, scene, arguments, progress);
+    const Outcome outcome = [&] {
+        const MemoryBudget budget(reading);
+        return run_here(operation, scene, arguments, progress);
+    }();
     return outcome_bytes(outcome, take_apart(scene).parts);
 }
 
@@ -365,14 +477,16 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
         throw_broken(operation, arguments,
                      "took longer than " + std::to_string(options.time_limit.count()) + " s");
     const int status = child.wait();
+    if (stopped_by_signal(status)) throw Cancelled();
     const Mapping bytes(answer.number());
     if (status != 0 || bytes.bytes().empty())
         throw_broken(operation, arguments, how_it_ended(status));
     ByteReader reader(bytes.bytes());
     const auto ending = static_cast<Ending>(reader.get<std::uint8_t>());
     if (ending == Ending::Memory)
-        throw_broken(operation, arguments,
-                     "needs more memory than its limit of " + gigabytes(options.memory_limit));
+        throw_broken(
+            operation, arguments,
+            "needs more memory than its limit of " + memory_text(options, operation, arguments));
     if (ending == Ending::Broken)
         throw_broken(operation, arguments, "failed (" + reader.get_text() + ")");
     if (ending != Ending::Done) throw_ending(ending, reader.get_text());

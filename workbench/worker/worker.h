@@ -13,7 +13,7 @@ namespace vesselbench {
 /// Finds an operation by name: in the table of this build, or in a test's own.
 using OperationLookup = std::function<const Operation&(const std::string&)>;
 
-/// How worker processes are started and bounded.
+/// How workers are started and bounded; while reading files also by 256 MiB + 16 x their size.
 struct WorkerOptions {
     /// Command that runs worker_main(); empty: this program with --worker.
     std::vector<std::string> command;
