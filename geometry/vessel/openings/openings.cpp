@@ -22,6 +22,8 @@ namespace {
 constexpr double kKeptTiltDeg = 3.0;
 constexpr double kStrictTiltDeg = 2.0;
 constexpr double kStrictFlatness = 1e-5;
+/// Least rise of the wall at a flat rim where a centerline ends [deg]; elsewhere kLeastRiseDeg.
+constexpr double kLeastRiseAtTip = 30.0;
 /// If a larger fraction of a branch is given up, a warning says so.
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
@@ -223,7 +225,7 @@ private:
                                   : "its cap is " + formatted(shape.flatness) + " mm off its plane";
         }
         const RimShape rim = rim_shape(surface_, end.rim);
-        if (rim.rise_deg <= kLeastRiseDeg)
+        if (rim.rise_deg <= (end.tip ? kLeastRiseAtTip : kLeastRiseDeg))
             return "its wall rises by " + degrees_text(rim.rise_deg) + " only from the rim's plane";
         return "its rim is " + formatted(rim.flatness) + " mm off its plane";
     }
@@ -249,7 +251,10 @@ private:
     std::optional<OpeningPlace> kept_rim(std::size_t e) const {
         const SurfaceEnd& end = ends_[e];
         if (end.rim.empty() || options_.strict) return std::nullopt;
-        const RimShape rim = rim_shape(surface_, end.rim);
+        RimShape rim = rim_shape(surface_, end.rim);
+        // A centerline ends there: the rim may lie in a wide mouth, such as a heart valve's.
+        if (end.tip && rim.rise_deg > kLeastRiseAtTip)
+            rim.rise_deg = std::max(rim.rise_deg, kLeastRiseDeg + 1.0);
         if (!rim.is_good()) return std::nullopt;
         const double diameter = rim.diameter();
         const auto axis =
