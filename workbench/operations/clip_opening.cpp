@@ -200,8 +200,7 @@ std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     std::vector<std::string> warnings;
     std::size_t small = 0;
     for (const EndRecord& end : plan.ends) {
-        const bool plain = end.fate == EndFate::Kept || end.why.empty() || end.asked;
-        if (plain) continue;
+        if (end.plain || end.why.empty() || end.asked) continue;
         if (end.fate == EndFate::Closed && end.diameter < kLargeEnd * widest)
             ++small;
         else

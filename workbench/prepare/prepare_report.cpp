@@ -62,12 +62,7 @@ std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
     return flags;
 }
 
-/// From the comparable vertices to the reference.
-Json distance_to_json(const Surface& surface, const Surface& reference,
-                      const std::vector<std::uint8_t>& comparable) {
-    Positions points;
-    for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (comparable[v]) points.push_back(surface.points()[v]);
+Json distances_json(const Positions& points, const Surface& reference) {
     if (points.empty()) return nullptr;
     std::vector<double> distances;
     double sum = 0.0;
@@ -81,6 +76,15 @@ Json distance_to_json(const Surface& surface, const Surface& reference,
                               distances[count - 1 - count / 20]);
     json["points"] = count;
     return json;
+}
+
+/// From the comparable vertices to the reference.
+Json distance_to_json(const Surface& surface, const Surface& reference,
+                      const std::vector<std::uint8_t>& comparable) {
+    Positions points;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (comparable[v]) points.push_back(surface.points()[v]);
+    return distances_json(points, reference);
 }
 
 /// The edits that make the shown variant, in order.
@@ -179,6 +183,13 @@ void add_section(PreparedReport& report, const ReportSection& section, const Res
     report.document[section.key] = report_of(result);
 }
 
+/// The last edit that opened all ends says what became of each.
+void add_ends(Json& document, const ResultRecord& result) {
+    const Json report = Json::parse(result.report, nullptr, false);
+    if (!report.is_object() || !report.contains("ends")) return;
+    if (!document.contains("ends") || report["ends"].size() > 1) document["ends"] = report["ends"];
+}
+
 void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
     report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
@@ -186,6 +197,7 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
         if (!entry.result) continue;
         for (const std::string& warning : entry.result->warnings)
             report.warnings.push_back(entry.edit.operation + ": " + warning);
+        if (part_of(entry).cuts_ends) add_ends(report.document, *entry.result);
         if (const auto& section = part_of(entry).report_section)
             add_section(report, *section, *entry.result);
     }
@@ -219,6 +231,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     if (source.surface) {
         report["distance_to_source"] = distance_to_json(surface, *source.surface, comparable);
         report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
+        report["distance_from_source"] = distances_json(source.surface->points(), surface);
     }
     if (prepared.input.exact)
         report["distance_to_exact"] = distance_to_json(surface, *prepared.input.exact, comparable);

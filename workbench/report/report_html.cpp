@@ -182,6 +182,22 @@ std::string openings(const Json& report) {
     return html + "</table>\n";
 }
 
+/// What became of every vessel end, worst first.
+std::string ends(const Json& report) {
+    const Json& list = part_of(report, "ends");
+    if (!list.is_array() || list.empty()) return "";
+    std::string html =
+        "<h2>Vessel ends</h2>\n<table><tr><th>place [mm]</th><th class=n>diameter [mm]</th>"
+        "<th>became</th><th>opening</th><th>why</th></tr>\n";
+    for (const Json& end : list) {
+        const Json& opening = part_of(end, "opening");
+        html += row({shown(part_of(end, "place_mm")), shown(part_of(end, "diameter_mm")),
+                     shown(part_of(end, "fate")), opening.is_null() ? "" : shown(opening),
+                     shown(part_of(end, "why"))});
+    }
+    return html + "</table>\n";
+}
+
 /// A part of the report as a table of names and values; nothing if it is absent.
 std::string plain_table(const Json& report, const ReportSection& section) {
     const Json& part = part_of(report, section.key);
@@ -203,6 +219,11 @@ const std::vector<ReportSection>& usual_sections() {
          .title = "Distance to the source surface",
          .about = "From the wall to the loaded or extracted surface, away from the clipped and "
                   "extruded ends."},
+        {.key = "distance_from_source",
+         .title = "Distance from the source surface",
+         .about =
+             "From every vertex of the loaded or extracted surface to the model: ends that were "
+             "cut off and parts that were lost are included."},
         {.key = "distance_to_exact",
          .title = "Distance to the exact surface",
          .about = "From the wall to the phantom's true surface, away from the ends."},
@@ -240,7 +261,7 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
             ", prepared by vesselbench " + shown(part_of(report, "program_version")) + ". " +
             shown(part_of(report, "units_text")) + "</p>\n";
     html += tiles(report) + warnings(report) + gallery(pictures) + steps(report) + quality(report) +
-            openings(report);
+            openings(report) + ends(report);
     for (const ReportSection& section : usual_sections()) html += plain_table(report, section);
     for (const ReportSection& section : sections) html += plain_table(report, section);
     return html + products(report) + "</body></html>\n";

@@ -170,7 +170,8 @@ public:
         if (std::ranges::count(plan_.openings, OpeningWay::Cut, &PlannedOpening::way) > 0)
             result_ = Cuts(result_, plan_.openings, progress).run(clipped.failed);
         for (const PlannedClosing& closing : plan_.closings) close(closing, clipped.failed);
-        std::vector<std::string> unnamed = name_made();
+        check_flatness(clipped.failed);
+        const std::vector<std::string> unnamed = name_made();
         clipped.surface = name_openings(result_, unnamed, inlet.point, inlet.promote);
         return clipped;
     }
@@ -268,6 +269,21 @@ private:
         if (graph_ == nullptr) throw AlgorithmFailure("a stub's removal needs centerlines");
         if (const auto node = nearest_tip(*graph_, tip))
             result_ = remove_branch(result_, *graph_, *node).surface;
+    }
+
+    /// A later cut may have bent a cap.
+    void check_flatness(std::vector<FailedCut>& failed) const {
+        for (std::size_t p = 0; p < result_.patches.size(); ++p)
+            for (std::size_t i = 0; i < plan_.openings.size(); ++i) {
+                const PlannedOpening& opening = plan_.openings[i];
+                if (opening.way == OpeningWay::Rename || result_.patches[p].name != mark_of(i))
+                    continue;
+                const PatchShape shape = patch_shape(result_, p);
+                if (shape.flatness > kKeptFlatness * shape.diameter())
+                    failed.push_back({opening.place.tip, opening.place.plane.point,
+                                      "the cap at " + place_text(opening.place.plane.point) +
+                                          " is not flat after the cuts"});
+            }
     }
 
     /// Gives the marked patches their names. \return those of openings that are still to be named

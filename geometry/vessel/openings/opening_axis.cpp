@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
@@ -39,19 +39,29 @@ Positions centroids_inward(const Surface& surface, const Plane& plane, double di
     return found;
 }
 
-Vec3 mean(const Positions& points) {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-}
+/// Where the direction is taken [diameters inward].
+constexpr double kDirectionAt = 0.2;
 
-Vec3 line_through(const Positions& points, const Vec3& outward) {
-    const Vec3 centre = mean(points);
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    for (const Vec3& p : points) scatter += (p - centre) * (p - centre).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-    const Vec3 direction = solver.eigenvectors().col(2).normalized();
-    return direction.dot(outward) < 0.0 ? Vec3(-direction) : direction;
+/// The line's direction at a depth, outward: slope of the quadratic through the points by their
+/// depths [diameters]. Its curvature counts as far as it exceeds what the points' scatter explains.
+Vec3 direction_at(const Positions& points, const std::vector<double>& depths, double at) {
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd A(n, 3), b(n, 3);
+    const double middle = 0.5 * (depths.front() + depths.back());
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double d = depths[static_cast<std::size_t>(i)] - middle;
+        A.row(i) << 1.0, d, d * d;
+        b.row(i) = points[static_cast<std::size_t>(i)].transpose();
+    }
+    const Eigen::Matrix3d normal = A.transpose() * A;
+    const Eigen::Matrix3d fitted = normal.ldlt().solve(A.transpose() * b);
+    const double scatter =
+        n > 3 ? (A * fitted - b).squaredNorm() / static_cast<double>(n - 3) : 0.0;
+    const double curvature = fitted.row(2).squaredNorm();
+    const double doubt = scatter * normal.inverse()(2, 2);
+    const double trust = curvature > 0.0 ? curvature / (curvature + doubt) : 0.0;
+    const Vec3 slope = (fitted.row(1) + trust * 2.0 * (at - middle) * fitted.row(2)).transpose();
+    return -slope.normalized();
 }
 
 /// Turn over one diameter: the angle between the chords of both halves, which are half the sampled
@@ -74,7 +84,13 @@ std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plan
                                        double diameter) {
     const Positions centroids = centroids_inward(surface, plane, diameter);
     if (centroids.size() < 3) return std::nullopt;
-    OpeningAxis axis{.direction = line_through(centroids, plane.normal),
+    Positions line{plane.point};
+    std::vector<double> depths{0.0};
+    for (std::size_t k = 0; k < centroids.size(); ++k) {
+        line.push_back(centroids[k]);
+        depths.push_back(kFirstSection + static_cast<double>(k) * kSectionStep);
+    }
+    OpeningAxis axis{.direction = direction_at(line, depths, kDirectionAt),
                      .bend_deg = bend(centroids, diameter),
                      .diameter = diameter,
                      .sections = static_cast<int>(centroids.size())};

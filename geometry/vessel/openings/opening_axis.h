@@ -9,8 +9,8 @@ namespace vesselbench {
 /// Angle between two directions [deg], from 0 to 180.
 [[nodiscard]] double angle_deg(const Vec3& a, const Vec3& b);
 
-/// The vessel's direction just inside an opening: the line through the centroids of the sections
-/// parallel to the opening's plane, 0.25 to 1 diameter inward.
+/// The vessel's direction at an opening: that of a quadratic through the opening's centroid and
+/// those of the sections parallel to its plane, 0.25 to 1 diameter inward.
 struct OpeningAxis {
     Vec3 direction = Vec3::UnitZ();  ///< of length 1, out of the vessel
     double tilt_deg = 0.0;           ///< between the plane's normal and the axis

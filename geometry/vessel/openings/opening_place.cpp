@@ -27,8 +27,9 @@ constexpr double kSteady = 1.0;
 constexpr double kMostOfBranch = 0.6;
 constexpr double kMostOfVessel = 0.2;
 constexpr double kMostOfObliqueVessel = 0.65;  // if its end is cut very obliquely
-/// Fraction of a branch that may be given up for a straighter place.
-constexpr double kGivenUp = 0.1;
+/// Fraction of a branch, from its furcation's end, that may be given up for a straighter place:
+/// less than a tenth, since the section's place is known to a fraction of a radius only.
+constexpr double kGivenUp = 0.08;
 /// Bend assumed where the axis cannot be measured [deg].
 constexpr double kUnmeasuredCost = 60.0;
 /// Bend that weighs as much as one radius of vessel given up [deg].
@@ -74,8 +75,14 @@ public:
     double reach_of_cut() const {
         const std::size_t other = other_node(graph_, branch_, tip_);
         if (graph_.nodes[other].is_tip()) return kMostOfVessel * length;
-        const double own = length - furcation_zone_end(graph_, branch_, other);
+        const double own = own_length();
         return std::min(std::max(own, 0.5 * length), kMostOfBranch * length);
+    }
+
+    /// Without the furcation's zone [mm].
+    double own_length() const {
+        const std::size_t other = other_node(graph_, branch_, tip_);
+        return length - furcation_zone_end(graph_, branch_, other);
     }
 
     /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
@@ -176,7 +183,7 @@ double first_whole(const BranchFromEnd& branch, bool blind, const Vec3& tip) {
 OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const bool blind = branch.is_blind();
     const double whole = first_whole(branch, blind, tip);
-    const double last = std::max(whole, kGivenUp * branch.length);
+    const double last = std::max(whole, kGivenUp * branch.own_length());
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
     std::optional<OpeningPlace> best;
     double least = 0.0;

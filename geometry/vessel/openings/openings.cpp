@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
@@ -21,6 +22,8 @@ namespace {
 constexpr double kKeptTiltDeg = 3.0;
 constexpr double kStrictTiltDeg = 2.0;
 constexpr double kStrictFlatness = 1e-5;
+/// Least rise of the wall at a flat rim where a centerline ends [deg]; elsewhere kLeastRiseDeg.
+constexpr double kLeastRiseAtTip = 30.0;
 /// If a larger fraction of a branch is given up, a warning says so.
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
@@ -207,8 +210,24 @@ private:
         if (place->measured && place->tilt_deg > kNoticedTiltDeg)
             why += ", tilted by " + degrees_text(place->tilt_deg) + " against the vessel's axis";
         make(e, *place, cap ? OpeningWay::KeepCap : OpeningWay::CapRim, EndFate::Kept, why);
+        records_[e].plain = true;
         trials_.protect(ends_[e]);
         return true;
+    }
+
+    /// Why a rim or cap is not kept; empty if there is none.
+    std::string end_problem(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        if (is_fixed() || !end.is_visible()) return "";
+        if (end.patch) {
+            const PatchShape shape = patch_shape(surface_, *end.patch);
+            return is_flat(shape) ? "its cap is not perpendicular to the vessel"
+                                  : "its cap is " + formatted(shape.flatness) + " mm off its plane";
+        }
+        const RimShape rim = rim_shape(surface_, end.rim);
+        if (rim.rise_deg <= (end.tip ? kLeastRiseAtTip : kLeastRiseDeg))
+            return "its wall rises by " + degrees_text(rim.rise_deg) + " only from the rim's plane";
+        return "its rim is " + formatted(rim.flatness) + " mm off its plane";
     }
 
     Vec3 tip_place(const SurfaceEnd& end) const {
@@ -232,7 +251,10 @@ private:
     std::optional<OpeningPlace> kept_rim(std::size_t e) const {
         const SurfaceEnd& end = ends_[e];
         if (end.rim.empty() || options_.strict) return std::nullopt;
-        const RimShape rim = rim_shape(surface_, end.rim);
+        RimShape rim = rim_shape(surface_, end.rim);
+        // A centerline ends there: the rim may lie in a wide mouth, such as a heart valve's.
+        if (end.tip && rim.rise_deg > kLeastRiseAtTip)
+            rim.rise_deg = std::max(rim.rise_deg, kLeastRiseDeg + 1.0);
         if (!rim.is_good()) return std::nullopt;
         const double diameter = rim.diameter();
         const auto axis =
@@ -255,7 +277,7 @@ private:
         try {
             const OpeningPlace place =
                 choose_opening_place(surface_, graph_, *end.tip, distance(*end.tip));
-            if (is_free(place, e)) return make_cut(e, place, "");
+            if (is_free(place, e)) return make_cut(e, place, end_problem(e), true);
         } catch (const AlgorithmFailure& failure) {
             record.why = failure.what();
         }
@@ -281,8 +303,10 @@ private:
         return false;
     }
 
-    bool make_cut(std::size_t e, const OpeningPlace& place, const std::string& why) {
+    bool make_cut(std::size_t e, const OpeningPlace& place, const std::string& why,
+                  bool chosen = false) {
         make(e, place, OpeningWay::Cut, EndFate::Opened, why);
+        records_[e].plain = chosen;
         if (options_.tip && is_fixed()) return true;
         for (const std::size_t other : trials_.taken_along())
             if (!decided_[other]) {
@@ -354,8 +378,7 @@ private:
         }
         plan_.ends = records_;
         const auto rank = [](const EndRecord& end) {
-            const bool plain = end.fate == EndFate::Opened && end.why.empty();
-            return std::pair(static_cast<int>(end.fate) + (plain ? 1 : 0), -end.diameter);
+            return std::tuple(end.plain, end.fate, -end.diameter);
         };
         std::ranges::stable_sort(plan_.ends, {}, rank);
         return std::move(plan_);

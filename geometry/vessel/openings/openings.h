@@ -46,9 +46,10 @@ struct EndRecord {
     Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
     double diameter = 0.0;      ///< of the vessel there [mm]
     EndFate fate = EndFate::Closed;
-    std::string why;                                    ///< empty: opened at the chosen place
-    bool sac = false;                                   ///< closed since it looks like an aneurysm
-    bool asked = false;                                 ///< closed since the caller wants it so
+    std::string why;     ///< may be empty: opened at the chosen place
+    bool plain = false;  ///< kept, or opened at the chosen place
+    bool sac = false;    ///< closed since it looks like an aneurysm
+    bool asked = false;  ///< closed since the caller wants it so
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 

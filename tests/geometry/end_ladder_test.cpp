@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/openings.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kRadius = 2.0, kLength = 30.0;
+
+CenterlineGraph line_graph() {
+    CenterlineBranch branch{.start_node = 0, .end_node = 1, .points = {}, .radii = {}};
+    for (int i = 0; i <= 100; ++i) {
+        branch.points.emplace_back(0, 0, kLength * i / 100);
+        branch.radii.push_back(kRadius);
+    }
+    return {.nodes = {{branch.points.front(), kRadius, {0}}, {branch.points.back(), kRadius, {0}}},
+            .branches = {branch}};
+}
+
+/// A tube whose upper rim is ragged.
+Surface ragged_tube() {
+    return mapped(open_tube(kRadius, kLength, 40, 90), [](const Vec3& p) {
+        const double share = std::max(0.0, (p.z() - 28.0) / 2.0);
+        return Vec3(p.x(), p.y(), p.z() + share * std::sin(4.0 * p.x()));
+    });
+}
+
+const PlannedOpening& upper(const OpeningPlan& plan) {
+    return *std::ranges::find_if(plan.openings,
+                                 [](const auto& o) { return o.place.plane.point.z() > 15.0; });
+}
+
+}  // namespace
+
+SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][openings]") {
+    const Surface tube = ragged_tube();
+    const OpeningPlan first = plan_openings(tube, line_graph());
+    REQUIRE(first.openings.size() == 2);
+    CHECK(upper(first).way == OpeningWay::Cut);
+    GIVEN("that the chosen place has failed") {
+        const OpeningPlace& chosen = upper(first).place;
+        const OpeningPlan second = plan_openings(
+            tube, line_graph(), {.failed = {{chosen.tip, chosen.plane.point, "it failed"}}});
+        THEN("another place is found, and the record names it first") {
+            REQUIRE(second.openings.size() == 2);
+            CHECK((upper(second).place.plane.point - chosen.plane.point).norm() > 1e-6);
+            CHECK_FALSE(second.ends.front().plain);
+            CHECK(second.ends.front().fate == EndFate::Opened);
+            CHECK_THAT(second.ends.front().why, Contains("nearest place"));
+            const ClippedSurface made = clip_openings(tube, second);
+            CHECK(made.failed.empty());
+            CHECK(is_closed_manifold(made.surface));
+        }
+        THEN("strictly, it is a failure") {
+            CHECK_THROWS_AS(
+                plan_openings(
+                    tube, line_graph(),
+                    {.strict = true, .failed = {{chosen.tip, chosen.plane.point, "it failed"}}}),
+                AlgorithmFailure);
+        }
+    }
+    GIVEN("that the end shall stay closed") {
+        const OpeningPlan plan = plan_openings(tube, line_graph(), {.closed = {Vec3(0, 0, 30)}});
+        CHECK(plan.openings.size() == 1);
+        CHECK(plan.ends.front().asked);
+        const Surface made = clip_openings(tube, plan).surface;
+        CHECK(is_closed_manifold(made));
+        CHECK(made.patches.size() == 2);
+        CHECK_THROWS_WITH(check_flow(plan), Contains("two openings") && Contains("as asked"));
+    }
+}
+
+SCENARIO("A wrong model is a failure", "[geometry][openings]") {
+    const EndRecord inlet{.diameter = 3.0, .fate = EndFate::Opened, .opening = 0};
+    const EndRecord outlet{.diameter = 2.0, .fate = EndFate::Kept, .opening = 1};
+    EndRecord aorta{.place = {1, 2, 3}, .diameter = 20.0, .why = "the vessels form a loop there"};
+    OpeningPlan plan{.openings = {{}, {}}, .ends = {aorta, inlet, outlet}};
+    CHECK_THROWS_WITH(check_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop") &&
+                                            Contains("closed=x,y,z"));
+    plan.ends[0].sac = true;
+    CHECK_NOTHROW(check_flow(plan));
+    plan.ends[0] = {.diameter = 3.2};
+    CHECK_NOTHROW(check_flow(plan));
+}
+
+SCENARIO("The inlet is the end that was named", "[geometry][openings]") {
+    const Surface tube = ragged_tube();
+    const OpeningPlan plan = plan_openings(tube, line_graph(), {.inlet = Vec3(0, 1, 31)});
+    REQUIRE(plan.inlet);
+    CHECK(plan.openings[*plan.inlet].place.plane.point.z() > 15.0);
+    THEN("a point that is at no end is refused with the nearest one's place") {
+        CHECK_THROWS_WITH(plan_openings(tube, line_graph(), {.inlet = Vec3(0, 0, 60)}),
+                          Contains("nearest end"));
+    }
+    THEN("an inlet that stays closed is a failure") {
+        CHECK_THROWS_WITH(plan_openings(tube, line_graph(),
+                                        {.inlet = Vec3(0, 0, 30), .closed = {Vec3(0, 0, 30)}}),
+                          Contains("cannot be opened"));
+    }
+}
+
+SCENARIO("Of outlets alone, the largest becomes the inlet", "[geometry][openings]") {
+    Surface tube = mapped(closed_tube(kRadius, kLength, 40, 90), [](const Vec3& p) {
+        return Vec3(p.x() * (1.0 + 0.01 * p.z()), p.y() * (1.0 + 0.01 * p.z()), p.z());
+    });
+    tube = tube.with_patches(*tube.patch_labels, {{"wall", PatchKind::Wall},
+                                                  {"outlet_1", PatchKind::Outlet},
+                                                  {"outlet_2", PatchKind::Outlet}});
+    const Surface named =
+        clip_openings(tube, plan_openings(tube, line_graph()), {.promote = true}).surface;
+    CHECK(named.patches[1] == Patch{"inlet", PatchKind::Inlet});
+    CHECK(patch_shape(named, 1).plane.point.z() == Approx(kLength));
+    CHECK(named.patches[2].kind == PatchKind::Outlet);
+}
