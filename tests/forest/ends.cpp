@@ -116,7 +116,7 @@ private:
         const std::size_t node = tree_.nodes.size();
         Tree without = tree_;
         without.nodes.push_back({.at = end.place, .reach = 4.0 * radius, .blend = 0.3 * radius});
-        without.branches[b].line = part_of(host.line, 0.0, host.length - 2.0 * radius);
+        without.branches[b].line = part_of(host.line, 0.0, host.length - 3.0 * radius);
         const Vec3 side = dice_.across(end.direction);
         std::vector<Branch> ghosts;
         for (const double sign : {-1.0, 1.0}) {
