@@ -26,16 +26,6 @@ std::vector<double> kind_weights(CaseKind kind, bool trunk) {
     return {0.45, 0.0, 0.0, 0.0, 0.55};
 }
 
-Eigen::AlignedBox3d box_of(const Tree& tree) {
-    Eigen::AlignedBox3d box;
-    for (const Branch& branch : tree.branches)
-        for (const LinePoint& p : branch.line) {
-            box.extend(Vec3(p.at - Vec3::Constant(p.radius)));
-            box.extend(Vec3(p.at + Vec3::Constant(p.radius)));
-        }
-    return box;
-}
-
 /// First abscissa at which a branch has left the branches it starts from.
 /// \param share of its own radius that has to be outside: 0 its line, 1 its wall
 double left_at(const Tree& tree, const Branch& branch, double share) {
@@ -116,7 +106,7 @@ private:
         const std::size_t node = tree_.nodes.size();
         Tree without = tree_;
         without.nodes.push_back({.at = end.place, .reach = 4.0 * radius, .blend = 0.3 * radius});
-        without.branches[b].line = part_of(host.line, 0.0, host.length - 2.0 * radius);
+        without.branches[b].line = part_of(host.line, 0.0, host.length - 3.0 * radius);
         const Vec3 side = dice_.across(end.direction);
         std::vector<Branch> ghosts;
         for (const double sign : {-1.0, 1.0}) {
@@ -224,6 +214,16 @@ double ragged_height(const End& end, const Vec3& p) {
 }
 
 }  // namespace
+
+Eigen::AlignedBox3d box_of(const Tree& tree) {
+    Eigen::AlignedBox3d box;
+    for (const Branch& branch : tree.branches)
+        for (const LinePoint& p : branch.line) {
+            box.extend(Vec3(p.at - Vec3::Constant(p.radius)));
+            box.extend(Vec3(p.at + Vec3::Constant(p.radius)));
+        }
+    return box;
+}
 
 Voxels voxels_for(const Plan& plan, const Tree& tree) {
     constexpr double kMostVoxels = 16e6;

@@ -11,6 +11,9 @@ struct Voxels {
     double slice = 0.5;  ///< distance of slices
 };
 
+/// Contains the tree, with what only shapes its ends [mm].
+[[nodiscard]] Eigen::AlignedBox3d box_of(const Tree& tree);
+
 /// As fine as the vessels need, or as 16 million voxels allow.
 [[nodiscard]] Voxels voxels_for(const Plan& plan, const Tree& tree);
 
@@ -21,7 +24,6 @@ void form_ends(Tree& tree, const Plan& plan);
 [[nodiscard]] Line shaping_line(const Branch& branch);
 
 /// Whether p lies in what is cut away at an end: near its vessel, beyond its plane.
-/// \param beyond additional distance from the plane [mm]
 [[nodiscard]] bool is_cut_away(const Tree& tree, const Branch& branch, const Vec3& p);
 
 /// Whether p is at the part of a vessel in which its end is cut.

@@ -1,5 +1,6 @@
 // The forest: random vessel trees with known truth (docs/forest.md). scripts/forest runs it.
 //
+//   forest list FIRST LAST            prints what the cases hold, about
 //   forest plant SEED FOLDER          writes the case and its truth.json
 //   forest judge FOLDER RESULT GOAL   compares what `prepare` made of it with the truth
 
@@ -43,6 +44,32 @@ std::string facts_of(const Surface& surface, const Truth& truth, bool open) {
     return text;
 }
 
+/// Triangles of a case's surface, about, and a hundredth of its image's voxels.
+double size_of(const Plan& plan, const Tree& tree) {
+    constexpr double kTrianglesPerEdge2 = 2.8;
+    const double area = kTrianglesPerEdge2 * wall_area(tree);
+    const Voxels voxels = voxels_for(plan, tree);
+    if (is_image(plan.kind))
+        return area / (voxels.pixel * voxels.slice) +
+               0.01 * box_of(tree).volume() / (voxels.pixel * voxels.pixel * voxels.slice);
+    const double edge = plan.kind == CaseKind::VoxelSurface ? voxels.pixel : edge_for(plan, tree);
+    return area / (edge * edge);
+}
+
+int list(std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t seed = first; seed <= last; ++seed) {
+        const Plan plan = plan_for(seed);
+        Tree tree = grow(plan);
+        const double size = size_of(plan, tree);
+        form_ends(tree, plan);
+        const Truth truth = truth_of(tree, plan);
+        std::printf("%d\t%s\t%zu ends\ttrunk %.1f mm\t%s\tsize %.0f\n", static_cast<int>(seed),
+                    truth.kind.c_str(), truth.ends.size(), plan.trunk, truth.features.c_str(),
+                    size);
+    }
+    return 0;
+}
+
 int plant(std::uint64_t seed, const fs::path& folder) {
     fs::create_directories(folder);
     const Plan plan = plan_for(seed);
@@ -82,9 +109,13 @@ int main(int count, char** words) {
     using namespace vesselbench::forest;
     try {
         const std::string what = count > 1 ? words[1] : "";
+        if (what == "list" && count == 4) return list(std::stoull(words[2]), std::stoull(words[3]));
         if (what == "plant" && count == 4) return plant(std::stoull(words[2]), words[3]);
         if (what == "judge" && count == 5) return judge_case(words[2], words[3], words[4]);
-        std::fputs("forest plant SEED FOLDER | forest judge FOLDER RESULT cfd|rp\n", stderr);
+        std::fputs(
+            "forest list FIRST LAST | forest plant SEED FOLDER | forest judge FOLDER RESULT "
+            "cfd|rp\n",
+            stderr);
         return 2;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "forest: %s\n", error.what());
