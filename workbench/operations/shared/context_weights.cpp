@@ -46,7 +46,7 @@ Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder&
     }
     const auto found = stack_axis_of(scene, finder.caps());
     if (!found)
-        throw InvalidInput(
+        throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases; give stack_axis=x,y,z, or staircase=false");
     figures.stack_axis_confidence = found->confidence;
@@ -85,7 +85,7 @@ std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& ar
         for (const auto& [name, surface] : scene.neighbours) names.push_back(name);
     }
     if (names.empty())
-        throw InvalidInput(
+        throw AlgorithmFailure(
             operation +
             ": distance awareness needs a neighbour, but there is none: use load-neighbour");
     return names;
@@ -97,11 +97,11 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
     for (const std::string& name : names) {
         const auto found = scene.neighbours.find(name);
         if (found == scene.neighbours.end())
-            throw InvalidInput(operation + ": there is no neighbour '" + name +
+            throw AlgorithmFailure(operation + ": there is no neighbour '" + name +
                                    "': use load-neighbour, or name others with neighbours=");
         const Surface& surface = found->second;
         if (surface.empty())
-            throw InvalidInput(operation + ": the neighbour '" + name +
+            throw AlgorithmFailure(operation + ": the neighbour '" + name +
                                    "' has no triangles: load it again, or use distance=none");
         neighbours.push_back(surface);
     }
@@ -131,11 +131,11 @@ std::vector<double> painted_part(const Surface& surface, const std::string& name
                                  const std::string& operation) {
     const auto attribute = surface.attributes.find(name);
     if (attribute == surface.attributes.end())
-        throw InvalidInput(operation + ": the surface has no attribute '" + name +
+        throw AlgorithmFailure(operation + ": the surface has no attribute '" + name +
                                "' to use as weights");
     for (const double weight : *attribute->second)
         if (!(weight >= 0.0 && weight <= 1.0))
-            throw InvalidInput(operation + ": the attribute '" + name +
+            throw AlgorithmFailure(operation + ": the attribute '" + name +
                                    "' has values outside [0, 1]");
     return *attribute->second;
 }
