@@ -14,6 +14,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "geometry/formats/vtk_xml.h"
+#include "geometry/formats/vtk_xml_check.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/vessel/centerlines/branch_queries.h"

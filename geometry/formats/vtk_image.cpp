@@ -16,7 +16,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "geometry/formats/image_bytes.h"
-#include "geometry/formats/vtk_xml.h"
+#include "geometry/formats/vtk_xml_check.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {

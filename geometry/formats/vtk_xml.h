@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 class vtkPolyData;
 template <class T>
@@ -9,15 +8,8 @@ class vtkSmartPointer;
 
 namespace vesselbench {
 
-// VTK's parser prints messages about damaged files, and allocates what they announce: what can be
-// checked without it is checked first. `name` is the file's name without its folder.
-
-/// \throw InvalidInput if the bytes are no VTK XML file or end before it does, if numbers of points
-/// or cells are larger than the file can hold, or if data of an array is missing or announces an
-/// impossible size: VTK would crash, or allocate any amount of memory
-void require_vtk_xml(std::string_view bytes, const std::string& name);
-
-/// The poly data of a VTK XML file, as VTK reads them; nothing is printed.
+/// The poly data of a VTK XML file that require_vtk_xml() accepts, as VTK reads them; nothing is
+/// printed.
 /// \throw InvalidInput if VTK reports an error
 [[nodiscard]] vtkSmartPointer<vtkPolyData> read_poly_data(const std::string& path);
 

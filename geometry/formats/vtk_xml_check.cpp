@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <array>
+#include "geometry/formats/vtk_xml_check.h"
+
 #include <charconv>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <string_view>
 
-#include "geometry/formats/vtk_xml.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {

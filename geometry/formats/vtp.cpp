@@ -18,6 +18,7 @@
 
 #include "geometry/formats/vtk_mesh.h"
 #include "geometry/formats/vtk_xml.h"
+#include "geometry/formats/vtk_xml_check.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 

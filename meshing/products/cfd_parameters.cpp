@@ -66,7 +66,7 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
         total_area += area;
     }
     if (summary.inlets.empty() || summary.outlets == 0)
-        throw InvalidInput(
+        throw AlgorithmFailure(
             "flow conditions: the model has " + std::to_string(summary.inlets.size()) +
             " inlet(s) and " + std::to_string(summary.outlets) +
             " outlet(s), but needs one of each: cut the vessel's ends with `clip-opening`");

@@ -42,7 +42,8 @@ inline constexpr double kLargestInletBend = 15.0;  // [deg]
 
 /// The flow that the parameters imply on this surface.
 /// \param inlet_bend turn of the centerline within two diameters of the inlet [deg]; 0: unknown
-/// \throw InvalidInput if there is no inlet or no outlet, or a parameter is out of range
+/// \throw AlgorithmFailure if there is no inlet or no outlet; InvalidInput if a parameter is out of
+/// range
 [[nodiscard]] FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
                                        double inlet_bend = 0.0);
 

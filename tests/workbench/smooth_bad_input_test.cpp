@@ -131,7 +131,7 @@ SCENARIO("An empty neighbour is refused by its name", "[workbench][smooth]") {
     scene.surface = icosphere(3.0, 2);
     scene.neighbours["tumour"] = make_surface({}, {});
     const auto distance = GENERATE(as<std::string>(), "linear", "margin", "exponential");
-    CHECK_THROWS_AS(run("smooth", scene, {{"distance", distance}}), InvalidInput);
+    CHECK_THROWS_AS(run("smooth", scene, {{"distance", distance}}), AlgorithmFailure);
     CHECK_THROWS_WITH(run("smooth", scene, {{"distance", distance}}),
                       Catch::Contains("'tumour' has no triangles"));
 }

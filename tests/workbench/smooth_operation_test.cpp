@@ -234,7 +234,7 @@ SCENARIO("smooth uses painted weights, and weights multiply", "[workbench][smoot
     CHECK(there > 50);
     painted[3] = 1.5;
     surface.attributes["mine"] = std::make_shared<std::vector<double>>(painted);
-    CHECK_THROWS_AS(smooth(scene, {{"painted", "mine"}}), InvalidInput);
+    CHECK_THROWS_AS(smooth(scene, {{"painted", "mine"}}), AlgorithmFailure);
 }
 
 SCENARIO("smooth keeps, smooths or rounds caps", "[workbench][smooth]") {

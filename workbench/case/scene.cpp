@@ -8,7 +8,7 @@ namespace vesselbench {
 
 const Surface& surface_of(const Scene& scene) {
     if (!scene.surface || scene.surface->empty())
-        throw InvalidInput(
+        throw AlgorithmFailure(
             "there is no surface: use load-surface first, or load-image and extract-surface");
     return *scene.surface;
 }

@@ -22,7 +22,7 @@ struct Scene {
 };
 
 /// The scene's surface.
-/// \throw InvalidInput that names the operations to make one, if there is none
+/// \throw AlgorithmFailure that names the operations to make one, if there is none
 [[nodiscard]] const Surface& surface_of(const Scene& scene);
 
 /// The scene with another surface; a volume mesh of the old one is dropped.

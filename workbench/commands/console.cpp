@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "geometry/kernel/printable.h"
 #include "workbench/session/monotone_progress.h"
 
 namespace vesselbench {
@@ -90,21 +91,23 @@ Progress console_progress(std::stop_token stop) {
         const auto now = std::chrono::steady_clock::now();
         if (now - *shown < std::chrono::milliseconds(100)) return;
         *shown = now;
-        std::fprintf(stderr, "\r\033[K%3.0f %%  %.*s", 100.0 * fraction,
-                     static_cast<int>(what.size()), what.data());
+        std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100.0 * fraction, printable(what).c_str());
     };
     return {monotone(show), std::move(stop)};
 }
 
 void remark(const std::string& text) {
-    std::fprintf(stderr, "%s%s\n", on_terminal() ? "\r\033[K" : "", text.c_str());
+    std::fprintf(stderr, "%s%s\n", on_terminal() ? "\r\033[K" : "", printable(text).c_str());
 }
 
 void complain(const std::string& text) {
     remark("vesselbench: " + text);
 }
 
-std::string as_columns(const std::vector<std::vector<std::string>>& rows) {
+std::string as_columns(const std::vector<std::vector<std::string>>& texts) {
+    std::vector<std::vector<std::string>> rows = texts;
+    for (auto& row : rows)
+        for (std::string& cell : row) cell = printable(cell);
     const std::vector<std::size_t> widths = column_widths(rows);
     std::string text;
     for (const auto& row : rows) {

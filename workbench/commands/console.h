@@ -32,11 +32,11 @@ private:
 /// Writes the line "vesselbench: text" to stderr: why the program failed.
 void complain(const std::string& text);
 
-/// Writes one line to stderr: a remark or a warning.
+/// Writes one line to stderr: a remark or a warning. Control characters are shown escaped.
 void remark(const std::string& text);
 
 /// Rows as left-aligned columns, two spaces apart; the last column is wrapped to a width of 100
-/// characters.
-[[nodiscard]] std::string as_columns(const std::vector<std::vector<std::string>>& rows);
+/// characters. Control characters are shown escaped.
+[[nodiscard]] std::string as_columns(const std::vector<std::vector<std::string>>& texts);
 
 }  // namespace vesselbench

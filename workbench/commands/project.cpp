@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/commands/commands.h"
@@ -60,7 +61,7 @@ std::string edit_list(const std::vector<const EditRecord*>& edits) {
     std::string list;
     for (const EditRecord* edit : edits)
         list += (list.empty() ? "" : ", ") + std::to_string(edit->edit.id) + " " + edit->operation;
-    return list;
+    return printable(list);
 }
 
 std::vector<const EditRecord*> pending_edits(const Snapshot& now) {
@@ -168,7 +169,7 @@ void print_edit(const LogEntry& entry) {
     const EditRecord& edit = entry.edit;
     std::cout << "edit " << edit.edit.id
               << (edit.edit.revision > 1 ? "." + std::to_string(edit.edit.revision) : "") << ": "
-              << edit.operation;
+              << printable(edit.operation);
     if (!entry.result) return void(std::cout << "\n");
     const std::string change = change_text(entry.result->change);
     std::cout << (change.empty() ? "" : ": " + change) << "\n";
@@ -251,7 +252,8 @@ void note_edit(const NoteOptions& options) {
         std::cout << Json({{"edit", edit.edit.id}, {"note", edit.note}}).dump(2) << "\n";
     else
         std::cout << "edit " << edit_list({&edit})
-                  << (edit.note.empty() ? " has no note" : ": \"" + edit.note + "\"") << "\n";
+                  << (edit.note.empty() ? " has no note" : ": \"" + printable(edit.note) + "\"")
+                  << "\n";
 }
 
 void show_log(const LogOptions& options) {

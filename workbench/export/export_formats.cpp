@@ -15,7 +15,7 @@ namespace {
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
-        throw InvalidInput("there is no volume mesh in this variant: use tetrahedralize first");
+        throw AlgorithmFailure("there is no volume mesh in this variant: use tetrahedralize first");
     return *scene.volume_mesh;
 }
 

@@ -12,7 +12,7 @@ namespace vesselbench {
 
 /// A format that a scene can be exported in.
 struct ExportFormat : Format {
-    /// \throw InvalidInput if the scene has no such content
+    /// \throw AlgorithmFailure if the scene has no such content
     std::function<void(const Scene&, const std::string& path, const CfdParameters&)> write;
 };
 

@@ -20,7 +20,7 @@ namespace vesselbench {
 
 /// Writes the files of product_names().
 /// \return their names
-/// \throw InvalidInput if the scene has no volume mesh for cfd, IoError
+/// \throw AlgorithmFailure if the scene has no volume mesh for cfd, IoError
 [[nodiscard]] std::vector<std::string> write_products(PendingFiles& files,
                                                       const std::filesystem::path& folder,
                                                       const Scene& scene,

@@ -51,7 +51,7 @@ Surface cropped(const Surface& surface, const Region& region) {
 Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Region region = region_from(arguments);
     if (!scene.image && !scene.surface)
-        throw InvalidInput("nothing to crop: use load-image or load-surface first");
+        throw AlgorithmFailure("nothing to crop: use load-image or load-surface first");
     Outcome outcome;
     outcome.scene = scene;
     outcome.resolved = arguments;

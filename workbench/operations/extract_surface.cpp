@@ -21,7 +21,7 @@ namespace {
 constexpr double kNoticeable = 0.05;
 
 const Image& image_of(const Scene& scene) {
-    if (!scene.image) throw InvalidInput("there is no image: use load-image first");
+    if (!scene.image) throw AlgorithmFailure("there is no image: use load-image first");
     return *scene.image;
 }
 

@@ -52,7 +52,9 @@ auto guarded(const Database& database, Reader reader) {
     try {
         return reader();
     } catch (const InvalidInput& error) {
-        throw InvalidInput(database.name() + " is damaged: " + error.what());
+        const std::string text = error.what();  // SQLite's errors name the file already
+        throw InvalidInput(
+            text.starts_with(database.name()) ? text : database.name() + " is damaged: " + text);
     }
 }
 

@@ -30,7 +30,7 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
                 "edit " + std::to_string(entry.edit.edit.id) + " is a " + operation.name +
                 " already: the suggestion applies on top of it (use undo to return to before it)");
     }
-    if (last == nullptr) throw InvalidInput(subject.name + " has no edit that makes a surface");
+    if (last == nullptr) throw AlgorithmFailure(subject.name + " has no edit that makes a surface");
     subject.is_project = true;
     if (belongs_to_variant(operation.usual_step)) subject.variant = options.variant;
     subject.state = "after edit " + std::to_string(last->edit.edit.id) + " " + last->edit.operation;

@@ -82,7 +82,7 @@ void check_stack_axis(const Arguments& arguments, const std::string& operation);
 [[nodiscard]] std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved);
 
 /// Smallest distance of a position from a neighbour [mm]; 0 inside.
-/// \throw InvalidInput if there is no neighbour, or one without triangles
+/// \throw AlgorithmFailure if there is no neighbour, or one without triangles
 [[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
                                                  const std::string& operation,
                                                  const Positions& positions);
