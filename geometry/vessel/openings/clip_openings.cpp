@@ -65,7 +65,7 @@ public:
             if (!problems_[i].empty())
                 failed.push_back(
                     {openings_[i].place.tip, openings_[i].place.plane.point, problems_[i]});
-        return base_.triangle_count() == 0 ? surface_ : std::move(base_);
+        return base_.empty() ? surface_ : base_;
     }
 
 private:
