@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/openings.h"
 #include "tests/support/shapes.h"

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/rim_shape.h"
 #include "tests/support/shapes.h"

@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/clip.h"
+#include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/cut_trial.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/repair/repair.h"

@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/planned_cut.h"

@@ -1,3 +1,5 @@
+#include "geometry/vessel/openings/clip_openings.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -11,7 +13,6 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
-#include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/remove_branch.h"
 #include "geometry/vessel/openings/rim_shape.h"
 
