@@ -55,7 +55,8 @@ int main(int count, char** words) {
     }
     try {
         for (int i = 2; i < count; ++i)
-            bench::compare(repair(read_surface(words[i]).surface).surface, words[i], std::atof(words[1]));
+            bench::compare(repair(read_surface(words[i]).surface).surface, words[i],
+                           std::atof(words[1]));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;
