@@ -1,7 +1,8 @@
 // Times the window without a display, and prints a row each: start-up, frames while a surface of
 // 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight.
 //   bench_window PROGRAM                        all of these
-//   bench_window PROGRAM --clicks SECONDS [SEEDS]   longest frames under random input instead
+//   bench_window PROGRAM --clicks SECONDS [SEEDS [FIRST]]   longest frames under random input
+//                                                           instead
 
 #include <algorithm>
 #include <chrono>
@@ -186,7 +187,8 @@ void run(int count, char** words) {
         const unsigned seeds = count > 4 ? static_cast<unsigned>(std::atoi(words[4])) : 20;
         std::printf("random input for %s s each, goal: no frame over %.0f ms\n", words[3],
                     kLongest);
-        for (unsigned seed = 1; seed <= seeds; ++seed)
+        const unsigned first = count > 5 ? static_cast<unsigned>(std::atoi(words[5])) : 1;
+        for (unsigned seed = first; seed < first + seeds; ++seed)
             click_around(bench, seed, std::atof(words[3]));
         return;
     }
@@ -201,7 +203,7 @@ void run(int count, char** words) {
 
 int main(int count, char** words) {
     if (count < 2) {
-        std::fprintf(stderr, "usage: bench_window PROGRAM [--clicks SECONDS [SEEDS]]\n");
+        std::fprintf(stderr, "usage: bench_window PROGRAM [--clicks SECONDS [SEEDS [FIRST]]]\n");
         return 2;
     }
     try {
