@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -41,6 +42,32 @@ double rim_length(const Surface& surface, std::size_t patch) {
     return length;
 }
 
+/// The flow of each inlet: as given by name, else by area.
+void distribute_flow(const CfdParameters& parameters, std::vector<InletFlow>& inlets) {
+    double area = 0.0;
+    std::vector<std::string> names;
+    for (const InletFlow& inlet : inlets) {
+        area += inlet.area;
+        names.push_back(inlet.name);
+    }
+    if (parameters.inlet_flows.empty()) {
+        for (InletFlow& inlet : inlets) inlet.flow = parameters.flow * inlet.area / area;
+        return;
+    }
+    for (const auto& [name, flow] : parameters.inlet_flows) {
+        const auto inlet = std::ranges::find(inlets, name, &InletFlow::name);
+        if (inlet == inlets.end() || inlet->flow > 0.0)
+            throw InvalidInput("flow conditions: inlet_flows has '" + name +
+                               (inlet == inlets.end() ? "', which is no inlet; " : "' twice; ") +
+                               "the inlets are " + joined(names, ", "));
+        require_positive(flow, name.c_str(), "cm^3/s");
+        inlet->flow = flow;
+    }
+    for (const InletFlow& inlet : inlets)
+        if (inlet.flow == 0.0)
+            throw InvalidInput("flow conditions: inlet_flows lacks the inlet " + inlet.name);
+}
+
 std::string text(const char* format, const std::string& name, double value) {
     char line[240];
     std::snprintf(line, sizeof line, format, name.c_str(), value);
@@ -55,7 +82,6 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
     require_positive(parameters.viscosity, "viscosity", "Pa s");
     require_positive(parameters.flow, "flow", "cm^3/s");
     FlowSummary summary;
-    double total_area = 0.0;
     for (std::size_t k = 0; k < surface.patches.size(); ++k) {
         if (surface.patches[k].kind == PatchKind::Outlet) ++summary.outlets;
         if (surface.patches[k].kind != PatchKind::Inlet) continue;
@@ -63,15 +89,15 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
         summary.inlets.push_back({.name = surface.patches[k].name,
                                   .area = area,
                                   .diameter = 4.0 * area / rim_length(surface, k)});
-        total_area += area;
     }
     if (summary.inlets.empty() || summary.outlets == 0)
         throw AlgorithmFailure(
             "flow conditions: the model has " + std::to_string(summary.inlets.size()) +
             " inlet(s) and " + std::to_string(summary.outlets) +
             " outlet(s), but needs one of each: cut the vessel's ends with `clip-opening`");
+    distribute_flow(parameters, summary.inlets);
     for (InletFlow& inlet : summary.inlets) {
-        inlet.mean_velocity = parameters.flow / total_area;  // cm^3/s by mm^2 is m/s
+        inlet.mean_velocity = inlet.flow / inlet.area;  // cm^3/s by mm^2 is m/s
         inlet.reynolds =
             inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density / parameters.viscosity;
         if (inlet.reynolds > kLaminarReynolds)

@@ -9,11 +9,18 @@ namespace vesselbench {
 
 enum class InflowProfile { Plug, Parabolic };
 
+/// The flow through one inlet.
+struct NamedFlow {
+    std::string inlet;
+    double flow = 0.0;  ///< [cm^3/s], > 0
+};
+
 /// Flow of blood through a model with rigid walls: steady, laminar, Newtonian (thesis 5.5.1).
 struct CfdParameters {
     double density = 1000.0;  ///< [kg/m^3], > 0
     double viscosity = 4e-3;  ///< dynamic [Pa s], > 0
     double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; distributed by area
+    std::vector<NamedFlow> inlet_flows = {};  ///< in place of it, one for every inlet; or none
     InflowProfile profile = InflowProfile::Parabolic;  ///< Parabolic: as in a long straight duct
     int iterations = 2000;                             ///< largest number of SIMPLE iterations
     double residual = 1e-5;  ///< initial residuals of p and U at which the run stops [-]
@@ -25,6 +32,7 @@ struct InletFlow {
     std::string name;
     double area = 0.0;           ///< [mm^2]
     double diameter = 0.0;       ///< hydraulic, 4 area / rim length [mm]
+    double flow = 0.0;           ///< [cm^3/s]
     double mean_velocity = 0.0;  ///< [m/s]
     double reynolds = 0.0;       ///< mean velocity * diameter * density / viscosity [-]
 };
@@ -43,7 +51,7 @@ inline constexpr double kLargestInletBend = 15.0;  // [deg]
 /// The flow that the parameters imply on this surface.
 /// \param inlet_bend turn of the centerline within two diameters of the inlet [deg]; 0: unknown
 /// \throw AlgorithmFailure if there is no inlet or no outlet; InvalidInput if a parameter is out of
-/// range
+/// range, or `inlet_flows` does not name every inlet once
 [[nodiscard]] FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
                                        double inlet_bend = 0.0);
 

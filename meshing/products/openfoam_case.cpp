@@ -6,6 +6,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 #include "meshing/products/inflow.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "meshing/products/text_buffer.h"
@@ -16,12 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSquareMetres = 1e-6;          // mm^2
-constexpr double kCubicMetresPerSecond = 1e-6;  // cm^3/s
-
 struct CaseWriter {
     const VolumeMesh& mesh;
     const CfdParameters& parameters;
+    FlowSummary flow;
     std::vector<MeshFace> faces;
     std::vector<FoamPatch> patches;
 
@@ -39,15 +38,15 @@ struct CaseWriter {
         return sum;
     }
 
-    [[nodiscard]] double inlet_area() const {  // of all inlets [mm^2]
-        double area = 0.0;
-        for (const FoamPatch& patch : patches)
-            if (patch.kind == PatchKind::Inlet) area += area_vector(patch).norm();
-        return area;
+    [[nodiscard]] double flow_through(const FoamPatch& inlet) const {  // [cm^3/s]
+        return std::ranges::find(flow.inlets, inlet.name, &InletFlow::name)->flow;
     }
 
-    [[nodiscard]] double mean_velocity() const {  // [m/s]
-        return parameters.flow * kCubicMetresPerSecond / (inlet_area() * kSquareMetres);
+    [[nodiscard]] std::string flows() const {  // for comments
+        std::vector<std::string> texts;
+        for (const InletFlow& inlet : flow.inlets)
+            texts.push_back(inlet.name + " carries " + formatted(inlet.flow, "%g") + " cm^3/s");
+        return joined(texts, ", ");
     }
 
     [[nodiscard]] bool resting(const FoamPatch& patch) const {
@@ -65,16 +64,15 @@ struct CaseWriter {
 // Directed along the mean inward normal, with an exact mean velocity although a rim is never quite
 // flat.
 void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
-    const Vec3 outward = area_vector(inlet);
-    const Vec3 inward = -outward.normalized();
+    const Vec3 inward = -area_vector(inlet).normalized();
     const std::vector<Triangle> triangles = triangles_of(inlet);
     std::vector<double> profile(triangles.size(), 1.0);
     if (parameters.profile == InflowProfile::Parabolic)
         profile = developed_profile(mesh.points, triangles);
-    double flux = 0.0;  // per mean velocity [mm^2]
+    double flux = 0.0;  // of the profile [mm^2]
     for (std::size_t t = 0; t < triangles.size(); ++t)
         flux -= profile[t] * 0.5 * area_normal(mesh.points, triangles[t]).dot(inward);
-    const double scale = mean_velocity() * outward.norm() / flux;
+    const double scale = flow_through(inlet) / flux;  // [m/s]
     out << "        type            fixedValue;\n        value           nonuniform List<vector>\n"
         << triangles.size() << "\n(\n";
     for (const double u : profile) {
@@ -86,8 +84,7 @@ void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
 
 std::string CaseWriter::velocity() const {
     TextBuffer out;
-    out << foam_header("volVectorField", "0", "U") << "// [m/s]; the inlet carries "
-        << parameters.flow << " cm^3/s, "
+    out << foam_header("volVectorField", "0", "U") << "// [m/s]; " << flows() << "; "
         << (parameters.profile == InflowProfile::Plug ? "the same velocity everywhere"
                                                       : "profile of the developed laminar flow")
         << "\ndimensions      [0 1 -1 0 0 0 0];\n\ninternalField   uniform (0 0 "
@@ -299,12 +296,13 @@ tail -n 3 log.simpleFoam
 )sh";
 }
 
-std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters) {
+std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
+                   const std::string& flows) {
     TextBuffer out;
     out << "OpenFOAM case of steady laminar blood flow, written by vesselbench.\n\n"
         << "  " << mesh.tetrahedra.size() << " tetrahedra; lengths in metres; density "
-        << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s, inflow "
-        << parameters.flow << " cm^3/s\n"
+        << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s; " << flows
+        << "\n"
         << "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
@@ -343,8 +341,8 @@ void write_script(const fs::path& path, bool parallel) {
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters) {
     require_plain_names(mesh.patches);
-    (void)flow_summary(boundary_surface(mesh), parameters);  // throws if either is wrong
-    CaseWriter writer{mesh, parameters, mesh_faces(mesh), {}};
+    CaseWriter writer{
+        mesh, parameters, flow_summary(boundary_surface(mesh), parameters), mesh_faces(mesh), {}};
     writer.patches = foam_patches(mesh, writer.faces);
     make_folders(folder);
     write_poly_mesh(folder / "constant/polyMesh", mesh, writer.faces);
@@ -358,7 +356,7 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     write_file(folder / "system/decomposeParDict", writer.decomposition());
     write_script(folder / "Allrun", false);
     write_script(folder / "Allrun.parallel", true);
-    write_file(folder / "README", readme(mesh, parameters));
+    write_file(folder / "README", readme(mesh, parameters, writer.flows()));
     write_file(folder / "system/controlDict",
                writer.control());  // last: it makes the folder a case
 }

@@ -6,6 +6,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
@@ -96,18 +97,71 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
 
 SCENARIO("The inlet is the end that was named", "[geometry][openings]") {
     const Surface tube = ragged_tube();
-    const OpeningPlan plan = plan_openings(tube, line_graph(), {.inlet = Vec3(0, 1, 31)});
-    REQUIRE(plan.inlet);
-    CHECK(plan.openings[*plan.inlet].place.plane.point.z() > 15.0);
+    const OpeningPlan plan = plan_openings(tube, line_graph(), {.inlets = {Vec3(0, 1, 31)}});
+    REQUIRE(plan.inlets.size() == 1);
+    CHECK(plan.openings[plan.inlets[0]].place.plane.point.z() > 15.0);
     THEN("a point that is at no end is refused with the nearest one's place") {
-        CHECK_THROWS_WITH(plan_openings(tube, line_graph(), {.inlet = Vec3(0, 0, 60)}),
+        CHECK_THROWS_WITH(plan_openings(tube, line_graph(), {.inlets = {Vec3(0, 0, 60)}}),
                           Contains("nearest end"));
     }
     THEN("an inlet that stays closed is a failure") {
         CHECK_THROWS_WITH(plan_openings(tube, line_graph(),
-                                        {.inlet = Vec3(0, 0, 30), .closed = {Vec3(0, 0, 30)}}),
+                                        {.inlets = {Vec3(0, 0, 30)}, .closed = {Vec3(0, 0, 30)}}),
                           Contains("cannot be opened"));
     }
+}
+
+SCENARIO("Several ends can be inlets", "[geometry][openings]") {
+    const Surface tube = ragged_tube();
+    const Positions both = {Vec3(0, 1, 31), Vec3(0, 0, 0)};
+    const OpeningPlan plan = plan_openings(tube, line_graph(), {.inlets = both});
+    REQUIRE(plan.inlets.size() == 2);
+    THEN("they are numbered by their size") {
+        const Surface named = clip_openings(tube, plan, {.points = both}).surface;
+        CHECK(named.patches[1] == Patch{"inlet_1", PatchKind::Inlet});
+        CHECK(named.patches[2] == Patch{"inlet_2", PatchKind::Inlet});
+        CHECK(patch_shape(named, 1).area >= patch_shape(named, 2).area);
+        AND_THEN("one of them alone is the inlet again") {
+            const Surface single = name_openings(named, {}, std::span(both).first(1));
+            CHECK(single.patches[1] == Patch{"inlet", PatchKind::Inlet});
+            CHECK(single.patches[2] == Patch{"outlet_1", PatchKind::Outlet});
+        }
+    }
+    THEN("each means an end of its own") {
+        CHECK_THROWS_WITH(
+            plan_openings(tube, line_graph(), {.inlets = {Vec3(0, 1, 31), Vec3(0, 0, 30)}}),
+            Contains("same end"));
+    }
+}
+
+SCENARIO("Outlets that face the same way as the inlet may be inlets", "[geometry][openings]") {
+    const auto joined_tubes = [](double radius, double turn) {
+        const Surface one = closed_tube(kRadius, kLength, 24, 20);
+        const Surface other =
+            mapped(closed_tube(radius, kLength, 24, 20), [&](const Vec3& p) -> Vec3 {
+                return Vec3(20.0, 0, 0) + Eigen::AngleAxisd(turn, Vec3::UnitX()) * p;
+            });
+        Positions points = one.points();
+        std::vector<Triangle> triangles(one.triangles().begin(), one.triangles().end());
+        PatchLabels labels = *one.patch_labels;
+        for (TriangleId t = 0; t < other.triangle_count(); ++t) {
+            Triangle triangle = other.triangles()[t];
+            for (VertexId& v : triangle) v += static_cast<VertexId>(one.vertex_count());
+            triangles.push_back(triangle);
+            const auto label = (*other.patch_labels)[t];
+            labels.push_back(label == 0 ? label : static_cast<std::uint16_t>(label + 2));
+        }
+        points.insert(points.end(), other.points().begin(), other.points().end());
+        return make_surface(std::move(points), std::move(triangles), std::move(labels),
+                            {{"wall", PatchKind::Wall},
+                             {"inlet", PatchKind::Inlet},
+                             {"outlet_1", PatchKind::Outlet},
+                             {"outlet_2", PatchKind::Outlet},
+                             {"outlet_3", PatchKind::Outlet}});
+    };
+    CHECK(likely_inlets(joined_tubes(0.8 * kRadius, 0.0)) == std::vector<std::size_t>{3});
+    CHECK(likely_inlets(joined_tubes(0.5 * kRadius, 0.0)).empty());            // too thin
+    CHECK(likely_inlets(joined_tubes(0.8 * kRadius, 0.5 * 3.14159)).empty());  // faces aside
 }
 
 SCENARIO("Of outlets alone, the largest becomes the inlet", "[geometry][openings]") {

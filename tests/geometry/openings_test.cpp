@@ -187,7 +187,7 @@ SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]")
             CHECK(clipped.patches == tube.patches);
         }
         THEN("the user may say which one is the inlet") {
-            const Surface swapped = clipped_by(tube, plan, {.point = Vec3(0, 0, 30)});
+            const Surface swapped = clipped_by(tube, plan, {.points = {Vec3(0, 0, 30)}});
             CHECK(swapped.patches[1].kind == PatchKind::Inlet);
             CHECK(patch_shape(swapped, 1).plane.point.z() == Approx(30.0));
         }

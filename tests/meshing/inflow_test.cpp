@@ -1,5 +1,6 @@
 #include "meshing/products/inflow.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -41,6 +42,39 @@ SCENARIO("a coarse fan still gets the parabola", "[meshing][inflow]") {
     const Surface tube = test::closed_tube(1.0, 3.0, 24, 5);
     const auto profile = developed_profile(tube.points(), triangles_of(tube, 1));
     for (const double u : profile) CHECK(u == Approx(1.0).epsilon(1e-6));  // all slices are alike
+}
+
+SCENARIO("Several inlets share the flow by area, or as given", "[meshing][inflow]") {
+    const Surface tube = test::fine_tube(2.0, 8.0, 60);
+    const Surface two = tube.with_patches(
+        *tube.patch_labels,
+        {{"wall", PatchKind::Wall}, {"a", PatchKind::Inlet}, {"b", PatchKind::Inlet}});
+    CHECK_THROWS_AS(flow_summary(two, {}), AlgorithmFailure);  // no outlet
+    // A third patch: one triangle of the wall.
+    PatchLabels labels = *tube.patch_labels;
+    *std::ranges::find(labels, 0) = 3;
+    const Surface three = tube.with_patches(std::move(labels), {{"wall", PatchKind::Wall},
+                                                                {"a", PatchKind::Inlet},
+                                                                {"b", PatchKind::Inlet},
+                                                                {"c", PatchKind::Outlet}});
+    THEN("of equal areas, each carries half") {
+        const FlowSummary summary = flow_summary(three, {.flow = 3.0});
+        REQUIRE(summary.inlets.size() == 2);
+        CHECK(summary.inlets[0].flow == Approx(1.5));
+        CHECK(summary.inlets[1].mean_velocity == Approx(1.5 / summary.inlets[1].area));
+    }
+    THEN("flows that are given by name count") {
+        const FlowSummary summary = flow_summary(three, {.inlet_flows = {{"b", 2.0}, {"a", 0.5}}});
+        CHECK(summary.inlets[0].flow == 0.5);
+        CHECK(summary.inlets[1].flow == 2.0);
+    }
+    THEN("each inlet has to be named once") {
+        CHECK_THROWS_AS(flow_summary(three, {.inlet_flows = {{"a", 2.0}}}), InvalidInput);
+        CHECK_THROWS_AS(flow_summary(three, {.inlet_flows = {{"a", 2.0}, {"a", 1.0}}}),
+                        InvalidInput);
+        CHECK_THROWS_AS(flow_summary(three, {.inlet_flows = {{"a", 2.0}, {"c", 1.0}}}),
+                        InvalidInput);
+    }
 }
 
 SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {

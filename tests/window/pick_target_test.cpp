@@ -71,6 +71,20 @@ SCENARIO("A picked place is a short text of the command line", "[window][picking
     CHECK(wants_tips(form));
 }
 
+SCENARIO("Openings that are clicked are collected, and removed by another click",
+         "[window][picking]") {
+    const std::string one = picked_text(PickTarget::Opening, "", Vec3(1, 2, 3));
+    const std::string two = picked_text(PickTarget::Opening, one, Vec3(4, 5, 6));
+    CHECK(two == "1,2,3,4,5,6");
+    OperationForm form(find_operation("clip-opening"));
+    form.set("inlet", two);
+    CHECK(form.valid());
+    REQUIRE(places_in(form).size() == 2);
+    CHECK(places_in(form)[1].point == Vec3(4, 5, 6));
+    CHECK(picked_text(PickTarget::Opening, two, Vec3(1, 2, 3)) == "4,5,6");
+    CHECK(picked_text(PickTarget::Opening, "4,5,6", Vec3(4, 5, 6)).empty());
+}
+
 SCENARIO("Two corners make a box", "[window][picking]") {
     const std::string first = picked_text(PickTarget::Corners, "", Vec3(5, 0, 1));
     CHECK(first == "5,0,1");

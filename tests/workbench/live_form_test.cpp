@@ -212,7 +212,7 @@ SCENARIO("clip-opening has the same bits live and in one run", "[workbench][live
                        {"distance", {3.0, 5.0, 7.5}},
                        {"radii", {2.0}},
                        {"kind", {text("inlet"), text("outlet")}},
-                       {"inlet", {Vec3(0, 0, 30)}}};
+                       {"inlet", {std::vector<double>{0, 0, 30}}}};
     const auto [succeeded, failed] = check_changes("clip-opening", scene, pool, 12);
     CHECK(succeeded > 3);
     CHECK(failed > 1);

@@ -1,5 +1,7 @@
 #include "workbench/case/argument_texts.h"
 
+#include <cmath>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 
@@ -41,6 +43,15 @@ std::string argument_summary(const Operation& operation, const Arguments& argume
         summary += (summary.empty() ? "" : " ") + parameter.name + "=" + short_text(found->second);
     }
     return summary;
+}
+
+double rounded_length(double millimetres) {
+    constexpr double kStepsPerMm = 100.0;
+    return std::round(millimetres * kStepsPerMm) / kStepsPerMm + 0.0;  // 0 instead of -0
+}
+
+Vec3 rounded_place(const Vec3& point) {
+    return point.unaryExpr([](double part) { return rounded_length(part); });
 }
 
 }  // namespace vesselbench

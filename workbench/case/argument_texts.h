@@ -16,4 +16,9 @@ namespace vesselbench {
 /// and long lists are counted: "dabs=(800 numbers)".
 [[nodiscard]] std::string argument_summary(const Operation& operation, const Arguments& arguments);
 
+/// A length or a coordinate as a click fills it in, and as texts propose it: in steps of 0.01 mm,
+/// finer than a pixel of most views and short enough to be read.
+[[nodiscard]] double rounded_length(double millimetres);
+[[nodiscard]] Vec3 rounded_place(const Vec3& point);
+
 }  // namespace vesselbench

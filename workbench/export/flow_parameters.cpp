@@ -1,5 +1,9 @@
 #include "workbench/export/flow_parameters.h"
 
+#include <sstream>
+
+#include "geometry/kernel/errors.h"
+
 namespace vesselbench {
 
 std::vector<Parameter> flow_parameters() {
@@ -11,6 +15,9 @@ std::vector<Parameter> flow_parameters() {
              .help = "total inflow of blood through all inlets; distributed by their areas",
              .minimum = 0.0,
              .above_minimum = true},
+            {.name = "inlet_flows",
+             .type = Text,
+             .help = "flow of each inlet [cm^3/s] in place of it: inlet_1:2.5,inlet_2:1.8"},
             {.name = "profile",
              .type = Choice,
              .default_value = "parabolic",
@@ -50,6 +57,26 @@ std::vector<Parameter> flow_parameters() {
              .maximum = 1024}};
 }
 
+namespace {
+
+/// "inlet_1:2.5,inlet_2:1.8"
+std::vector<NamedFlow> flows_in(const std::string& text) {
+    const Parameter flow{
+        .name = "inlet_flows", .unit = "cm^3/s", .help = {}, .minimum = 0.0, .above_minimum = true};
+    std::vector<NamedFlow> flows;
+    std::istringstream entries(text);
+    for (std::string entry; std::getline(entries, entry, ',');) {
+        const std::size_t colon = entry.find(':');
+        if (colon == std::string::npos)
+            throw UsageError("inlet_flows needs name:flow for each inlet, not '" + entry + "'");
+        flows.push_back({entry.substr(0, colon),
+                         std::get<double>(checked_value(flow, entry.substr(colon + 1)))});
+    }
+    return flows;
+}
+
+}  // namespace
+
 CfdParameters flow_from(const Arguments& arguments) {
     CfdParameters flow;
     const auto take = [&](const char* name, double& field) {
@@ -59,6 +86,7 @@ CfdParameters flow_from(const Arguments& arguments) {
     take("density", flow.density);
     take("viscosity", flow.viscosity);
     take("residual", flow.residual);
+    if (arguments.has("inlet_flows")) flow.inlet_flows = flows_in(arguments.text("inlet_flows"));
     if (arguments.has("profile"))
         flow.profile =
             arguments.text("profile") == "plug" ? InflowProfile::Plug : InflowProfile::Parabolic;

@@ -9,9 +9,11 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/planned_cut.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/shared/replacing_stepper.h"
@@ -36,8 +38,10 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: give distance or radii, not both");
     if (arguments.has("planes") != arguments.has("names"))
         throw UsageError("clip-opening: give planes and names together");
-    if (arguments.has("closed") && arguments.list("closed").size() % 3 != 0)
-        throw UsageError("clip-opening: closed needs three numbers for each end");
+    for (const char* name : {"closed", "inlet"})
+        if (arguments.has(name) && arguments.list(name).size() % 3 != 0)
+            throw UsageError("clip-opening: " + std::string(name) +
+                             " needs three numbers for each end");
 }
 
 /// What was decided, and the surface made by it.
@@ -46,17 +50,23 @@ struct Clipping {
     Surface surface;
 };
 
+/// The points of a list, three numbers each; empty if it is not given.
+Positions points_of(const Arguments& arguments, const char* name) {
+    if (!arguments.has(name)) return {};
+    const std::vector<double>& numbers = arguments.list(name);
+    Positions points;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return points;
+}
+
 OpeningPlanOptions plan_options(const Arguments& arguments) {
     OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                .distance = arguments.optional_real("distance"),
                                .radii = arguments.optional_real("radii"),
                                .strict = arguments.flag("strict")};
-    if (!options.tip) options.inlet = arguments.optional_point("inlet");
-    if (arguments.has("closed")) {
-        const std::vector<double> numbers = arguments.list("closed");
-        for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-            options.closed.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
-    }
+    if (!options.tip) options.inlets = points_of(arguments, "inlet");
+    options.closed = points_of(arguments, "closed");
     return options;
 }
 
@@ -67,11 +77,14 @@ void name_opening(OpeningPlan& plan, const Arguments& arguments) {
         for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
 }
 
-/// With one end alone, the inlet is the nearest opening; with all of them, the end that was named.
+/// With one end alone, the inlets are the nearest openings; with all of them, the ends that were
+/// named.
 InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
-    if (arguments.has("tip")) return {.point = arguments.optional_point("inlet")};
-    if (plan.inlet) return {.point = plan.openings[*plan.inlet].place.plane.point};
-    return {.promote = true};
+    if (arguments.has("tip")) return {.points = points_of(arguments, "inlet")};
+    InletChoice choice{.promote = true};
+    for (const std::size_t inlet : plan.inlets)
+        choice.points.push_back(plan.openings[inlet].place.plane.point);
+    return choice;
 }
 
 /// Plans and cuts; where a cut fails, plans again without it.
@@ -113,13 +126,13 @@ OpeningPlan stored_plan(const Arguments& arguments) {
 }
 
 /// A plan of all openings names all of them. One of a single end, or typed by hand, leaves the
-/// others to the inlet that is asked for.
+/// others to the inlets that are asked for.
 InletChoice stored_inlet(const OpeningPlan& plan, const Surface& clipped,
                          const Arguments& arguments) {
     const auto others = std::ranges::count_if(
         clipped.patches, [](const Patch& patch) { return patch.kind != PatchKind::Wall; });
     if (static_cast<std::size_t>(others) <= plan.openings.size()) return {};
-    return {.point = arguments.optional_point("inlet")};
+    return {.points = points_of(arguments, "inlet")};
 }
 
 Clipping repeat(const Surface& surface, const Arguments& arguments, const Progress& progress) {
@@ -132,8 +145,8 @@ Clipping repeat(const Surface& surface, const Arguments& arguments, const Progre
         clip_openings(surface, made.plan, {}, graph.get(), progress.part(0.7, 1.0));
     if (!clipped.failed.empty()) throw AlgorithmFailure(clipped.failed.front().why);
     const InletChoice inlet = stored_inlet(made.plan, clipped.surface, arguments);
-    made.surface =
-        inlet.point ? name_openings(clipped.surface, {}, inlet.point) : std::move(clipped.surface);
+    made.surface = inlet.points.empty() ? std::move(clipped.surface)
+                                        : name_openings(clipped.surface, {}, inlet.points);
     return made;
 }
 
@@ -212,6 +225,26 @@ std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     return warnings;
 }
 
+/// What to say of outlets that look like inlets; empty if there are none.
+std::string further_inlets(const Surface& surface) {
+    const std::vector<std::size_t> likely = likely_inlets(surface);
+    if (likely.empty()) return "";
+    std::vector<std::string> names;
+    std::string command = "inlet=";
+    const auto add = [&](std::size_t patch) {
+        command += command.back() == '=' ? "" : ",";
+        command += to_text(Value(rounded_place(patch_shape(surface, patch).plane.point)));
+    };
+    for (std::size_t p = 0; p < surface.patches.size(); ++p)
+        if (surface.patches[p].kind == PatchKind::Inlet) add(p);
+    for (const std::size_t p : likely) {
+        names.push_back(surface.patches[p].name);
+        add(p);
+    }
+    return enumerated(names) + (names.size() == 1 ? " faces" : " face") +
+           " the same way as the inlet: if blood flows in there as well, give " + command;
+}
+
 ordered_json ends_json(const OpeningPlan& plan, const Resolved& resolved) {
     ordered_json list = ordered_json::array();
     for (const EndRecord& end : plan.ends)
@@ -241,6 +274,9 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     outcome.warnings = end_warnings(made.plan);
     outcome.warnings.insert(outcome.warnings.end(), made.plan.warnings.begin(),
                             made.plan.warnings.end());
+    const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
+    if (const std::string text = own_choice ? further_inlets(made.surface) : ""; !text.empty())
+        outcome.warnings.push_back(text);
     outcome.scene = with_surface(scene, std::move(made.surface));
     return outcome;
 }
@@ -286,10 +322,10 @@ std::vector<Parameter> chosen_parameters() {
              .minimum = 0.0,
              .above_minimum = true},
             {.name = "inlet",
-             .type = Point,
+             .type = List,
              .unit = "mm",
-             .help = "a point near the opening where the blood flows in; default: the largest "
-                     "opening",
+             .help = "a point near the opening where the blood flows in, or x,y,z of each of "
+                     "several; default: the largest opening",
              .meaning = Meaning::Inlet},
             {.name = "name",
              .type = Text,

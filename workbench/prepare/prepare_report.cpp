@@ -130,6 +130,7 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
         inlets.push_back({{"name", inlet.name},
                           {"area_mm2", inlet.area},
                           {"diameter_mm", inlet.diameter},
+                          {"flow_cm3_s", inlet.flow},
                           {"mean_velocity_m_s", inlet.mean_velocity},
                           {"reynolds", inlet.reynolds}});
     return {{"density_kg_m3", flow.density},

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "geometry/kernel/progress.h"
@@ -13,10 +12,10 @@ struct ClippedSurface {
     std::vector<FailedCut> failed;  ///< openings left out; empty: everything was done
 };
 
-/// Who becomes the inlet.
+/// Who becomes an inlet.
 struct InletChoice {
-    std::optional<Vec3> point;  ///< near the opening that is the inlet [mm]
-    /// Without one, and if every opening is an outlet, the largest becomes the inlet.
+    Positions points = {};  ///< near the openings that are the inlets [mm]
+    /// Without any, and if every opening is an outlet, the largest becomes the inlet.
     bool promote = false;
 };
 

@@ -1,6 +1,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -52,6 +53,89 @@ Surface ordered(const Surface& surface, const std::vector<Patch>& patches,
     return surface.with_patches(std::move(labels), std::move(table));
 }
 
+/// True for a name that an inlet cannot keep, since it says or said another role or number. Files
+/// keep names only: an inlet called outlet_left would be an outlet again.
+bool is_outdated(const std::string& name) {
+    const std::string stem = "inlet";
+    const bool numbered =
+        name.starts_with(stem + "_") &&
+        name.find_first_not_of("0123456789", stem.size() + 1) == std::string::npos;
+    return name == stem || numbered || name.starts_with("outlet");
+}
+
+/// Gives the openings of a surface their roles and names.
+class Namer {
+public:
+    Namer(const Surface& surface, const std::vector<std::string>& unnamed)
+        : surface_(surface), patches_(surface.patches), areas_(patch_areas(surface)) {
+        for (std::size_t p = 1; p < patches_.size(); ++p)
+            if (patches_[p].kind == PatchKind::Cut &&
+                std::ranges::count(unnamed, patches_[p].name) > 0)
+                open_.push_back(p);
+        sort_by_area(open_);
+    }
+
+    /// The openings near some points are the inlets, and no others.
+    void make_inlets(std::span<const Vec3> points) {
+        std::vector<std::size_t> chosen;
+        for (const Vec3& point : points)
+            if (const auto p = nearest_opening(surface_, point);
+                p && std::ranges::count(chosen, *p) == 0)
+                chosen.push_back(*p);
+        for (std::size_t p = 1; p < patches_.size(); ++p)
+            if (patches_[p].kind == PatchKind::Inlet && std::ranges::count(chosen, p) == 0)
+                make_outlet(p);
+        sort_by_area(chosen);
+        for (const std::size_t p : chosen)
+            if (std::erase(open_, p) > 0 || is_outdated(patches_[p].name)) patches_[p].name = "";
+        const int first = chosen.size() > 1 ? 1 : 0;
+        for (const std::size_t p : chosen) make_inlet(p, first);
+    }
+
+    /// The largest opening is the inlet, if it has no name yet or is to be promoted.
+    void find_inlet(bool promote) {
+        if (areas_.size() < 2 || std::ranges::count(patches_, PatchKind::Inlet, &Patch::kind) > 0)
+            return;
+        const auto p = static_cast<std::size_t>(std::max_element(areas_.begin() + 1, areas_.end()) -
+                                                areas_.begin());
+        if (!open_.empty() && (promote || p == open_.front())) {
+            patches_[open_.front()].name = "";
+            make_inlet(open_.front(), 0);
+            open_.erase(open_.begin());
+        } else if (open_.empty() && promote && patches_[p].kind == PatchKind::Outlet) {
+            if (is_outdated(patches_[p].name)) patches_[p].name = "";
+            make_inlet(p, 0);
+        }
+    }
+
+    [[nodiscard]] Surface named() {
+        for (const std::size_t p : open_)
+            patches_[p] = {free_patch_name("outlet", 1, patches_), PatchKind::Outlet};
+        return ordered(surface_, patches_, areas_);
+    }
+
+private:
+    void sort_by_area(std::vector<std::size_t>& list) const {
+        std::ranges::stable_sort(list, std::greater{}, [&](std::size_t p) { return areas_[p]; });
+    }
+
+    void make_inlet(std::size_t p, int first) {
+        patches_[p].kind = PatchKind::Inlet;
+        if (patches_[p].name.empty()) patches_[p].name = free_patch_name("inlet", first, patches_);
+    }
+
+    void make_outlet(std::size_t p) {
+        patches_[p].kind = PatchKind::Outlet;
+        if (patches_[p].name.starts_with("inlet"))
+            patches_[p].name = free_patch_name("outlet", 1, patches_);
+    }
+
+    const Surface& surface_;
+    std::vector<Patch> patches_;
+    std::vector<double> areas_;      ///< by patch [mm^2]
+    std::vector<std::size_t> open_;  ///< patches without a role, largest first
+};
+
 }  // namespace
 
 std::string free_patch_name(const std::string& stem, int first, const std::vector<Patch>& patches) {
@@ -64,43 +148,31 @@ std::string free_patch_name(const std::string& stem, int first, const std::vecto
 }
 
 Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                      const std::optional<Vec3>& inlet, bool promote) {
-    auto patches = surface.patches;
-    const auto areas = patch_areas(surface);
-    std::vector<std::size_t> open;
-    for (std::size_t p = 1; p < patches.size(); ++p)
-        if (patches[p].kind == PatchKind::Cut &&
-            std::find(unnamed.begin(), unnamed.end(), patches[p].name) != unnamed.end())
-            open.push_back(p);
-    std::stable_sort(open.begin(), open.end(),
-                     [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-    const auto make_inlet = [&](std::size_t p) {
-        patches[p].kind = PatchKind::Inlet;
-        // Files keep names only: an inlet called outlet_1 would be an outlet again.
-        if (std::erase(open, p) > 0 || patches[p].name.starts_with("outlet"))
-            patches[p].name = free_patch_name("inlet", 0, patches);
-    };
-    const bool has_inlet = std::any_of(patches.begin(), patches.end(),
-                                       [](const Patch& p) { return p.kind == PatchKind::Inlet; });
-    if (inlet) {
-        for (auto& patch : patches)
-            if (patch.kind == PatchKind::Inlet)
-                patch = {patch.name == "inlet" ? free_patch_name("outlet", 1, patches) : patch.name,
-                         PatchKind::Outlet};
-        if (const auto p = nearest_opening(surface, *inlet)) make_inlet(*p);
-    } else if (!has_inlet && areas.size() > 1) {
-        const auto largest = std::max_element(areas.begin() + 1, areas.end());
-        const auto p = static_cast<std::size_t>(largest - areas.begin());
-        if (!open.empty() && (promote || p == open.front()))
-            make_inlet(open.front());
-        else if (open.empty() && promote && patches[p].kind == PatchKind::Outlet)
-            make_inlet(p);
+                      std::span<const Vec3> inlets, bool promote) {
+    Namer namer(surface, unnamed);
+    if (inlets.empty())
+        namer.find_inlet(promote);
+    else
+        namer.make_inlets(inlets);
+    return namer.named();
+}
+
+std::vector<std::size_t> likely_inlets(const Surface& surface) {
+    constexpr double kLeastWidth = 0.6, kLargestAngleDeg = 60.0;
+    const auto& patches = surface.patches;
+    std::vector<std::size_t> likely;
+    if (std::ranges::count(patches, PatchKind::Inlet, &Patch::kind) != 1) return likely;
+    const auto inlet = static_cast<std::size_t>(
+        std::ranges::find(patches, PatchKind::Inlet, &Patch::kind) - patches.begin());
+    const PatchShape main = patch_shape(surface, inlet);
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+        if (patches[p].kind != PatchKind::Outlet) continue;
+        const PatchShape shape = patch_shape(surface, p);
+        if (shape.diameter() >= kLeastWidth * main.diameter() &&
+            angle_deg(shape.plane.normal, main.plane.normal) <= kLargestAngleDeg)
+            likely.push_back(p);
     }
-    for (const std::size_t p : open) {
-        patches[p].kind = PatchKind::Outlet;
-        patches[p].name = free_patch_name("outlet", 1, patches);
-    }
-    return ordered(surface, patches, areas);
+    return likely;
 }
 
 std::optional<std::size_t> nearest_opening(const Surface& surface, const Vec3& point) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,15 +15,18 @@ namespace vesselbench {
                                           const std::vector<Patch>& patches);
 
 /// Orders the patches (wall, inlet, outlets by descending area, the rest) and assigns a kind and a
-/// name to those of kind Cut that are listed in `unnamed`: the inlet, the others outlet_1,
-/// outlet_2 ... by descending area. An inlet that is named as an outlet, or the other way round, is
-/// renamed.
-/// \param inlet a point near the opening that is the inlet [mm]; none: the largest, unless a patch
-/// of that kind exists or the largest is not in `unnamed`
-/// \param promote without an inlet, the largest of `unnamed`, else the largest outlet, becomes one
+/// name to those of kind Cut that are listed in `unnamed`: inlet, or inlet_1, inlet_2 ... where
+/// several are, the others outlet_1, outlet_2 ..., by descending area. An inlet that is named as an
+/// outlet, or the other way round, is renamed.
+/// \param inlets points near the openings that are the inlets [mm], all others become outlets;
+/// none: the largest opening, unless a patch of that kind exists or the largest is not in `unnamed`
+/// \param promote without inlets, the largest of `unnamed`, else the largest outlet, becomes one
 [[nodiscard]] Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                                    const std::optional<Vec3>& inlet = std::nullopt,
-                                    bool promote = false);
+                                    std::span<const Vec3> inlets = {}, bool promote = false);
+
+/// Outlets that may be inlets as well, as in a circle of Willis: at least 0.6 times as wide as the
+/// inlet, and facing the same way within 60 degrees. Empty unless there is exactly one inlet.
+[[nodiscard]] std::vector<std::size_t> likely_inlets(const Surface& surface);
 
 /// The opening whose centroid is nearest to a point; empty if there is no opening.
 [[nodiscard]] std::optional<std::size_t> nearest_opening(const Surface& surface, const Vec3& point);

@@ -86,7 +86,7 @@ private:
     }
 
     void plan_all() {
-        const std::optional<std::size_t> inlet = named_inlet();
+        name_inlets();
         leave_closed();
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (!decided_[e] && ends_[e].is_visible()) static_cast<void>(keep(e));
@@ -98,23 +98,32 @@ private:
         for (const bool visible : {true, false})
             for (const std::size_t e : order)
                 if (!decided_[e] && ends_[e].is_visible() == visible)
-                    plan_end(e, blind_too || e == inlet);
-        if (!inlet) return;
-        if (!made_[*inlet])
-            throw AlgorithmFailure("the inlet at " + place_text(ends_[*inlet].centre) +
-                                   " cannot be opened: " + records_[*inlet].why);
-        inlet_ = inlet;
+                    plan_end(e, blind_too || is_inlet(e));
+        for (const std::size_t inlet : inlets_)
+            if (!made_[inlet])
+                throw AlgorithmFailure("the inlet at " + place_text(ends_[inlet].centre) +
+                                       " cannot be opened: " + records_[inlet].why);
     }
 
-    std::optional<std::size_t> named_inlet() const {
-        if (!options_.inlet) return std::nullopt;
-        const auto end = end_near(ends_, *options_.inlet);
-        if (end) return end;
+    void name_inlets() {
+        for (const Vec3& point : options_.inlets) {
+            const std::size_t end = end_meant(point);
+            if (is_inlet(end))
+                throw AlgorithmFailure("two inlets mean the same end, at " +
+                                       place_text(ends_[end].centre));
+            inlets_.push_back(end);
+        }
+    }
+
+    std::size_t end_meant(const Vec3& point) const {
+        if (const auto end = end_near(ends_, point)) return *end;
         const auto nearest = std::ranges::min_element(
-            ends_, {}, [&](const SurfaceEnd& e) { return (e.centre - *options_.inlet).norm(); });
-        throw AlgorithmFailure("no vessel ends near inlet=" + coordinates_text(*options_.inlet) +
+            ends_, {}, [&](const SurfaceEnd& e) { return (e.centre - point).norm(); });
+        throw AlgorithmFailure("no vessel ends near inlet=" + coordinates_text(point) +
                                "; the nearest end is at " + place_text(nearest->centre));
     }
+
+    bool is_inlet(std::size_t e) const { return std::ranges::count(inlets_, e) > 0; }
 
     void leave_closed() {
         for (const Vec3& point : options_.closed) {
@@ -146,7 +155,7 @@ private:
             return close(e,
                          "a closed end: the surface's own rims are its openings; tip=x,y,z "
                          "opens it");
-        if (!end.is_visible() && e != inlet_ && looks_closed(e)) return;
+        if (!end.is_visible() && !is_inlet(e) && looks_closed(e)) return;
         if (cut(e)) return;
         if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
         if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
@@ -373,7 +382,7 @@ private:
         for (std::size_t e = 0; e < made_.size(); ++e) {
             if (!made_[e]) continue;
             records_[e].opening = plan_.openings.size();
-            if (e == inlet_) plan_.inlet = plan_.openings.size();
+            if (is_inlet(e)) plan_.inlets.push_back(plan_.openings.size());
             plan_.openings.push_back(*made_[e]);
         }
         plan_.ends = records_;
@@ -395,7 +404,7 @@ private:
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
     CutTrials trials_;
-    std::optional<std::size_t> inlet_;
+    std::vector<std::size_t> inlets_;  ///< ends that were named
     OpeningPlan plan_;
 };
 

@@ -57,7 +57,7 @@ struct OpeningPlan {
     std::vector<PlannedClosing> closings;
     std::vector<EndRecord> ends;        ///< every end found, worst first
     std::vector<std::string> warnings;  ///< about the places of openings: bends, doubtful axes
-    std::optional<std::size_t> inlet;   ///< the opening that was named as the inlet
+    std::vector<std::size_t> inlets;    ///< the openings that were named as inlets
 };
 
 /// A place where a cut was tried without success.
@@ -74,7 +74,7 @@ struct OpeningPlanOptions {
     /// Every end is cut perpendicular to its vessel at its chosen place; the first one that cannot
     /// be ends the plan with its failure.
     bool strict = false;
-    std::optional<Vec3> inlet;      ///< near the end that is the inlet: it has to be opened [mm]
+    Positions inlets;               ///< near the ends that are inlets: they have to be opened [mm]
     Positions closed;               ///< near the ends that stay closed [mm]
     std::vector<FailedCut> failed;  ///< places to be avoided
 };
@@ -94,7 +94,7 @@ inline constexpr double kEndReach = 1.5;
 /// cap is kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
 /// the nearest place with a whole section; else its branch is removed if it is a stub, shorter than
 /// its parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no
-/// branch has its tip near `tip`, the end at `tip` or `inlet` cannot be opened
+/// branch has its tip near `tip`, the end at `tip` or one of `inlets` cannot be opened
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {});
 

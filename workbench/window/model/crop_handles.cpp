@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/argument_texts.h"
 
 namespace vesselbench {
 

@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_names.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/opening_arguments.h"
 
 namespace vesselbench {

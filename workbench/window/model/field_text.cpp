@@ -1,13 +1,10 @@
 #include "workbench/window/model/field_text.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vesselbench {
 
 namespace {
-
-constexpr double kStepsPerMm = 100.0;
 
 const FormField* find(const OperationForm& form, const std::string& parameter) {
     const auto found = std::ranges::find_if(
@@ -60,14 +57,6 @@ std::vector<double> list_of(const OperationForm& form, const std::string& parame
 std::string text_of(const OperationForm& form, const std::string& parameter) {
     const FormField* field = find(form, parameter);
     return field == nullptr || !field->active || !field->error.empty() ? "" : field->text;
-}
-
-double rounded_length(double millimetres) {
-    return std::round(millimetres * kStepsPerMm) / kStepsPerMm + 0.0;  // 0 instead of -0
-}
-
-Vec3 rounded_place(const Vec3& point) {
-    return point.unaryExpr([](double part) { return rounded_length(part); });
 }
 
 }  // namespace vesselbench

@@ -42,9 +42,4 @@ struct FieldText {
 /// The typed text, or an empty one.
 [[nodiscard]] std::string text_of(const OperationForm& form, const std::string& parameter);
 
-/// A length or a coordinate as a click or a drag fills it in: in steps of 0.01 mm, finer than a
-/// pixel of most views and short enough to be read.
-[[nodiscard]] double rounded_length(double millimetres);
-[[nodiscard]] Vec3 rounded_place(const Vec3& point);
-
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/case/measure_json.h"
 
 namespace vesselbench {

@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_names.h"
+#include "workbench/case/argument_texts.h"
 
 namespace vesselbench {
 

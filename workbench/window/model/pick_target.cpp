@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
 
@@ -20,10 +21,27 @@ std::vector<double> numbers_of(const std::string& text) {
     }
 }
 
-std::optional<Vec3> point_of(const std::string& text) {
+/// The points of three numbers each; empty if other numbers are left.
+Positions points_of(const std::string& text) {
     const std::vector<double> numbers = numbers_of(text);
-    if (numbers.size() != 3) return std::nullopt;
-    return Vec3(numbers[0], numbers[1], numbers[2]);
+    Positions points;
+    if (numbers.size() % 3 != 0) return points;
+    for (std::size_t i = 0; i < numbers.size(); i += 3)
+        points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return points;
+}
+
+std::optional<Vec3> point_of(const std::string& text) {
+    const Positions points = points_of(text);
+    return points.size() == 1 ? std::optional(points[0]) : std::nullopt;
+}
+
+/// The points with another one added, or taken away if it is one of them.
+std::string with_point_switched(Positions points, const Vec3& point) {
+    if (std::erase(points, point) == 0) points.push_back(point);
+    std::vector<double> numbers;
+    for (const Vec3& each : points) numbers.insert(numbers.end(), each.begin(), each.end());
+    return numbers.empty() ? "" : to_text(Value(numbers));
 }
 
 std::string box_text(const Vec3& a, const Vec3& b) {
@@ -64,7 +82,7 @@ std::string pick_instruction(PickTarget target) {
         case PickTarget::Tip:
             return "Click a vessel end or a dome";
         case PickTarget::Opening:
-            return "Click an opening";
+            return "Click an opening; one that is chosen is removed";
         case PickTarget::Corners:
             return "Click two opposite corners";
         case PickTarget::Voxel:
@@ -77,6 +95,7 @@ std::string pick_instruction(PickTarget target) {
 
 std::string picked_text(PickTarget target, const std::string& text, const Vec3& point) {
     const Vec3 now = rounded_place(point);
+    if (target == PickTarget::Opening) return with_point_switched(points_of(text), now);
     const std::optional<Vec3> before =
         target == PickTarget::Corners ? point_of(text) : std::nullopt;
     return before ? box_text(*before, now) : to_text(Value(now));
@@ -98,8 +117,8 @@ std::vector<NamedPlace> places_in(const OperationForm& form) {
     for (const FormField& field : form.fields()) {
         const auto target = pick_target(*field.parameter);
         if (!field.active || !target || target == PickTarget::Labels) continue;
-        if (const auto point = point_of(field.text))
-            places.push_back({.point = *point, .name = readable(field.parameter->name)});
+        for (const Vec3& point : points_of(field.text))
+            places.push_back({.point = point, .name = readable(field.parameter->name)});
     }
     return places;
 }
