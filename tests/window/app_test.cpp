@@ -1,8 +1,11 @@
 #include "workbench/window/app.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include <catch2/catch.hpp>
+#include <imgui.h>
 
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
@@ -152,6 +155,62 @@ SCENARIO("An operation that fails says so in its form", "[window][app]") {
     CHECK(shell->app().place().document.failure());
     CHECK(shell->app().place().form());
     CHECK(edits(*shell) == 1);
+}
+
+SCENARIO("An error in the middle of a frame does not close the window", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    shell->app().place().choose("smooth");
+    REQUIRE(shell->settle(60s));
+    ImGui::GetIO().SetClipboardTextFn = [](void*, const char*) {
+        throw std::runtime_error("the clipboard is gone");
+    };
+    REQUIRE(shell->click_item("operation.copy"));
+    THEN("it is reported, and the window can be used") {
+        const auto& messages = shell->app().place().document.messages();
+        CHECK(std::ranges::count_if(messages, [](const Message& message) {
+                  return message.text.find("the clipboard is gone") != std::string::npos;
+              }) == 1);
+        REQUIRE(shell->click_item("rail.smoothing"));
+        REQUIRE(shell->click_item("choose.smooth"));
+        CHECK(shell->has("operation.apply"));
+    }
+}
+
+SCENARIO("A form that was opened while another one is applied stays", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file(120));
+    Workplace& place = shell->app().place();
+    place.choose("smooth");
+    place.set_field("iterations", "200");
+    place.apply();
+    REQUIRE(place.document.activity());
+    place.choose("remesh");
+    place.set_field("edge", "0.7");
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(place.document.snapshot()->log.size() == 2);
+    REQUIRE(place.form());
+    CHECK(place.form()->operation().name == "remesh");
+    CHECK(place.form()->field("edge").text == "0.7");
+}
+
+SCENARIO("The form of an edit is reset to what the edit was given", "[window][app]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    Workplace& place = shell->app().place();
+    place.choose("smooth");
+    place.set_field("iterations", "7");
+    place.apply();
+    REQUIRE(wait_until_idle(*shell));
+    place.choose_edit(place.document.snapshot()->log[1].edit.edit.id);
+    place.set_field("iterations", "9");
+    place.set_field("lambda", "0.4");
+    REQUIRE(shell->click_item("operation.reset"));
+    CHECK(place.form()->field("iterations").text == "7");
+    CHECK(place.form()->field("lambda").text.empty());
 }
 
 SCENARIO("A phantom is opened from the start screen", "[window][app]") {

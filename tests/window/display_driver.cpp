@@ -78,6 +78,7 @@ public:
     void frame() override {
         update_origin();
         shell_.frame();
+        CHECK_NOTHROW(shell_.require_no_reports());
     }
 
     void move_mouse(float x, float y) override {
@@ -163,6 +164,7 @@ bool start_display() {
 
 std::unique_ptr<Driver> window_on_display(AppOptions options) {
     if (!start_display()) return nullptr;
+    ::setenv("VESSELBENCH_GL_DEBUG", "1", 1);
     return std::make_unique<DisplayDriver>(std::move(options));
 }
 

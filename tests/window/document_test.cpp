@@ -117,6 +117,48 @@ SCENARIO("Nothing disturbs a recipe while it runs", "[window][document]") {
     }
 }
 
+SCENARIO("Cancelling a recipe ends it, also when the running entry cannot be stopped any more",
+         "[window][document]") {
+    Document document(options());
+    document.open(
+        {.path = case_folder(R"([{"operation": "subdivide"}, {"operation": "smooth"}])")});
+    REQUIRE(wait_for_rest(document));
+    document.prepare("cfd");
+    while (!document.runner()->idle()) std::this_thread::sleep_for(2ms);
+    document.cancel();
+    REQUIRE(wait_for_rest(document));
+    CHECK(operations_in(document) == std::vector<std::string>{"load-surface", "subdivide"});
+    CHECK(told(document, "Cancelled"));
+    CHECK(document.can(RequestKind::Edit));
+}
+
+SCENARIO("A stroke stays in view although edits behind it become pending", "[window][document]") {
+    Document document(options());
+    document.open({.path = tube_file()});
+    REQUIRE(wait_for_rest(document));
+    document.apply("extrude-opening", {}, Step::Openings);
+    REQUIRE(wait_for_rest(document));
+    document.apply("tetrahedralize", {}, Step::Product);
+    REQUIRE(wait_for_rest(document));
+    const Surface before = *document.shown()->surface;
+    REQUIRE(document.can_paint());
+    document.begin_stroke({.operation = "brush-inflate", .radius = 2.0, .strength = 0.5});
+    document.add_dab({.point = {4, 0, 15}, .normal = {1, 0, 0}});
+    REQUIRE(poll_until(document, [&] { return !document.take_moves().empty(); }));
+    document.end_stroke();
+    bool seen = true, ready = true;
+    REQUIRE(poll_until(document, [&] {
+        seen = seen && document.shown() != nullptr &&
+               document.shown()->surface->points() != before.points();
+        const bool entered = document.snapshot()->log.size() > 3;
+        ready = ready && (!entered || document.can_paint());
+        return !document.busy();
+    }));
+    CHECK(seen);
+    CHECK(ready);
+    CHECK(pending_count(*document.snapshot(), document.variant()) > 0);
+}
+
 SCENARIO("A request that ends while others are collected is not lost", "[window][document]") {
     GIVEN("a request that ended, and one that ends right after it was asked") {
         int asked = 0;

@@ -126,6 +126,28 @@ SCENARIO("A cap is dragged in the view", "[window][handles]") {
     CHECK(made.max.z() == Approx(30 + 2 * diameter).margin(0.2));
 }
 
+SCENARIO("An undo while a cap is dragged takes nothing from under the cursor",
+         "[window][handles]") {
+    const Dragging view("openings", "extrude-opening");
+    if (!view.shell) return;
+    REQUIRE(view.shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*view.shell));
+    view.place().choose("extrude-opening");
+    REQUIRE(view.shell->settle(60s));
+    const Eigen::Vector2f from = view.at("length.outlet_1");
+    view.shell->move_mouse(from.x(), from.y());
+    view.shell->press(MouseButton::Left);
+    for (int i = 0; i < 2; ++i) {  // the extrusion, then the tube with its openings
+        view.shell->press_key(keys::letter('Z'), {.control = true});
+        REQUIRE(view.shell->settle(60s));
+        view.shell->move_mouse(from.x() + 5.0F * static_cast<float>(i + 1), from.y());
+    }
+    view.shell->release(MouseButton::Left);
+    REQUIRE(view.shell->settle(60s));
+    for (const Message& message : view.place().document.messages())
+        CHECK(message.kind != MessageKind::Error);
+}
+
 SCENARIO("A cut is slid and tilted in the view", "[window][handles]") {
     const Dragging view("openings", "clip-opening");
     if (!view.shell) return;

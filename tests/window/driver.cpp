@@ -21,7 +21,8 @@ constexpr int kMostNotches = 60;                   ///< to scroll through the lo
 
 class OffscreenDriver : public Driver {
 public:
-    explicit OffscreenDriver(AppOptions options) : shell_(std::move(options), kWidth, kHeight) {}
+    explicit OffscreenDriver(AppOptions options)
+        : shell_(std::move(options), kWidth, kHeight, fail_on_report) {}
 
     App& app() override { return shell_.app(); }
 

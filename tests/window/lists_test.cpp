@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdlib>
+#include <ctime>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -11,6 +13,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/window/model/folder_listing.h"
 #include "workbench/window/model/history_tree.h"
+#include "workbench/window/model/local_time.h"
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
@@ -172,6 +175,28 @@ SCENARIO("A listing has folders first and only files that can be opened", "[wind
     CHECK(listing.entries[0].openable_folder);
     CHECK_FALSE(listing.entries[1].openable_folder);
     CHECK_THAT(list_folder(folder + "/none", {}).error, Contains("none"));
+}
+
+SCENARIO("A link that leads nowhere is no obstacle to a listing", "[window][files]") {
+    const std::string folder = temporary_folder();
+    fs::create_symlink("loop", folder + "/loop");
+    fs::create_symlink("none", folder + "/lost.stl");
+    write_text(folder + "/b.stl", "x");
+    const FolderListing listing = list_folder(folder, openable_suffixes());
+    CHECK(listing.error.empty());
+    REQUIRE(listing.entries.size() == 2);
+    CHECK(listing.entries[0].name == "b.stl");
+}
+
+SCENARIO("Times of the log are shown by the user's clock", "[window][history]") {
+    const char* before = std::getenv("TZ");
+    const std::string kept = before == nullptr ? "" : before;
+    ::setenv("TZ", "XXX-03:30", 1);
+    ::tzset();
+    CHECK(local_time("2024-05-17T22:15:00Z", "%Y-%m-%d %H:%M") == "2024-05-18 01:45");
+    CHECK(local_time("some day", "%H:%M") == "some day");
+    before == nullptr ? ::unsetenv("TZ") : ::setenv("TZ", kept.c_str(), 1);
+    ::tzset();
 }
 
 SCENARIO("A new project never replaces a file", "[window][files]") {

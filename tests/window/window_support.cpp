@@ -30,11 +30,13 @@ std::string tube_file(int around) {
     return file;
 }
 
+void fail_on_report(const std::string& text) {
+    FAIL_CHECK("OpenGL reported: " << text);
+}
+
 std::unique_ptr<OffscreenShell> test_shell() {
     try {
-        return std::make_unique<OffscreenShell>(
-            app_options(), 1280, 720,
-            [](const std::string& text) { FAIL_CHECK("OpenGL reported: " << text); });
+        return std::make_unique<OffscreenShell>(app_options(), 1280, 720, fail_on_report);
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return nullptr;

@@ -17,6 +17,9 @@ namespace vesselbench::test {
 /// \param around vertices around it, a multiple of 6
 [[nodiscard]] std::string tube_file(int around = 24);
 
+/// Fails the test: what OpenGL reports is a defect.
+void fail_on_report(const std::string& text);
+
 /// A shell of 1280 x 720, whose OpenGL errors fail the test; null where there is no OpenGL: the
 /// scenario counts as skipped.
 [[nodiscard]] std::unique_ptr<OffscreenShell> test_shell();

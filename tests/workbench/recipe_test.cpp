@@ -57,6 +57,9 @@ SCENARIO("A recipe that cannot be followed is refused before anything is done",
     refused(R"([{"operation": "smooth", "step": "smoothin"}])", "did you mean 'smoothing'");
     refused(R"([{"operation": "smooth", "when": "today"}])", "today");
     refused(R"([{"operation": 7}])", "entry 1");
+    // Another use of the recipe must not fail later.
+    refused(R"([{"operation": "smooth", "when": "image", "arguments": {"lambda": "much"}}])",
+            "'lambda'");
     refused(R"([7])", "entry 1");
 }
 

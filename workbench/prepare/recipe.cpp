@@ -91,7 +91,8 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
     for (std::size_t i = 0; i < list.size(); ++i) try {
             if (!list[i].is_object()) throw UsageError("it is not a JSON object");
             refuse_unknown_keys(list[i]);
-            if (is_used(list[i], use)) recipe.push_back(entry_from_json(list[i]));
+            RecipeEntry entry = entry_from_json(list[i]);
+            if (is_used(list[i], use)) recipe.push_back(std::move(entry));
         } catch (const UsageError& error) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
         } catch (const InvalidInput& error) {

@@ -78,7 +78,8 @@ struct App::Impl {
     int seen_opened = 0;  ///< Document::opened()
     std::string device;
     double display_scale = 1.0;
-    bool moved = true;  ///< the last update changed something
+    bool moved = true;           ///< the last update changed something
+    std::string recovered_from;  ///< the last error of a frame
 };
 
 App::App(AppOptions options) : impl_(std::make_unique<Impl>(options)) {}
@@ -151,6 +152,16 @@ void App::draw() {
         draw_prepare_dialog(context, layout.window);
     if (app.shown.note && app.place.document.is_open()) draw_note_dialog(context, layout.window);
     if (app.shown.help) draw_help_overlay(context, layout.window);
+}
+
+void App::recover(const std::string& error) {
+    Impl& app = *impl_;
+    app.shown.prepare = app.shown.help = false;
+    app.shown.note.reset();
+    app.place.ask(FileQuestion::None);
+    app.place.leave_form();
+    if (std::exchange(app.recovered_from, error) != error)
+        app.place.document.tell(make_message(MessageKind::Error, "the window failed: " + error));
 }
 
 bool App::is_moving() const {

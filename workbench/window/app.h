@@ -42,6 +42,9 @@ public:
     /// One frame, between ImGui::NewFrame and ImGui::Render.
     void draw();
 
+    /// After draw() has thrown: closes what may have caused it, and reports it once.
+    void recover(const std::string& error);
+
     /// In place of a frame while nothing can be seen: requests that have ended are followed by
     /// those that wait for them.
     void rest();

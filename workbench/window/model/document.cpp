@@ -54,6 +54,22 @@ std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
     return run;
 }
 
+/// A case on its way out: strokes that were painted to their end are entered first.
+class ClosedCase {
+public:
+    ClosedCase(std::unique_ptr<SessionRunner> runner, StrokeQueue strokes)
+        : runner_(std::move(runner)), strokes_(std::move(strokes)) {}
+
+    ~ClosedCase() { strokes_.finish(); }
+
+    ClosedCase(const ClosedCase&) = delete;
+    ClosedCase& operator=(const ClosedCase&) = delete;
+
+private:
+    std::unique_ptr<SessionRunner> runner_;
+    StrokeQueue strokes_;  ///< last: they use the runner
+};
+
 RequestLabel history_label(const std::string& what) {
     return {.what = what, .kind = RequestKind::History};
 }
@@ -76,7 +92,9 @@ Document::Document(DocumentOptions options)
     : options_(std::move(options)),
       shown_([this](const std::string& text) { tell(make_message(MessageKind::Warning, text)); }) {}
 
-Document::~Document() = default;
+Document::~Document() {
+    close();
+}
 
 template <class Result, class Then>
 void Document::watch(Job<Result> job, RequestLabel label, Then then) {
@@ -137,10 +155,11 @@ void Document::open(OpenRequest request) {
 }
 
 void Document::close() {
+    for (const RequestJob& job : jobs_) job.cancel();
     jobs_.clear();
-    strokes_.clear();
     preparation_.reset();
-    retire(std::move(runner_));
+    if (runner_)
+        retire(std::make_unique<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
     snapshot_.reset();
     input_.reset();
     failure_.reset();
@@ -417,6 +436,10 @@ void Document::end_entry(RecipeMessages& messages) {
         if (message.kind == MessageKind::Warning) ++preparation_->warnings;
     }
     ++preparation_->next;
+    if (preparation_->cancelled) {
+        preparation_.reset();
+        return tell(make_message(MessageKind::Remark, "Cancelled"));
+    }
     prepare_next();
 }
 
@@ -464,7 +487,10 @@ void Document::drop_stroke() {
 }
 
 void Document::end(const EndedStroke& stroke) {
-    if (stroke.entry) return tell_entered(*stroke.entry);
+    if (stroke.entry) {
+        if (stroke.scene) shown_.offer(stroke.entry->edit.edit.id, *stroke.scene);
+        return tell_entered(*stroke.entry);
+    }
     if (stroke.cancelled) tell(make_message(MessageKind::Remark, "Cancelled"));
     if (!stroke.error.empty()) fail(stroke.error, stroke.operation);
     ++dropped_strokes_;
@@ -497,6 +523,8 @@ void Document::cancel() {
     strokes_.cancel();
     if (opening_) opening_->cancel();
     for (const RequestJob& job : jobs_) job.cancel();
+    // Its running entry may be entered before it can be stopped.
+    if (preparation_) preparation_->cancelled = true;
 }
 
 void Document::tell(Message message) {

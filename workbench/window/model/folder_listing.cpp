@@ -80,7 +80,9 @@ FolderListing list_folder(const fs::path& folder, const std::vector<std::string>
     for (const fs::directory_iterator end; !error && files != end; files.increment(error)) {
         FolderEntry entry = entry_of(*files);
         if (entry.name.starts_with(".")) continue;
-        if (!entry.folder && files->is_regular_file() && looked_at++ < kDicomFiles)
+        // Neither a link that leads nowhere nor one into a closed folder is an error here.
+        std::error_code ignored;
+        if (!entry.folder && files->is_regular_file(ignored) && looked_at++ < kDicomFiles)
             listing.has_dicom = listing.has_dicom || is_dicom_file(files->path());
         if (entry.folder || has_suffix(entry.name, suffixes)) listing.entries.push_back(entry);
     }

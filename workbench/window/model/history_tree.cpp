@@ -5,6 +5,7 @@
 
 #include "workbench/case/argument_texts.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/model/local_time.h"
 #include "workbench/window/model/rail.h"
 
 namespace vesselbench {
@@ -27,11 +28,6 @@ std::set<StateId> path_to(const History& history, StateId id) {
         path.insert(id);
     }
     return path;
-}
-
-/// "2024-05-17T09:30:00Z" as "2024-05-17 09:30".
-std::string short_time(const std::string& time) {
-    return time.size() < 16 ? time : time.substr(0, 10) + " " + time.substr(11, 5);
 }
 
 std::string title_of(const HistoryState& state, const std::string& operation) {
@@ -64,7 +60,7 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     row.note = edit.note;
     row.edit = state.edit;
     row.author = edit.author;
-    row.time = short_time(edit.time);
+    row.time = local_time(edit.time, "%Y-%m-%d %H:%M");
     if (found->second.result && state.change != StateChange::Remove)
         row.change = effect_text(*found->second.result);
     return row;

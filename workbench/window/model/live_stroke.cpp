@@ -31,6 +31,16 @@ void LiveStroke::cancel() {
     if (committing_) committing_->cancel();
 }
 
+void LiveStroke::finish() noexcept {
+    try {
+        starting_.wait();
+        static_cast<void>(poll());
+        if (committing_) committing_->wait();
+    } catch (const std::exception&) {
+        cancel();  // there is nobody left to be told
+    }
+}
+
 void LiveStroke::add(const StrokePlace& place) {
     waiting_.push_back(place);
     send();

@@ -37,6 +37,9 @@ public:
     /// Cancels all that waits or runs; nothing is entered.
     void cancel();
 
+    /// After end(): waits until the edit is entered, or has failed.
+    void finish() noexcept;
+
     /// Collects the dabs that were done since the last call, in order. \throw what they or the
     /// edit threw
     [[nodiscard]] std::vector<SceneMove> poll();

@@ -58,9 +58,8 @@ OperationForm::OperationForm(const Operation& operation) : operation_(&operation
 OperationForm::OperationForm(const Operation& operation, const EditRecord& edit)
     : OperationForm(operation) {
     edit_ = edit.edit.id;
-    for (FormField& field : fields_)
-        if (edit.given.has(field.parameter->name))
-            field.text = to_text(edit.given.values().at(field.parameter->name));
+    given_ = edit.given;
+    fill();
     check();
 }
 
@@ -82,8 +81,16 @@ void OperationForm::set(const std::string& name, std::string text) {
     check();
 }
 
+/// With what the edit was given.
+void OperationForm::fill() {
+    for (FormField& field : fields_) {
+        const std::string& name = field.parameter->name;
+        field.text = given_.has(name) ? to_text(given_.values().at(name)) : "";
+    }
+}
+
 void OperationForm::reset() {
-    for (FormField& field : fields_) field.text.clear();
+    fill();
     ++changes_;
     check();
 }

@@ -40,7 +40,7 @@ public:
     /// \throw UsageError as field()
     void set(const std::string& name, std::string text);
 
-    /// Empties every field.
+    /// Empties every field, or fills it with what the edit was given.
     void reset();
 
     /// True if apply would accept the arguments.
@@ -63,12 +63,14 @@ public:
     [[nodiscard]] int changes() const { return changes_; }
 
 private:
+    void fill();
     void check();
     [[nodiscard]] FormField& find(const std::string& name);
     [[nodiscard]] bool holds(const Condition& condition) const;
 
     const Operation* operation_;
     std::optional<EditId> edit_;
+    Arguments given_;  ///< of the edit
     std::vector<FormField> fields_;
     std::string error_;
     int changes_ = 0;

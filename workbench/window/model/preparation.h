@@ -32,6 +32,7 @@ struct Preparation {
     std::string purpose;
     std::size_t next = 0;      ///< the entry that runs
     std::size_t warnings = 0;  ///< so far
+    bool cancelled = false;    ///< no further entry is started
 
     [[nodiscard]] bool done() const { return next == recipe.size(); }
 

@@ -57,6 +57,10 @@ void ShownScene::set(Scene scene) {
     scene_changed();
 }
 
+void ShownScene::offer(EditId edit, const Scene& scene) {
+    if (outdated() && last_known(*snapshot_, variant_) == edit) set(scene);
+}
+
 void ShownScene::clear() {
     state_.forget();
     figures_.forget();

@@ -32,6 +32,9 @@ public:
     /// The scene of the followed state, if a request has found it.
     void set(Scene scene);
 
+    /// The scene after an edit, which is used if it is the awaited one.
+    void offer(EditId edit, const Scene& scene);
+
     /// The case is closed.
     void clear();
 

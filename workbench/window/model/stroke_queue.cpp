@@ -38,10 +38,10 @@ void StrokeQueue::cancel() {
     for (const auto& stroke : strokes_) stroke->cancel();
 }
 
-void StrokeQueue::clear() {
+void StrokeQueue::finish() noexcept {
+    drop();
+    for (const auto& stroke : strokes_) stroke->finish();
     strokes_.clear();
-    moves_.clear();
-    failed_.clear();
 }
 
 std::vector<EndedStroke> StrokeQueue::poll() {
@@ -59,7 +59,9 @@ void StrokeQueue::poll(LiveStroke& stroke, std::vector<EndedStroke>& ended) {
     const std::string operation = stroke.operation();
     try {
         std::ranges::move(stroke.poll(), std::back_inserter(moves_));
-        if (stroke.ended()) ended.push_back({.operation = operation, .entry = stroke.entry()});
+        if (!stroke.ended()) return;
+        ended.push_back({.operation = operation, .entry = stroke.entry()});
+        if (stroke.scene() != nullptr) ended.back().scene = *stroke.scene();
     } catch (const Cancelled&) {
         stroke.cancel();
         ended.push_back({.operation = operation, .cancelled = true});

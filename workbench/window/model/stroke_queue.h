@@ -15,7 +15,8 @@ namespace vesselbench {
 struct EndedStroke {
     std::string operation;
     std::optional<LogEntry> entry;  ///< the edit; none: nothing was painted, or it failed
-    std::string error;              ///< empty unless it failed
+    std::optional<Scene> scene = std::nullopt;  ///< after it
+    std::string error = {};                     ///< empty unless it failed
     bool cancelled = false;
 };
 
@@ -33,8 +34,9 @@ public:
     /// Cancels all of them.
     void cancel();
 
-    /// Forgets all of them.
-    void clear();
+    /// Drops the painted stroke, and waits until the others are entered. For the end of a case;
+    /// may be called by another thread than the rest.
+    void finish() noexcept;
 
     /// Collects what has been done. \return strokes that ended
     [[nodiscard]] std::vector<EndedStroke> poll();

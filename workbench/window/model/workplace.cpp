@@ -32,9 +32,11 @@ bool Workplace::update() {
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
     if (seen_entered_ != document.entered()) {
         seen_entered_ = document.entered();
-        form_.reset();
-        disarm();
-        end_drag();
+        if (applied_form_ == form_number_) {
+            form_.reset();
+            disarm();
+            end_drag();
+        }
     }
     const bool new_slices = slices_.update(document.shown());
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
@@ -108,6 +110,7 @@ void Workplace::choose_step(Step step) {
 void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     leave_form();
     form_.emplace(find_operation(operation));
+    ++form_number_;
     const std::vector<Step>& allowed = form_->operation().allowed;
     const bool fits = step && std::ranges::count(allowed, *step) > 0;
     step_ = fits ? *step : form_->operation().usual_step;
@@ -128,10 +131,14 @@ void Workplace::arm_required() {
 void Workplace::follow(const Message& message) {
     if (message.edit && find_entry(*document.snapshot(), *message.edit) != nullptr)
         return choose_edit(*message.edit);
+    if (!message.remedy.empty()) follow_remedy(message.remedy);
+}
+
+void Workplace::follow_remedy(const std::string& operation) {
     for (const LogEntry& entry : document.snapshot()->log)
-        if (message.remedy == entry.edit.operation && entry.edit.place.step == Step::Source)
+        if (operation == entry.edit.operation && entry.edit.place.step == Step::Source)
             return choose_edit(entry.edit.edit.id);
-    if (!message.remedy.empty()) choose(message.remedy);
+    choose(operation);
 }
 
 void Workplace::look_at(const Vec3& place) {
@@ -147,6 +154,7 @@ void Workplace::choose_edit(EditId edit) {
         entry == nullptr ? nullptr : known_operation(entry->edit.operation);
     if (operation == nullptr) return;
     form_.emplace(*operation, entry->edit);
+    ++form_number_;
     step_ = entry->edit.place.step;
 }
 
@@ -200,6 +208,7 @@ void Workplace::preview() {
 
 void Workplace::apply() {
     if (!can_apply()) return;
+    applied_form_ = form_number_;
     if (preview_is_current()) return document.commit_preview();
     if (form_->edit())
         document.change(*form_->edit(), form_->arguments());
@@ -212,6 +221,10 @@ void Workplace::apply() {
 bool Workplace::can_paint() const {
     return form_ && armed_.empty() && !form_->edit() && is_brush(form_->operation()) &&
            form_->valid() && view.tool == MeasureTool::None && document.can_paint();
+}
+
+bool Workplace::is_painting() const {
+    return form_ && is_brush(form_->operation()) && document.is_painting();
 }
 
 BrushTip Workplace::tip() const {

@@ -79,6 +79,9 @@ public:
     /// Shows the form that a message recommends: of the edit it is about, else of the operation.
     void follow(const Message& message);
 
+    /// Opens the edit that loads the source if the operation is its, else a new form.
+    void follow_remedy(const std::string& operation);
+
     /// Moves the slices and the view to a place [mm].
     void look_at(const Vec3& place);
 
@@ -104,6 +107,9 @@ public:
     /// True if the form is of a brush that can paint on the shown surface now; not while clicks
     /// are for a parameter.
     [[nodiscard]] bool can_paint() const;
+
+    /// True while a stroke of the form's brush is drawn.
+    [[nodiscard]] bool is_painting() const;
 
     /// The form's brush, which later forms of brushes take over.
     [[nodiscard]] BrushTip tip() const;
@@ -223,7 +229,9 @@ private:
     std::vector<RailStep> rail_ = empty_rail();
     HistoryTree history_;
     std::optional<OperationForm> form_;
-    BrushTip tip_;  ///< of the last form of a brush
+    int form_number_ = 0;    ///< counts forms
+    int applied_form_ = -1;  ///< the one that apply() was called for
+    BrushTip tip_;           ///< of the last form of a brush
     Step step_ = Step::Source;
     int previewed_changes_ = -1;  ///< the form's, when its preview was asked for
     int seen_snapshots_ = 0, seen_entered_ = 0;

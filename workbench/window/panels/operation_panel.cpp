@@ -88,7 +88,8 @@ void draw_title(PanelContext& c, const OperationForm& form) {
     heading(c.ui, readable(form.operation().name));
     const float side = ImGui::GetFrameHeight();
     ImGui::SameLine(ImGui::GetWindowWidth() - c.ui.grid(1.5F) - 2 * side);
-    if (icon_button(c.ui, "operation.reset", icons::kRefresh, "Clear all fields"))
+    if (icon_button(c.ui, "operation.reset", icons::kRefresh,
+                    form.edit() ? "Restore the edit's fields" : "Clear all fields"))
         c.place.reset_form();
     ImGui::SameLine(0, 0);
     if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
@@ -150,7 +151,7 @@ void draw_remedy(PanelContext& c) {
     if (remedy.empty()) return;
     if (button(c.ui, "operation.remedy", "Go to " + readable(remedy),
                {.icon = icons::kRight, .width = -1}))
-        c.place.choose(remedy);
+        c.place.follow_remedy(remedy);
 }
 
 void draw_actions(PanelContext& c, const OperationForm& form) {

@@ -25,8 +25,11 @@ std::vector<fs::path> bundled_cases() {
     std::vector<fs::path> cases;
     std::error_code error;
     if (folder.empty()) return cases;
-    for (const auto& entry : fs::directory_iterator(folder, error))
-        if (fs::exists(entry.path() / "case.json")) cases.push_back(entry.path());
+    fs::directory_iterator entries(folder, error);
+    for (const fs::directory_iterator end; !error && entries != end; entries.increment(error)) {
+        std::error_code ignored;
+        if (fs::exists(entries->path() / "case.json", ignored)) cases.push_back(entries->path());
+    }
     std::ranges::sort(cases);
     return cases;
 }

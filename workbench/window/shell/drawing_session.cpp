@@ -1,8 +1,12 @@
 #include "workbench/window/shell/drawing_session.h"
 
+#include <exception>
+#include <string>
+
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "geometry/kernel/errors.h"
 
@@ -38,7 +42,12 @@ void DrawingSession::draw(App& app) {
     ImGui_ImplOpenGL3_NewFrame();
     if (ImGui::GetIO().Fonts->TexID == nullptr) ImGui_ImplOpenGL3_CreateFontsTexture();
     ImGui::NewFrame();
-    app.draw();
+    try {
+        app.draw();
+    } catch (const std::exception& error) {
+        ImGui::ErrorCheckEndFrameRecover(nullptr);
+        app.recover(error.what());
+    }
     ImGui::Render();
 }
 

@@ -14,7 +14,7 @@ public:
     DrawingSession& operator=(const DrawingSession&) = delete;
 
     /// One frame of the app between two calls of the shell: fonts, ImGui's frame, the app. What is
-    /// to be seen is drawn by render().
+    /// to be seen is drawn by render(). If the app throws, it recovers: no error closes the window.
     void draw(App& app);
 
     /// Into the bound framebuffer.

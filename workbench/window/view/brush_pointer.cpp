@@ -57,7 +57,7 @@ bool BrushPointer::holds_left() const {
 }
 
 void BrushPointer::update(PanelContext& c, const Seen& seen) {
-    if (!c.place.can_paint()) return leave(c);
+    if (!c.place.can_paint() && !c.place.is_painting()) return leave(c);
     const bool over = ImGui::IsItemHovered() || ImGui::IsItemActive();
     shown_ = over || stroke_.state() == Stroke::State::Painting;
     if (!(c.place.tip().radius > 0.0))
@@ -70,6 +70,11 @@ void BrushPointer::update(PanelContext& c, const Seen& seen) {
     handle_press(c);
     handle_release(c);
     ask(c, seen, over);
+}
+
+void BrushPointer::rest(PanelContext& c) {
+    if (stroke_.state() != Stroke::State::Idle && !ImGui::IsMouseDown(ImGuiMouseButton_Left))
+        leave(c);
 }
 
 /// Another operation, or none: what was painted counts.

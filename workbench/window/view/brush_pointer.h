@@ -29,6 +29,9 @@ public:
     /// Once a frame, while the view's area is ImGui's last item.
     void update(PanelContext& c, const Seen& seen);
 
+    /// In place of update() while the model is not seen: a stroke still ends with its button.
+    void rest(PanelContext& c);
+
     /// Drops the stroke and the search: the case is closed.
     void forget();
 

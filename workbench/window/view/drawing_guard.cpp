@@ -8,9 +8,10 @@ void DrawingGuard::note(const std::string& problem) {
     if (!problem.empty()) problems_.insert(problem);
 }
 
-void DrawingGuard::tell(Document& document) {
+void DrawingGuard::report(Document& document) {
+    if (std::exchange(case_, document.opened()) != document.opened()) reported_.clear();
     for (const std::string& problem : std::exchange(problems_, {}))
-        if (told_.insert(problem).second)
+        if (reported_.insert(problem).second)
             document.tell(make_message(MessageKind::Error, "not all can be drawn: " + problem));
 }
 

@@ -27,11 +27,12 @@ public:
     /// Something else has failed; empty: nothing.
     void note(const std::string& problem);
 
-    /// Problems become messages, each one once. Once a frame.
-    void tell(Document& document);
+    /// Problems become messages, each one once a case. Once a frame.
+    void report(Document& document);
 
 private:
-    std::set<std::string> problems_, told_;
+    std::set<std::string> problems_, reported_;
+    int case_ = 0;  ///< Document::opened()
 };
 
 }  // namespace vesselbench

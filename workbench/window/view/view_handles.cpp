@@ -85,6 +85,7 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
     start_ = {.index = *hot_,
               .handle = shape_.handles[*hot_],
               .cut = search_.cut(),
+              .openings = openings_,
               .cursor = cursor,
               .offset = cursor - view.place(shape_.handles[*hot_].point).value_or(cursor)};
     c.place.begin_drag();
@@ -95,7 +96,7 @@ std::vector<FieldText> ViewHandles::texts(const OperationForm& before, const Vec
                                           double snap) const {
     if (has_field(before, Meaning::Box)) return crop_texts(before, bounds_, start_.index, to);
     if (has_field(before, Meaning::Openings))
-        return length_texts(before, openings_, start_.index, to, snap);
+        return length_texts(before, start_.openings, start_.index, to, snap);
     return start_.cut ? cut_texts(before, *start_.cut, start_.index, to) : std::vector<FieldText>();
 }
 

@@ -55,6 +55,7 @@ private:
         std::size_t index = 0;
         Handle handle;
         std::optional<Cut> cut;
+        std::vector<PatchMeasures> openings;
         ViewPixel cursor = ViewPixel::Zero();
         ViewPixel offset = ViewPixel::Zero();  ///< from the handle to the cursor
     };

@@ -155,7 +155,7 @@ void Viewport::Impl::frame_change(PanelContext& c, ViewScene::Change change) {
 }
 
 void Viewport::Impl::handle_input(PanelContext& c, const ViewMouse& mouse) {
-    if (scene.surface() != nullptr) guard.run([&] { handle_brush(c); });
+    guard.run([&] { handle_brush(c); });
     if (scene.has_content()) {
         handles.update(c, screen());
         handle_mouse(c);
@@ -164,7 +164,8 @@ void Viewport::Impl::handle_input(PanelContext& c, const ViewMouse& mouse) {
 }
 
 void Viewport::Impl::handle_brush(PanelContext& c) {
-    if (!scene.is_drawn() || scene.compared().hides_model()) return;
+    if (scene.surface() == nullptr || !scene.is_drawn() || scene.compared().hides_model())
+        return brush.rest(c);
     const SceneView view = scene.scene_view(c.ui);
     const Layers shown = scene.layers(c.ui);
     brush.update(c, {view, shown, *scene.surface(), screen()});
@@ -259,11 +260,11 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
     guard.run([&] { pick_places(c, mouse); });
     if (const unsigned texture = scene.draw(renderer, c.ui); texture != 0)
         draw_texture(texture, area);
-    const bool saved = picture.update(c, scene.rect());
+    const bool saved = picture.update(c, area);
     draw_overlays(c, mouse.over);
     if (!saved) draw_controls(c, area);
     draw_frame(c, area);
-    guard.tell(c.place.document);
+    guard.report(c.place.document);
     end_frame();
 }
 
