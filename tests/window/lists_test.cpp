@@ -148,6 +148,19 @@ SCENARIO("Settings remember recent projects", "[window][settings]") {
     }
 }
 
+SCENARIO("Of settings that are saved in the background, the last ones count",
+         "[window][settings]") {
+    const std::string folder = temporary_folder();
+    {
+        Settings settings(folder);
+        for (const double scale : {0.75, 1.25, 2.0}) {
+            settings.scale = scale;
+            settings.save_soon();
+        }
+    }
+    CHECK(Settings(folder).scale == 2.0);
+}
+
 SCENARIO("The size of the text is remembered", "[window][settings]") {
     const std::string folder = temporary_folder();
     Settings settings(folder);

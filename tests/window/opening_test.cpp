@@ -1,5 +1,6 @@
 #include "workbench/window/model/opening.h"
 
+#include <chrono>
 #include <filesystem>
 #include <thread>
 
@@ -33,10 +34,12 @@ fs::path case_with_recipe(const std::string& recipe) {
 
 void open_and_wait(Document& document, const fs::path& path) {
     document.open({.path = path});
-    while (document.busy()) {
+    for (const auto end = std::chrono::steady_clock::now() + 60s;
+         document.busy() && std::chrono::steady_clock::now() < end;) {
         document.poll();
         std::this_thread::sleep_for(5ms);
     }
+    REQUIRE_FALSE(document.busy());
 }
 
 std::vector<std::string> operations(const Recipe& recipe) {

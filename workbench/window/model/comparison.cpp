@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/kernel/errors.h"
 #include "workbench/session/surface_change.h"
 
 namespace vesselbench {
@@ -28,7 +27,6 @@ SceneDifference difference_of(const Scene& reference, const Scene& shown,
 
 Comparison::~Comparison() {
     if (reading_) reading_->cancel();
-    if (measuring_) measuring_->cancel();
 }
 
 bool Comparison::update(Document& document) {
@@ -57,11 +55,10 @@ void Comparison::read(Document& document) {
 void Comparison::measure(Document& document) {
     measured_scenes_ = document.scene_changes();
     difference_.reset();
-    measuring_ = document.runner()->submit(
-        [reference = *scene_, shown = *document.shown()](Session&, const Progress& progress) {
-            return difference_of(reference, shown, progress);
-        },
-        "difference");
+    measuring_.forget();
+    measuring_.begin([reference = *scene_, shown = *document.shown()](const Progress& progress) {
+        return difference_of(reference, shown, progress);
+    });
 }
 
 bool Comparison::take_scene() {
@@ -78,14 +75,13 @@ bool Comparison::take_scene() {
 }
 
 bool Comparison::take_difference() {
-    if (!measuring_ || !measuring_->ended()) return false;
-    const Job<SceneDifference> job = *std::exchange(measuring_, std::nullopt);
-    try {
-        difference_ = job.result();
-    } catch (const Cancelled&) {  // a newer one was requested, or the case is being closed
-    } catch (const std::exception& error) {
-        problem_ = error.what();
+    auto difference = measuring_.take();
+    if (const std::string problem = measuring_.take_problem(); !problem.empty()) {
+        problem_ = problem;
+        return true;
     }
+    if (!difference) return false;
+    difference_ = std::move(difference);
     return true;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/session/job.h"
 #include "workbench/window/model/document.h"
+#include "workbench/window/model/latest_task.h"
 
 namespace vesselbench {
 
@@ -23,14 +26,16 @@ struct SceneDifference {
 };
 
 /// Compares a state of the history, the reference, with whatever the window shows: the current
-/// state or a preview. The reference is read and the difference measured in the background. Used by
-/// the frame's thread.
+/// state or a preview. The session's runner reads the reference; the difference is measured on
+/// another thread, so that no request waits for it. Used by the frame's thread.
 class Comparison {
 public:
     static constexpr double kBlinkTime = 0.8;  ///< for which each of the two is shown [s]
 
-    explicit Comparison(StateId reference, CompareMode mode = CompareMode::SideBySide)
-        : reference_(reference), mode_(mode) {}
+    /// \param wake called by another thread when update() has something to do
+    explicit Comparison(StateId reference, CompareMode mode = CompareMode::SideBySide,
+                        std::function<void()> wake = {})
+        : reference_(reference), mode_(mode), measuring_(std::move(wake)) {}
 
     /// Cancels what runs.
     ~Comparison();
@@ -61,7 +66,7 @@ public:
     /// Why the reference cannot be read, or not be compared; empty: it can.
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
-    [[nodiscard]] bool pending() const { return reading_ || measuring_; }
+    [[nodiscard]] bool pending() const { return reading_ || measuring_.pending(); }
 
     // --- blinking
 
@@ -91,7 +96,7 @@ private:
     std::optional<Scene> scene_;
     std::optional<SceneDifference> difference_;
     std::optional<Job<Scene>> reading_;
-    std::optional<Job<SceneDifference>> measuring_;
+    LatestTask<SceneDifference> measuring_;
     std::string problem_;
     int scene_changes_ = 0;
     int measured_scenes_ = -1;  ///< the document's scene changes at the last measuring

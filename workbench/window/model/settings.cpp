@@ -28,6 +28,17 @@ constexpr std::array<std::pair<const char*, bool ShownLayers::*>, 6> kLayers = {
      {"names", &ShownLayers::names},
      {"anchors", &ShownLayers::anchors}}};
 
+/// \return false if it cannot be
+bool written(const fs::path& folder, const std::string& text) {
+    try {
+        fs::create_directories(folder);
+        write_file(folder / kFile, text);
+    } catch (const std::exception&) {
+        return false;
+    }
+    return true;
+}
+
 fs::path whole_path(const fs::path& file) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(file, error);
@@ -83,7 +94,7 @@ void Settings::change_scale(int steps) {
         static_cast<std::size_t>(std::clamp(index, 0, static_cast<int>(kScales.size()) - 1)));
 }
 
-bool Settings::save() const {
+std::string Settings::text() const {
     Json list = Json::array();
     for (const RecentProject& entry : recent_)
         list.push_back({{"file", entry.file.string()}, {"opened", entry.opened}});
@@ -92,13 +103,19 @@ bool Settings::save() const {
         if (layers.*layer) shown.push_back(name);
     const Json json = {
         {"theme", dark ? "dark" : "light"}, {"scale", scale}, {"layers", shown}, {"recent", list}};
-    try {
-        fs::create_directories(folder_);
-        write_file(folder_ / kFile, json.dump(2) + "\n");
-    } catch (const std::exception&) {
-        return false;
-    }
-    return true;
+    return json.dump(2) + "\n";
+}
+
+bool Settings::save() const {
+    if (saving_.valid()) saving_.wait();
+    return written(folder_, text());
+}
+
+void Settings::save_soon() {
+    saving_ = std::async(std::launch::async, [folder = folder_, text = text(), before = saving_] {
+                  if (before.valid()) before.wait();
+                  static_cast<void>(written(folder, text));
+              }).share();
 }
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -46,11 +47,16 @@ public:
     /// \return false if the file cannot be written, which is no error for the user's work
     bool save() const;
 
+    /// Saves on another thread: a disk may be slow. The last one counts.
+    void save_soon();
+
 private:
     void read();
+    [[nodiscard]] std::string text() const;
 
     std::filesystem::path folder_;
     std::vector<RecentProject> recent_;
+    std::shared_future<void> saving_;  ///< ends when everything so far is saved
 };
 
 }  // namespace vesselbench

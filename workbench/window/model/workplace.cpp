@@ -15,7 +15,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
       settings(std::move(remembered)),
       search_(options.wake),
       view_data_(options.wake),
-      slices_(std::move(options.wake)) {}
+      slices_(options.wake),
+      wake_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -23,7 +24,7 @@ bool Workplace::update() {
     if (seen_opened_ != document.opened()) {
         seen_opened_ = document.opened();
         settings.remember(document.project());
-        settings.save();
+        settings.save_soon();
         slices_.clear();
         choose_step(Step::Source);
         comparison_.reset();
@@ -278,7 +279,7 @@ void Workplace::pick_label(int label) {
 void Workplace::compare(StateId reference) {
     const bool again = comparison_ && comparison_->reference() == reference;
     stop_comparing();
-    if (!again && document.is_open()) comparison_.emplace(reference, compare_mode_);
+    if (!again && document.is_open()) comparison_.emplace(reference, compare_mode_, wake_);
 }
 
 void Workplace::stop_comparing() {

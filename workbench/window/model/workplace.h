@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -245,6 +246,7 @@ private:
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
     ImageSlices slices_;
+    std::function<void()> wake_;
     std::optional<Comparison> comparison_;
     CompareMode compare_mode_ = CompareMode::SideBySide;
     std::optional<EditId> pointed_, next_pointed_;

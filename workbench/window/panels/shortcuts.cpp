@@ -108,7 +108,7 @@ void handle_text_size(PanelContext& c) {
     if (c.shown.keys.has(KeyCommand::LargerText)) settings.change_scale(1);
     if (c.shown.keys.has(KeyCommand::SmallerText)) settings.change_scale(-1);
     if (c.shown.keys.has(KeyCommand::UsualText)) settings.scale = 1.0;
-    if (settings.scale != before) settings.save();
+    if (settings.scale != before) settings.save_soon();
 }
 
 }  // namespace

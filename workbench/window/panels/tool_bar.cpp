@@ -111,7 +111,7 @@ void draw_variant(PanelContext& c) {
 
 void switch_theme(PanelContext& c) {
     c.place.settings.dark = !c.place.settings.dark;
-    c.place.settings.save();
+    c.place.settings.save_soon();
 }
 
 std::string percent(double scale) {
@@ -127,7 +127,7 @@ void draw_text_sizes(PanelContext& c) {
     for (const double scale : Settings::kScales) {
         if (ImGui::Selectable(percent(scale).c_str(), scale == settings.scale)) {
             settings.scale = scale;
-            settings.save();
+            settings.save_soon();
         }
         c.ui.item("tool.text_size=" + percent(scale));
     }

@@ -141,7 +141,7 @@ void draw_layers(PanelContext& c) {
         const float row = ImGui::GetCursorPosY();
         if (checkbox(c.ui, std::string("view.show.") + toggle.name, toggle.label,
                      c.place.settings.layers.*toggle.layer))
-            c.place.settings.save();
+            c.place.settings.save_soon();
         if (toggle.key != KeyCommand::None) draw_key(c.ui, toggle.key, row);
     }
 }
@@ -175,7 +175,7 @@ void handle_view_keys(PanelContext& c) {
     for (const LayerToggle& toggle : kLayers) {
         if (!keys.has(toggle.key)) continue;
         c.place.settings.layers.*toggle.layer = !(c.place.settings.layers.*toggle.layer);
-        c.place.settings.save();
+        c.place.settings.save_soon();
     }
     ViewChoice& view = c.place.view;
     if (keys.has(KeyCommand::ClipPlane)) switch_clip(c);

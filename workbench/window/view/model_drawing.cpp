@@ -17,9 +17,13 @@ constexpr double kTransparent = 0.35;  ///< opacity of a transparent model [-]
 ModelDrawing::ModelDrawing(std::function<void()> wake) : task_(std::move(wake)) {}
 
 void ModelDrawing::show(const Scene* scene) {
-    task_.forget();
     late_.clear();
     deviation_.reset();
+    // A stroke that was entered is drawn already.
+    const bool drawn = drawn_ && !task_.pending() && scene != nullptr && scene->surface &&
+                       same_surface(shown_, *scene->surface);
+    if (drawn) return;
+    task_.forget();
     problem_.clear();
     if (scene == nullptr || !scene->surface || scene->surface->empty())
         drawn_.reset();

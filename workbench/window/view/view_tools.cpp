@@ -40,7 +40,7 @@ void draw_layer_switches(PanelContext& c) {
     const ShownLayers before = layers;
     draw_switch(c, "view.edges", icons::kGrid, "Triangle edges", layers.edges);
     draw_switch(c, "view.flat", icons::kFlat, "Flat shading", layers.flat);
-    if (layers != before) c.place.settings.save();
+    if (layers != before) c.place.settings.save_soon();
 }
 
 void draw_colour_switch(PanelContext& c) {
