@@ -1,6 +1,7 @@
 #include "meshing/products/openfoam_case.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/kernel/errors.h"
@@ -337,6 +338,16 @@ void write_script(const fs::path& path, bool parallel) {
 }
 
 }  // namespace
+
+bool is_unused_openfoam_case(const fs::path& folder) {
+    constexpr std::array kOwn = {"0", "constant", "system", "Allrun", "Allrun.parallel", "README"};
+    std::error_code error;
+    if (!fs::is_regular_file(folder / "system" / "controlDict", error)) return false;
+    fs::directory_iterator entries(folder, error);
+    for (const fs::directory_iterator end; !error && entries != end; entries.increment(error))
+        if (std::ranges::count(kOwn, entries->path().filename().string()) == 0) return false;
+    return !error;
+}
 
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters) {

@@ -20,4 +20,8 @@ namespace vesselbench {
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters);
 
+/// True for a folder that holds a case as write_openfoam_case() wrote it, and nothing else: no
+/// results, no files of others.
+[[nodiscard]] bool is_unused_openfoam_case(const std::filesystem::path& folder);
+
 }  // namespace vesselbench

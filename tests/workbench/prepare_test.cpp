@@ -165,6 +165,92 @@ SCENARIO("prepare goes on where it stopped", "[workbench][prepare]") {
     CHECK(std::ranges::count(made, "project.1.vbench") == 0);
 }
 
+SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
+    const auto again = [&](std::vector<std::string> more) {
+        std::vector<std::string> command = {
+            "prepare", folder + "/tube.stl", "--units", "mm", "--out", out, "--resume"};
+        command.insert(command.end(), more.begin(), more.end());
+        const ProgramRun result = run(command);
+        CHECK(result.exit_code == 2);
+        return result.err;
+    };
+    CHECK_THAT(again({"--for", "cfd"}), Contains("no project.vbench"));
+    CHECK_FALSE(fs::exists(out));
+    REQUIRE(
+        run({"prepare", folder + "/tube.stl", "--units", "mm", "--for", "simulation", "--out", out})
+            .exit_code == 0);
+    CHECK_THAT(again({"--for", "rp"}), Contains("for simulation"));
+    CHECK_THAT(again({"--for", "simulation", "--set", "remesh.edge=0.9"}),
+               Contains("change project.vbench") && Contains("edge=0.9"));
+}
+
+SCENARIO("prepare replaces nothing but its own products", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
+    const auto prepared = [&](const std::string& input, const std::string& purpose) {
+        return run({"prepare", input, "--units", "mm", "--for", purpose, "--out", out});
+    };
+    REQUIRE(prepared(folder + "/tube.stl", "cfd").exit_code == 0);
+    const std::string surface = text_of(out + "/surface.stl");
+    CHECK(prepared(out + "/surface.stl", "rp").exit_code == 2);
+    CHECK(text_of(out + "/surface.stl") == surface);
+    fs::create_directory(out + "/openfoam/100");
+    const ProgramRun second = prepared(folder + "/tube.stl", "cfd");
+    REQUIRE(second.exit_code == 0);
+    CHECK_THAT(second.err, Contains("openfoam was renamed to openfoam.1"));
+    CHECK(fs::exists(out + "/openfoam.1/100"));
+    CHECK_FALSE(fs::exists(out + "/openfoam/100"));
+    const ProgramRun print = prepared(folder + "/tube.stl", "rp");
+    REQUIRE(print.exit_code == 0);
+    CHECK_THAT(print.err, Contains("openfoam") && Contains("of an earlier preparation"));
+}
+
+SCENARIO("An export replaces neither a source nor a folder with other files",
+         "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), project = folder + "/tube.vbench";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.vtp");
+    REQUIRE(run({"new", project, folder + "/tube.vtp", "--units", "mm"}).exit_code == 0);
+    const std::string source = text_of(folder + "/tube.vtp");
+    REQUIRE(run({"apply", project, "smooth", "iterations=2"}).exit_code == 0);
+    check_bad_input(run({"export", project, folder + "/tube.vtp"}));
+    CHECK(text_of(folder + "/tube.vtp") == source);
+    CHECK(run({"export", project, folder + "/other.vtp"}).exit_code == 0);
+    CHECK(run({"export", project, folder + "/other.vtp"}).exit_code == 0);
+    for (const std::string& target : {folder, folder + "/", folder + "/."}) {
+        check_bad_input(run({"export", project, target}));
+        CHECK(fs::exists(project));
+    }
+    REQUIRE(run({"apply", project, "tetrahedralize"}).exit_code == 0);
+    const std::string foam = folder + "/foam";
+    REQUIRE(run({"export", project, foam}).exit_code == 0);
+    REQUIRE(run({"export", project, foam}).exit_code == 0);
+    fs::create_directory(foam + "/100");
+    check_bad_input(run({"export", project, foam}));
+    CHECK(fs::exists(foam + "/100"));
+}
+
+SCENARIO("A phantom does not replace another case", "[workbench][prepare]") {
+    const std::string folder = temporary_folder() + "/case";
+    REQUIRE(run({"phantom", "tube", "--out", folder}).exit_code == 0);
+    CHECK(run({"phantom", "tube", "--out", folder}).exit_code == 0);
+    check_bad_input(run({"phantom", "torus", "--out", folder}));
+}
+
+SCENARIO("A surface too coarse to be smoothed is no model", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.5, 25.0, 6, 3), folder + "/tube.stl");
+    for (const std::string purpose : {"cfd", "rp"}) {
+        const ProgramRun result = run({"prepare", folder + "/tube.stl", "--units", "mm", "--for",
+                                       purpose, "--out", out + purpose});
+        INFO(result.err);
+        CHECK(result.exit_code == 1);
+        CHECK_THAT(result.err, Contains("too coarse") && Contains("subdivide"));
+        CHECK_THAT(run({"log", out + purpose + "/project.vbench"}).out, !Contains("smoothing"));
+    }
+}
+
 SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
     const std::string folder = temporary_folder();
     const std::string project = folder + "/hand.vbench";

@@ -6,7 +6,9 @@
 
 #include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/whole_file.h"
 #include "workbench/commands/commands.h"
 #include "workbench/phantoms/phantom_json.h"
 
@@ -27,6 +29,14 @@ std::string case_text(const PhantomDescription& description) {
     Json json = {{"name", description.name}, {"image", kImage}, {"exact", kExact}};
     if (!description.imaging.kept_apart.empty()) json["mask"] = kMask;
     return json.dump(2) + "\n";
+}
+
+/// \throw IoError if the folder describes another case
+void refuse_other_case(const std::filesystem::path& folder, const PhantomDescription& description) {
+    const std::filesystem::path file = folder / "case.json";
+    if (std::filesystem::exists(file) && file_content(file) != case_text(description))
+        throw IoError("'" + folder.filename().string() +
+                      "' holds another case: give another folder");
 }
 
 void print_json(const PhantomDescription& description, const Phantom& phantom,
@@ -50,6 +60,7 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     progress.report(0.0, "making the phantom");
     const Phantom phantom = make_phantom(description);
     const std::filesystem::path out = options.out;
+    refuse_other_case(out, description);
     make_folder(out);
     PendingFiles files;
     write_image(files.add(out / kImage).string(), phantom.image);

@@ -30,6 +30,13 @@ void print_prepared(const PrepareArguments& arguments, const PrepareSummary& mad
               << "\n";
 }
 
+/// \throw IoError if the file is one that the project was made from
+void refuse_source(const Session& session, const std::string& file) {
+    if (session.is_source(file))
+        throw IoError("'" + std::filesystem::path(file).filename().string() +
+                      "' is a source of this project: it is not replaced; give another name");
+}
+
 InputOptions input_options(const InputArguments& arguments) {
     return {arguments.input, arguments.mask, arguments.units};
 }
@@ -70,7 +77,9 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         throw UsageError("--set '" + settings.front() +
                          "': export accepts only openfoam.parameter=value");
     check_export_name(arguments.file);
+    check_export_place(arguments.file);
     Session session = Session::open(arguments.project, {.find = find_operation});
+    refuse_source(session, arguments.file);
     const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
     PendingFiles files;
     export_scene(files, arguments.file, scene, flow);

@@ -2,6 +2,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/products/openfoam_case.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
@@ -19,8 +20,10 @@ Operation openfoam() {
     return {.name = "openfoam", .parameters = flow_parameters()};
 }
 
+/// "." gets its name, and a last slash is left out.
 fs::path without_last_slash(const fs::path& file) {
-    return file.has_filename() ? file : file.parent_path();
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    return whole.has_filename() ? whole : whole.parent_path();
 }
 
 /// The row that writes a file of this name, or a null pointer.
@@ -64,9 +67,25 @@ void check_export_name(const fs::path& file) {
                      folder_text(export_formats()) + ")");
 }
 
+void check_export_place(const fs::path& file) {
+    const fs::path place = without_last_slash(file);
+    const ExportFormat* format = format_of(place);
+    std::error_code error;
+    if (format == nullptr || !fs::exists(place, error)) return;
+    const bool folder = fs::is_directory(place, error);
+    if (!folder && format->folder.empty()) return;
+    if (folder && !format->folder.empty() &&
+        (fs::is_empty(place, error) || is_unused_openfoam_case(place)))
+        return;
+    throw IoError("'" + place.filename().string() + "' " +
+                  (folder ? "holds other files, or results of a flow" : "is a file") +
+                  ": it is not replaced; give another name");
+}
+
 void export_scene(PendingFiles& files, const fs::path& file, const Scene& scene,
                   const CfdParameters& flow) {
     check_export_name(file);
+    check_export_place(file);
     format_of(file)->write(scene, files.add(without_last_slash(file)).string(), flow);
 }
 

@@ -30,6 +30,10 @@ namespace vesselbench {
 /// \throw UsageError that lists the suffixes unless export_scene can write such a file
 void check_export_name(const std::filesystem::path& file);
 
+/// \throw IoError if a folder or file at this place must not be replaced by an export: it holds
+/// files of others, or results of a flow
+void check_export_place(const std::filesystem::path& file);
+
 /// Writes one file or folder in the format of export_formats() that matches its name.
 /// \throw UsageError that lists the suffixes if none matches
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,

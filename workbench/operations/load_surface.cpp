@@ -14,12 +14,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What the file has and a vessel's surface should not.
-std::string headline_of(std::size_t components, std::size_t loops) {
-    std::string text;
-    if (components > 1) text = counted(components, "part");
-    if (loops > 0)
-        text += (text.empty() ? "" : ", ") + counted(loops, "hole or opening", "holes or openings");
+/// The unit, and what the file has and a vessel's surface should not.
+std::string headline_of(const SurfaceArgument& read, std::size_t components, std::size_t loops) {
+    std::string text = "read as " + read.units;
+    if (components > 1) text += ", " + counted(components, "part");
+    if (loops > 0) text += ", " + counted(loops, "hole or opening", "holes or openings");
     return text;
 }
 
@@ -28,7 +27,7 @@ ordered_json report_of(const SurfaceArgument& read) {
     const Vec3 size = bounds(surface).max - bounds(surface).min;
     const std::size_t components = connected_components(*surface.topology).count();
     const std::size_t loops = surface.topology->boundary_loops().size();
-    return {{"headline", headline_of(components, loops)},
+    return {{"headline", headline_of(read, components, loops)},
             {"file", read.name},
             {"units", read.units},
             {"units_reason", read.unit_reason},

@@ -33,8 +33,10 @@ Json problems_json(const PrintCheck& check) {
     return problems;
 }
 
-std::string headline_of(const PrintCheck& check) {
-    std::string text = check.printable() ? "printable" : "not printable";
+std::string headline_of(const PrintCheck& check, bool thin) {
+    std::string text = !check.printable() ? "not printable"
+                       : thin             ? "printable with care"
+                                          : "printable";
     if (check.lumen) text += formatted(check.lumen->distance, ", thinnest place %.2f mm");
     if (check.gap) text += formatted(check.gap->distance, ", smallest gap %.2f mm");
     return text;
@@ -58,7 +60,8 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
                   outcome);
     warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
                   outcome);
-    Json report = {{"headline", headline_of(check)},
+    const bool thin = outcome.warnings.size() > check.problems.size();
+    Json report = {{"headline", headline_of(check, thin)},
                    {"printable", check.printable()},
                    {"unit", "mm"},
                    {"size_mm", point_json(check.size)}};

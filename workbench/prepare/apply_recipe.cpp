@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
@@ -23,6 +24,22 @@ std::string entry_text(const LogEntry& entry) {
 /// coarse for it.
 constexpr double kNoticedChange = 0.03;
 
+/// Where one takes more of it than this [-], the model is another one.
+constexpr double kLargestLoss = 0.25;
+
+/// \throw AlgorithmFailure if an operation that keeps the volume took much of it; the edit is
+/// undone
+void require_volume(Session& session, const LogEntry& entry) {
+    if (find_operation(entry.edit.operation).recipe.volume_remedy.empty() || !entry.result) return;
+    const auto change = volume_change(entry.result->change);
+    if (!change || *change >= -kLargestLoss) return;
+    session.undo();
+    throw AlgorithmFailure(
+        entry.edit.operation + " would take " + formatted(-100.0 * *change, "%.0f") +
+        " % of the volume: the triangles are too coarse for the vessel; make them finer with "
+        "subdivide");
+}
+
 /// What a user should know of an edit beside its own warnings; else empty.
 std::string noticed(const LogEntry& entry) {
     const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
@@ -40,6 +57,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
     try {
         const LogEntry done =
             session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
+        require_volume(session, done);
         tell(entry_text(done));
         if (done.result)
             for (const std::string& warning : done.result->warnings)

@@ -7,7 +7,10 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/apply_recipe.h"
@@ -38,18 +41,67 @@ void clear_away(const fs::path& project, bool new_folder) {
     if (new_folder) fs::remove(project.parent_path(), ignored);  // keeps a folder that is not empty
 }
 
-/// An earlier project is kept as project.1.vbench, project.2.vbench ...
-void keep_earlier_project(const fs::path& project, const Teller& tell) {
-    if (!fs::exists(project)) return;
+/// An earlier project is kept as project.1.vbench, project.2.vbench ..., another result likewise.
+void keep_earlier(const fs::path& file, const Teller& tell) {
+    if (!fs::exists(file)) return;
     fs::path other;
     for (int number = 1; other.empty() || fs::exists(other); ++number)
-        other = project.parent_path() / ("project." + std::to_string(number) + ".vbench");
+        other = file.parent_path() /
+                (file.stem().string() + "." + std::to_string(number) + file.extension().string());
     std::error_code error;
     for (const char* suffix : {"", "-wal"})
-        if (fs::exists(project.string() + suffix))
-            fs::rename(project.string() + suffix, other.string() + suffix, error);
-    if (error) throw IoError("the existing 'project.vbench' cannot be renamed: " + error.message());
-    tell("the existing project.vbench was renamed to " + other.filename().string());
+        if (fs::exists(file.string() + suffix))
+            fs::rename(file.string() + suffix, other.string() + suffix, error);
+    const std::string name = file.filename().string();
+    if (error) throw IoError("the existing '" + name + "' cannot be renamed: " + error.message());
+    tell("the existing " + name + " was renamed to " + other.filename().string());
+}
+
+/// What an export may not replace, such as the results of a flow, is kept.
+void keep_earlier_products(const PrepareOptions& options, const Teller& tell) {
+    for (const std::string& name : product_names(options.purpose)) try {
+            check_export_place(options.out / name);
+        } catch (const IoError&) {
+            keep_earlier(options.out / name, tell);
+        }
+}
+
+/// Products of another purpose are not of this model.
+void name_other_products(const PrepareOptions& options, const Teller& tell) {
+    const std::vector<std::string> own = product_names(options.purpose);
+    std::vector<std::string> others;
+    for (const Purpose& purpose : purposes())
+        for (const std::string& name : purpose.products)
+            if (std::ranges::count(own, name) + std::ranges::count(others, name) == 0 &&
+                fs::exists(options.out / name))
+                others.push_back(name);
+    if (!others.empty())
+        tell("warning: " + enumerated(others) + " in this folder " +
+             (others.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
+}
+
+/// \throw UsageError if a result would replace what it is made from
+void refuse_own_input(const PrepareOptions& options, const Input& input) {
+    std::vector<std::string> names = product_names(options.purpose);
+    names.insert(names.end(), {"report.json", "report.html"});
+    for (const fs::path& source : {input.file, input.mask, fs::path(options.recipe)})
+        for (const std::string& name : names) {
+            std::error_code ignored;
+            if (!source.empty() && fs::equivalent(options.out / name, source, ignored))
+                throw UsageError("'" + name +
+                                 "' is an input, and a result of the same name would replace it: "
+                                 "give another --out");
+        }
+}
+
+/// Openings with their diameters; empty if there are none.
+std::string openings_text(const Surface& surface) {
+    std::vector<std::string> texts;
+    for (std::size_t p = 0; p < surface.patches.size(); ++p)
+        if (surface.patches[p].kind != PatchKind::Wall)
+            texts.push_back(surface.patches[p].name +
+                            formatted(patch_shape(surface, p).diameter(), " (%.3g mm)"));
+    return joined(texts);
 }
 
 Json recipe_json_from(const PrepareOptions& options, const Input& input) {
@@ -101,10 +153,37 @@ Recipe rest_of(Recipe recipe, const std::vector<LogEntry>& log, const std::strin
     return recipe;
 }
 
-Session resumed(const fs::path& project) {
+Session resumed(const fs::path& project, const std::string& purpose) {
     Session session = Session::open(project, {.find = find_operation});
     if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
+    std::string other;
+    for (const LogEntry& entry : session.log()) {
+        const std::string& variant = entry.edit.place.variant;
+        if (variant == purpose) return session;
+        if (!variant.empty()) other = variant;
+    }
+    if (!other.empty())
+        throw UsageError("--resume: the project is for " + other +
+                         ", and its edits are not those of " + purpose +
+                         ": prepare that into another folder");
     return session;
+}
+
+/// \throw UsageError if a setting is of an edit that has been made
+void refuse_late_settings(const PrepareOptions& options, const Recipe& rest,
+                          const std::vector<LogEntry>& log) {
+    for (const std::string& text : options.arguments) {
+        const std::string name = text.substr(0, text.find('.'));
+        const bool comes = std::ranges::any_of(
+            rest, [&](const RecipeEntry& entry) { return entry.given.operation().name == name; });
+        if (comes) continue;
+        std::string edit = "EDIT";
+        for (const LogEntry& entry : log)
+            if (entry.edit.operation == name) edit = std::to_string(entry.edit.edit.id);
+        throw UsageError("--set '" + text + "': " + name +
+                         " has been made already; use vesselbench " + "change project.vbench " +
+                         edit + " " + text.substr(text.find('.') + 1) + ", then --resume");
+    }
 }
 
 /// So that a reopened project still has them.
@@ -113,7 +192,8 @@ void keep_recipes(const fs::path& project, const Input& input) {
 }
 
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
-                             const Progress& progress) {
+                             const Teller& tell, const Progress& progress) {
+    keep_earlier_products(options, tell);
     PendingFiles files;
     progress.report(0.0, "writing the products");
     prepared.products =
@@ -124,6 +204,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
                    report_html(report.document, report.pictures, report.sections));
     progress.check_cancelled();
     files.commit();
+    name_other_products(options, tell);
     return {prepared.products, report.warnings};
 }
 
@@ -136,18 +217,25 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     PreparedCase prepared{.purpose = options.purpose, .input = input};
     prepared.flow = take_flow_parameters(for_recipe.arguments);
     Recipe recipe = recipe_for(for_recipe, input);
+    refuse_own_input(options, input);
     const bool new_folder = !fs::exists(options.out);
-    make_folder(options.out);
     const fs::path project = options.out / "project.vbench";
-    if (!options.resume) keep_earlier_project(project, tell);
+    if (options.resume && !fs::exists(project))
+        throw UsageError("--resume: there is no project.vbench in '" +
+                         options.out.filename().string() + "' to go on with");
+    make_folder(options.out);
+    if (!options.resume) keep_earlier(project, tell);
     bool any_edit = options.resume;
     try {
-        Session session =
-            options.resume ? resumed(project) : Session::create(project, {.find = find_operation});
-        if (options.resume)
+        Session session = options.resume ? resumed(project, options.purpose)
+                                         : Session::create(project, {.find = find_operation});
+        if (options.resume) {
             recipe = rest_of(std::move(recipe), session.log(), options.purpose);
-        else
+            refuse_late_settings(for_recipe, recipe, session.log());
+            if (recipe.empty()) tell("every edit of the recipe has been made: writing the results");
+        } else {
             keep_recipes(project, input);
+        }
         const Teller noting = [&](const std::string& text) {
             any_edit = true;
             tell(text);
@@ -155,14 +243,19 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         prepared.warnings = apply_recipe(session, recipe, options.purpose, noting,
                                          progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
+        const std::string openings = openings_text(surface_of(prepared.scene));
+        if (!openings.empty()) tell("openings: " + openings);
         try {
-            return write_results(session, options, std::move(prepared),
+            return write_results(session, options, std::move(prepared), tell,
                                  progress.part(kEditsShare, 1.0));
         } catch (const InvalidInput& error) {
             throw AlgorithmFailure(error.what());  // the model lacks something the product needs
         }
     } catch (const UnusableSource&) {
         if (!options.resume) clear_away(project, new_folder);
+        throw;
+    } catch (const UsageError&) {
+        if (!any_edit) clear_away(project, new_folder);
         throw;
     } catch (const std::exception&) {
         if (!any_edit)

@@ -39,8 +39,8 @@ ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry&
     } catch (const Cancelled&) {
         throw;
     } catch (const IoError& error) {
-        // The source file is missing, but its result is stored, and the checksums match.
-        replayed.note = error.what();
+        replayed.note =
+            std::string("not run again, but its stored result is whole: ") + error.what();
     } catch (const std::exception& error) {
         replayed.differences.push_back(std::string("it now fails: ") + error.what());
     }

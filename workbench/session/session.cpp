@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/project/content_hash.h"
 #include "workbench/project/source_files.h"
 #include "workbench/session/case_store.h"
 #include "workbench/session/edit_place.h"
@@ -279,6 +280,17 @@ void Session::set_note(EditRef edit, const std::string& note) {
         throw UsageError("there is no revision " + std::to_string(edit.revision) + " of edit " +
                          std::to_string(edit.id) + "; see the edits with log");
     parts_->store.set_note(edit, note);
+}
+
+bool Session::is_source(const std::filesystem::path& file) const {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return false;
+    const std::string hash = hash_of_file(file);
+    const ProjectFile& project = parts_->store.project();
+    return std::ranges::any_of(log(), [&](const LogEntry& entry) {
+        const auto sources = project.sources(entry.edit.edit);
+        return std::ranges::count(sources, hash, &SourceFile::hash) > 0;
+    });
 }
 
 std::vector<LogEntry> Session::log() const {

@@ -112,6 +112,10 @@ public:
     /// cannot be written
     void set_note(EditRef edit, const std::string& note);
 
+    /// True for a file with the content of a file that an edit has read: it must not be replaced.
+    /// \throw IoError if it cannot be read
+    [[nodiscard]] bool is_source(const std::filesystem::path& file) const;
+
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 

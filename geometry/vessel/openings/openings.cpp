@@ -151,10 +151,13 @@ private:
 
     void plan_end(std::size_t e, bool blind_too) {
         const SurfaceEnd& end = ends_[e];
-        if (!end.is_visible() && !blind_too && !is_wider_than_all(e))
+        if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
+            const auto blind = blind_branch(graph_, *end.tip);
+            records_[e].sac = blind && (blind->bulges || blind->is_short());
             return close(e,
                          "a closed end: the surface's own rims are its openings; tip=x,y,z "
                          "opens it");
+        }
         if (!end.is_visible() && !is_inlet(e) && looks_closed(e)) return;
         if (cut(e)) return;
         if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);

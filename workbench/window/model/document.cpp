@@ -344,14 +344,19 @@ void Document::export_to(const std::filesystem::path& file) {
     }
     const ExportFormat* format = row_that_writes(export_formats(), file.string());
     const std::string unit = format == nullptr ? "" : ", in " + format->unit;
-    const auto write = [file](const Scene& scene, const Progress& progress) {
+    const auto write = [file, variant = variant_](Session& session, const Progress& progress) {
+        if (session.is_source(file))
+            throw IoError("'" + file.filename().string() +
+                          "' is a source of this project: it is not replaced");
+        const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         export_scene(files, file, scene, {});
         progress.check_cancelled();
         files.commit();
+        return Nothing{};
     };
     const std::string done = "Exported " + file.string() + unit;
-    watch(runner_->with_scene(variant_, write), output_label("Export"),
+    watch(runner_->submit(write), output_label("Export"),
           [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
 }
 

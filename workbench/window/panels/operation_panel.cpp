@@ -6,6 +6,8 @@
 
 #include "workbench/case/parameter_texts.h"
 #include "workbench/operations/table.h"
+#include "workbench/window/model/brush_form.h"
+#include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/panels/form_fields.h"
 #include "workbench/window/panels/message_panel.h"
@@ -92,8 +94,11 @@ void draw_title(PanelContext& c, const OperationForm& form) {
                     form.edit() ? "Restore the edit's fields" : "Clear all fields"))
         c.place.reset_form();
     ImGui::SameLine(0, 0);
+    // What a brush paints is known once it has painted: its edit has a command.
+    const bool paints = is_brush(form.operation()) && text_of(form, "dabs").empty() &&
+                        text_of(form, "at").empty();
     if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
-                    form.valid()))
+                    form.valid() && !paints))
         c.to_clipboard(c.place.command());
 }
 
