@@ -9,22 +9,25 @@ namespace vesselbench {
 /// Angle between two directions [deg], from 0 to 180.
 [[nodiscard]] double angle_deg(const Vec3& a, const Vec3& b);
 
-/// The vessel's direction at an opening: that of a quadratic through the opening's centroid and
-/// those of the sections parallel to its plane, 0.25 to 1 diameter inward.
+/// The vessel's direction at an opening, from the centroids of the sections up to two diameters
+/// inward: a cubic fitted by least squares. As far as the sections' radii scatter, as on a surface
+/// with staircases, their centroids count less, and a vessel's usual curvature counts instead.
 struct OpeningAxis {
     Vec3 direction = Vec3::UnitZ();  ///< of length 1, out of the vessel
     double tilt_deg = 0.0;           ///< between the plane's normal and the axis
-    double bend_deg = 0.0;  ///< turn of the vessel over one diameter, from the same centroids
-    double diameter = 0.0;  ///< of the circle with the opening's area [mm]
-    int sections = 0;  ///< number of sections used, at most 7: fewer if a furcation comes first
+    double bend_deg = 0.0;           ///< turn of the vessel over one diameter, from the same fit
+    double doubt_deg = 0.0;          ///< standard deviation of the direction
+    double diameter = 0.0;           ///< of the circle with the opening's area [mm]
+    int sections = 0;                ///< number of sections used: fewer if a furcation comes first
 };
 
 /// Measured at a plane whose normal points out of the vessel and whose point lies inside it. Empty
 /// if there are fewer than 3 sections: they end where the area changes by more than a factor of
-/// 1.6, or where the curve is not closed.
+/// 1.4, or where the curve is not closed.
 /// \param diameter of the opening [mm]
+/// \param outward how far the vessel's sections are whole beyond the plane, too [mm]
 [[nodiscard]] std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane,
-                                                     double diameter);
+                                                     double diameter, double outward = 0.0);
 
 /// The axis at a flat cap. \throw InvalidInput if the surface has no such patch
 [[nodiscard]] std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch);

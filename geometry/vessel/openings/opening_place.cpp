@@ -20,6 +20,8 @@ constexpr int kCandidates = 9;
 /// Distance from the first whole section to the first candidate place [tip radii].
 constexpr double kMargin = 0.25;
 constexpr double kBlindMargin = 0.5;
+/// A rounded end is found whole too deep by up to this much [tip radii].
+constexpr double kFoundTooDeep = 0.25;
 /// The line's last stretch may turn: directions are measured at least this far inward [tip radii].
 constexpr double kSteady = 1.0;
 /// Largest fraction of a branch that is searched for the first whole section; in a vessel without
@@ -34,6 +36,9 @@ constexpr double kGivenUp = 0.08;
 constexpr double kUnmeasuredCost = 60.0;
 /// Bend that weighs as much as one radius of vessel given up [deg].
 constexpr double kCostPerRadius = 5.0;
+/// A direction in doubt counts like a bend of so many times the doubt: deeper in, the vessel on
+/// both sides of the cut shows it.
+constexpr double kDoubtWeight = 4.0;
 /// A section is whole if it is hardly larger half a radius farther inward.
 constexpr double kWholeShare = 0.85;
 /// Where none is, this much of it has to be there.
@@ -58,7 +63,9 @@ public:
           length(branch_length(graph.branches[branch_])),
           near_(part_near(surface, graph.nodes[end].position, reach())) {}
 
+    /// \param s [mm] from the end; negative: straight on beyond it
     Vec3 position(double s) const {
+        if (s < 0.0) return graph_.nodes[tip_].position - s * outward(0.0);
         return point_at(graph_.branches[branch_],
                         place_from_node(graph_, branch_, tip_, s).abscissa);
     }
@@ -83,6 +90,15 @@ public:
     double own_length() const {
         const std::size_t other = other_node(graph_, branch_, tip_);
         return length - furcation_zone_end(graph_, branch_, other);
+    }
+
+    /// How far the vessel goes on beyond the line's tip [mm].
+    double gap() const {
+        const Vec3 tip = graph_.nodes[tip_].position, way = outward(0.0);
+        double farthest = 0.0;
+        for (const Vec3& p : near_.points())
+            if ((p - tip).norm() < 2.0 * radius) farthest = std::max(farthest, (p - tip).dot(way));
+        return farthest;
     }
 
     /// How far a very oblique end may push the cut: up to the furcation, or past a short vessel's
@@ -125,7 +141,8 @@ public:
     }
 
     /// The plane at s whose normal is the axis measured from there; empty without a closed section.
-    std::optional<OpeningPlace> place(double s) const {
+    /// \param beyond how far sections are whole beyond it [mm]
+    std::optional<OpeningPlace> place(double s, double beyond = 0.0) const {
         OpeningPlace found{
             .tip = graph_.nodes[tip_].position, .plane = {position(s), outward(s)}, .distance = s};
         double best_tilt = 180.0;
@@ -134,13 +151,14 @@ public:
             const auto curve = section(plane);
             if (!curve) break;
             plane.point = curve->centroid;
-            const auto axis = axis_inward(near_, plane, curve->diameter());
+            const auto axis = axis_inward(near_, plane, curve->diameter(), beyond);
             if (turn == 0 || (axis && axis->tilt_deg < best_tilt)) {
                 found.measured = axis.has_value();
                 found.plane = plane;
                 found.diameter = curve->diameter();
                 found.tilt_deg = axis ? axis->tilt_deg : 0.0;
                 found.bend_deg = axis ? axis->bend_deg : 0.0;
+                found.doubt_deg = axis ? axis->doubt_deg : 0.0;
                 if (axis) best_tilt = axis->tilt_deg;
             }
             if (!axis) break;
@@ -180,23 +198,40 @@ double first_whole(const BranchFromEnd& branch, bool blind, const Vec3& tip) {
     return first;
 }
 
+/// Where the vessel is whole for certain: the search finds a rounded end's place a little too deep,
+/// and a line may begin inside its vessel's end.
+double outermost_whole(const BranchFromEnd& branch, bool blind, double first) {
+    const double step = kSearchStep * branch.radius;
+    double s = first;
+    if (first < step)
+        for (s = 0.0; s - step > -branch.gap() && branch.is_whole(s - step, blind);) s -= step;
+    return blind ? s - kFoundTooDeep * branch.radius : s;
+}
+
 OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const bool blind = branch.is_blind();
     const double whole = first_whole(branch, blind, tip);
     const double last = std::max(whole, kGivenUp * branch.own_length());
+    const double outermost = outermost_whole(branch, blind, whole);
+    const double deepest = outermost + kGivenUp * (branch.own_length() - outermost);
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
     std::optional<OpeningPlace> best;
     double least = 0.0;
     for (int k = 0; k < kCandidates; ++k) {
-        const double s = first + k * kCandidateStep * branch.radius;
-        if (k > 0 && s > last) break;
-        const auto place = branch.place(s);
-        if (!place) continue;
-        const double bent = place->measured ? place->bend_deg + place->tilt_deg : kUnmeasuredCost;
-        const double cost = bent + kCostPerRadius * (s - first) / branch.radius;
-        if (best && cost >= least) continue;
-        best = place;
-        least = cost;
+        const double s =
+            std::min(first + k * kCandidateStep * branch.radius, std::max(first, deepest));
+        const auto place = branch.place(s, s - first);
+        if (place) {
+            const double bent = place->measured ? place->bend_deg + place->tilt_deg +
+                                                      kDoubtWeight * place->doubt_deg
+                                                : kUnmeasuredCost;
+            const double cost = bent + kCostPerRadius * (s - first) / branch.radius;
+            if (!best || cost < least) {
+                best = place;
+                least = cost;
+            }
+        }
+        if (s >= deepest) break;
     }
     if (!best) fail(tip, "has no closed section: give the distance from its tip");
     best->share = best->distance / branch.length;

@@ -16,11 +16,12 @@ struct OpeningPlace {
     double distance = 0.0;    ///< from the tip along the centerline [mm]
     double share = 0.0;  ///< fraction of the branch's length given up, if the distance was chosen
                          ///< automatically
-    double diameter = 0.0;  ///< of the circle with the section's area [mm]
-    double tilt_deg = 0.0;  ///< remaining angle between the plane's normal and the vessel's axis
-    double bend_deg = 0.0;  ///< turn of the vessel over one diameter inward
-    bool measured = false;  ///< an axis was found inside: tilt and bend are known; otherwise the
-                            ///< normal is the centerline's direction
+    double diameter = 0.0;   ///< of the circle with the section's area [mm]
+    double tilt_deg = 0.0;   ///< remaining angle between the plane's normal and the vessel's axis
+    double bend_deg = 0.0;   ///< turn of the vessel over one diameter inward
+    double doubt_deg = 0.0;  ///< standard deviation of the axis, of which the normal has its own
+    bool measured = false;   ///< an axis was found inside: tilt and bend are known; otherwise the
+                             ///< normal is the centerline's direction
 };
 
 /// A vessel that turns by more than this over one diameter counts as a bend [deg].
