@@ -76,18 +76,36 @@ void add_cells(const CenterlineGraph& graph, vtkPolyData* lines) {
     lines->GetCellData()->AddArray(length);
 }
 
-std::vector<CenterlineBranch> lines_of(vtkPolyData* data) {
-    auto* radii = data->GetPointData()->GetArray("MaximumInscribedSphereRadius");
-    if (radii == nullptr) radii = data->GetPointData()->GetArray("Radius");
+/// An array with a value for each of `count` points or cells; null: none.
+vtkDataArray* complete_array(vtkDataSetAttributes* arrays, const char* name, vtkIdType count) {
+    vtkDataArray* array = arrays->GetArray(name);
+    const bool complete = array != nullptr && array->GetNumberOfComponents() == 1 &&
+                          array->GetNumberOfTuples() >= count;
+    return complete ? array : nullptr;
+}
+
+/// A point of the file, which may refer to points that it lacks.
+Vec3 checked_point(vtkPolyData* data, vtkIdType id, const std::string& name) {
+    if (data->GetPoints() == nullptr || id < 0 || id >= data->GetNumberOfPoints())
+        throw InvalidInput(name + " is damaged: a line refers to a missing point");
+    Vec3 p;
+    data->GetPoint(id, p.data());
+    if (!p.allFinite())
+        throw InvalidInput(name + " is damaged: point " + std::to_string(id) + " is not finite");
+    return p;
+}
+
+std::vector<CenterlineBranch> lines_of(vtkPolyData* data, const std::string& name) {
+    const vtkIdType points = data->GetNumberOfPoints();
+    auto* radii = complete_array(data->GetPointData(), "MaximumInscribedSphereRadius", points);
+    if (radii == nullptr) radii = complete_array(data->GetPointData(), "Radius", points);
     std::vector<CenterlineBranch> branches;
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     for (data->GetLines()->InitTraversal(); data->GetLines()->GetNextCell(count, ids) != 0;) {
         CenterlineBranch branch;
         for (vtkIdType i = 0; i < count; ++i) {
-            Vec3 p;
-            data->GetPoint(ids[i], p.data());
-            branch.points.push_back(p);
+            branch.points.push_back(checked_point(data, ids[i], name));
             branch.radii.push_back(radii != nullptr ? radii->GetTuple1(ids[i]) : 0.0);
         }
         branches.push_back(std::move(branch));
@@ -105,10 +123,11 @@ std::size_t node_at(const Vec3& place, double radius, double tolerance, Centerli
 
 /// Node numbers of the lines' ends from the file; false if they are missing or invalid.
 bool numbered_nodes(vtkPolyData* data, CenterlineGraph& graph) {
-    auto* starts = data->GetCellData()->GetArray("StartNodeIds");
-    auto* ends = data->GetCellData()->GetArray("EndNodeIds");
-    if (starts == nullptr || ends == nullptr) return false;
     const vtkIdType first = data->GetNumberOfVerts();
+    const vtkIdType cells = first + static_cast<vtkIdType>(graph.branches.size());
+    auto* starts = complete_array(data->GetCellData(), "StartNodeIds", cells);
+    auto* ends = complete_array(data->GetCellData(), "EndNodeIds", cells);
+    if (starts == nullptr || ends == nullptr) return false;
     const double most = 2.0 * static_cast<double>(graph.branches.size());
     for (std::size_t b = 0; b < graph.branches.size(); ++b) {
         CenterlineBranch& branch = graph.branches[b];
@@ -180,7 +199,7 @@ CenterlineGraph read_centerlines(const std::string& path) {
     require_vtk_xml(file_content(path), name);
     const vtkSmartPointer<vtkPolyData> data = read_poly_data(path);
     CenterlineGraph graph;
-    graph.branches = lines_of(data);
+    graph.branches = lines_of(data, name);
     for (const CenterlineBranch& b : graph.branches) {
         if (b.points.size() < 2)
             throw InvalidInput(name + " has a line with fewer than two points");

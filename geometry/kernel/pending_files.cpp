@@ -84,17 +84,17 @@ bool is_abandoned(const fs::path& folder) {
     return abandoned;
 }
 
-/// Removes what processes that were killed have left in a folder.
+}  // namespace
+
 void remove_abandoned(const fs::path& parent) {
     std::error_code ignored;
     std::vector<fs::path> abandoned;
-    for (const auto& entry : fs::directory_iterator(parent, ignored))
-        if (entry.path().filename().string().starts_with(kPartial) && is_abandoned(entry.path()))
-            abandoned.push_back(entry.path());
+    for (fs::directory_iterator at(parent, ignored), end; !ignored && at != end;
+         at.increment(ignored))
+        if (at->path().filename().string().starts_with(kPartial) && is_abandoned(at->path()))
+            abandoned.push_back(at->path());
     for (const fs::path& folder : abandoned) fs::remove_all(folder, ignored);
 }
-
-}  // namespace
 
 PendingFiles::PendingFiles() = default;
 

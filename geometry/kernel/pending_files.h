@@ -53,6 +53,9 @@ private:
         files_;  // temporary, final
 };
 
+/// Removes the temporary folders that killed processes have left in a folder. Never throws.
+void remove_abandoned(const std::filesystem::path& parent);
+
 /// Creates the folder and its parents. \throw IoError if it cannot be created or written to
 void make_folder(const std::filesystem::path& folder);
 

@@ -58,3 +58,29 @@ SCENARIO("A file that is not a centerline file is rejected", "[geometry][centerl
     CHECK_THROWS_AS(write_centerlines({}, folder + "/none.vtp"), InvalidInput);
     CHECK_THROWS_AS(write_centerlines(ring_with_stem(), folder + "/none/x.vtp"), IoError);
 }
+
+SCENARIO("Lines that refer to missing points or values are no reason to crash",
+         "[geometry][centerlines][bad-input]") {
+    const auto file = [](const std::string& points, const std::string& ends,
+                         const std::string& arrays) {
+        const std::string path = temporary_folder() + "/lines.vtp";
+        std::ofstream(path)
+            << "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><Piece NumberOfPoints=\""
+            << points << "\" NumberOfLines=\"1\">" << arrays
+            << "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+               "0 0 0 1 0 0</DataArray></Points><Lines>"
+               "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">"
+            << ends
+            << "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">2"
+               "</DataArray></Lines></Piece></PolyData></VTKFile>";
+        return path;
+    };
+    CHECK(read_centerlines(file("2", "0 1", "")).branches.size() == 1);
+    CHECK_THROWS_AS(read_centerlines(file("2", "0 7", "")), InvalidInput);
+    CHECK_THROWS_AS(read_centerlines(file("2", "0 -1", "")), InvalidInput);
+    CHECK_THROWS_AS(read_centerlines(file("0", "0 1", "")), InvalidInput);
+    const std::string radii =
+        "<PointData><DataArray type=\"Float64\" Name=\"Radius\" NumberOfComponents=\"2\" "
+        "format=\"ascii\">1 1 1 1</DataArray></PointData>";
+    CHECK(read_centerlines(file("2", "0 1", radii)).branches[0].radii[1] == 0.0);
+}

@@ -1,5 +1,6 @@
 #include "workbench/project/project.h"
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
 #include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
 #include "workbench/session/session.h"
@@ -161,6 +163,26 @@ SCENARIO("A project survives SIGKILL at any moment", "[session][project]") {
     CHECK(told > 20);
     Session session = Session::open(file, options());
     for (const auto& entry : session.replay()) REQUIRE(entry.differences.empty());
+}
+
+SCENARIO("Opening a project removes what a killed process left beside it", "[session][project]") {
+    const std::string file = new_project();
+    const fs::path folder = fs::path(file).parent_path();
+    const pid_t child = fork();
+    if (child == 0) {
+        PendingFiles files;
+        (void)files.add(folder / "other.vbench");
+        raise(SIGKILL);
+    }
+    waitpid(child, nullptr, 0);
+    const auto partial = [&] {
+        return std::ranges::count_if(fs::directory_iterator(folder), [](const auto& entry) {
+            return entry.path().filename().string().starts_with(".partial-");
+        });
+    };
+    REQUIRE(partial() == 1);
+    (void)Session::open(file, options());
+    CHECK(partial() == 0);
 }
 
 SCENARIO("A new project ignores the log of a deleted one", "[session][project]") {

@@ -146,6 +146,7 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t emb
         parts->database.run("PRAGMA journal_mode = WAL");
         parts->database.run("PRAGMA synchronous = FULL");
         parts->database.run("PRAGMA journal_size_limit = 16777216");
+        remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
     } else {
         try {
             parts = Parts::open(path, OpenMode::Read, embed_limit);
