@@ -202,14 +202,15 @@ RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
 }
 
 Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
-               double gradation, const Progress& progress) {
+               const RemeshParameters& parameters, const Progress& progress) {
     std::vector<double> sizes = sizing_field(surface, radii,
                                              {.edge = report.edge,
                                               .min_edge = report.min_edge,
                                               .max_edge = report.max_edge,
-                                              .gradation = gradation},
+                                              .gradation = parameters.gradation,
+                                              .resolution = parameters.resolution},
                                              progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, std::move(sizes), gradation, report,
+    return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, report,
                                 progress.part(0.2, 1.0));
 }
 
@@ -240,10 +241,9 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
         throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
     const std::vector<double> radii = local_radii(surface, lines, progress.part(0.0, 0.1));
     RemeshReport report = decided(surface, parameters, radii);
-    Surface result =
-        parameters.mode == RemeshMode::Uniform
-            ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
-            : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
+    Surface result = parameters.mode == RemeshMode::Uniform
+                         ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
+                         : graded(surface, radii, report, parameters, progress.part(0.1, 1.0));
     check_volume(surface, result, report);
     result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();

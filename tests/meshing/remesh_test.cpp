@@ -206,6 +206,36 @@ SCENARIO("What is far from any change rests", "[meshing][remesh]") {
     CHECK(count_in(after, 16.0, 20.0) > 2 * count_in(before, 16.0, 20.0));
 }
 
+SCENARIO("A print has the triangles that its resolution needs", "[meshing][remesh]") {
+    const Surface tube = mapped(closed_tube(3.0, 60.0, 200, 600), [](const Vec3& p) {
+        const double factor = 1.0 - 0.7 * p.z() / 60.0;  // radius 3 to 0.9 mm
+        return Vec3(factor * p.x(), factor * p.y() + 2.0 * std::sin(p.z() / 6.0), p.z());
+    });
+    const Remeshed usual = remesh(tube), print = remesh(tube, {.resolution = 0.1}),
+                   fine = remesh(tube, {.resolution = 0.02});
+    check_sound(print.surface, true);
+    check_quality(print.report);
+    CHECK(2 * print.report.triangles_after < usual.report.triangles_after);
+    CHECK(print.report.triangles_after < fine.report.triangles_after);
+    const SurfaceDistance to_print(print.surface), to_tube(tube);
+    double largest = 0.0;
+    for (const Vec3& p : tube.points())
+        largest = std::max(largest, to_print.closest_point(p).distance);
+    for (const Vec3& p : print.surface.points())
+        largest = std::max(largest, to_tube.closest_point(p).distance);
+    CHECK(largest < 0.1);
+    CHECK(volume(print.surface) == Approx(volume(tube)).epsilon(0.01));
+}
+
+SCENARIO("Remeshing reports its progress, which never goes back", "[meshing][remesh]") {
+    std::vector<double> reports;
+    const Progress progress([&](double fraction, auto) { reports.push_back(fraction); }, {});
+    static_cast<void>(remesh(dented(0.01), {.edge = 0.5}, nullptr, progress));
+    CHECK(reports.size() >= 15);
+    CHECK(std::ranges::is_sorted(reports));
+    CHECK(reports.back() <= 1.0);
+}
+
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {
     Surface tube = closed_tube(2.0, 12.0, 40, 60);
     std::vector<double> heights;
