@@ -1,6 +1,7 @@
 #include "meshing/remeshing/edit_mesh.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -160,21 +161,26 @@ void EditMesh::flip(HalfEdge h) {
     leaving_[a] = h_prev, leaving_[b] = g_prev, leaving_[c] = h_next, leaving_[d] = g_next;
 }
 
-bool EditMesh::can_collapse(HalfEdge h) {
+int EditMesh::common_neighbours(VertexId a, VertexId b) const {
+    thread_local std::vector<VertexId> around_a, around_b, common;
+    around_a.clear(), around_b.clear(), common.clear();
+    for_each_leaving(a, [&](HalfEdge k) { around_a.push_back(target(k)); });
+    for_each_leaving(b, [&](HalfEdge k) { around_b.push_back(target(k)); });
+    std::sort(around_a.begin(), around_a.end());  // hubs of fans have hundreds of neighbours
+    std::sort(around_b.begin(), around_b.end());
+    std::set_intersection(around_a.begin(), around_a.end(), around_b.begin(), around_b.end(),
+                          std::back_inserter(common));
+    return static_cast<int>(common.size());
+}
+
+bool EditMesh::can_collapse(HalfEdge h) const {
     const HalfEdge g = twin(h);
     if (is_hole(patch_at(h)) && is_hole(patch_at(g))) return false;
     const int features = feature_edges_at(origin(h));
     if (features > 2 || (features > 0 && !is_feature(h))) return false;
-    const VertexId a = origin(h), b = target(h), c = apex(h), d = apex(g);
+    const VertexId c = apex(h), d = apex(g);
     if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
-    // The only shared neighbours of both ends must be c and d. Marks find them in one walk around
-    // each end; hubs of fans have hundreds of neighbours.
-    marked_.resize(points.size(), kNone);
-    for_each_leaving(a, [&](HalfEdge k) { marked_[target(k)] = a; });
-    int common = 0;
-    for_each_leaving(b, [&](HalfEdge k) { common += marked_[target(k)] == a; });
-    for_each_leaving(a, [&](HalfEdge k) { marked_[target(k)] = kNone; });
-    return common == 2;
+    return common_neighbours(origin(h), target(h)) == 2;  // c and d
 }
 
 void EditMesh::collapse(HalfEdge h) {
@@ -208,11 +214,6 @@ void EditMesh::compact() {
     patch_.resize(count / 3);
     for (HalfEdge& h : leaving_)
         if (h != kNone) h = number[h];
-}
-
-Vec3 EditMesh::area_normal_of(TriangleId t) const {
-    const Vec3& a = points[origin_[3 * t]];
-    return (points[origin_[3 * t + 1]] - a).cross(points[origin_[3 * t + 2]] - a);
 }
 
 Surface EditMesh::to_surface(const std::vector<Patch>& patches, std::vector<VertexId>& kept) const {

@@ -86,7 +86,7 @@ public:
 
     /// True if merging the origin of h into its target preserves the manifold and its
     /// topology.
-    [[nodiscard]] bool can_collapse(HalfEdge h);
+    [[nodiscard]] bool can_collapse(HalfEdge h) const;
     /// Merges the origin of h into its target, which does not move.
     void collapse(HalfEdge h);
 
@@ -95,7 +95,10 @@ public:
     void compact();
 
     /// Area normal of triangle t [mm^2], its length is twice the area.
-    [[nodiscard]] Vec3 area_normal_of(TriangleId t) const;
+    [[nodiscard]] Vec3 area_normal_of(TriangleId t) const {
+        const Vec3& a = points[origin_[3 * t]];
+        return (points[origin_[3 * t + 1]] - a).cross(points[origin_[3 * t + 2]] - a);
+    }
 
     /// The surface without holes and removed parts; vertices keep their order.
     /// \param kept receives, for each vertex of the result, its number here
@@ -111,12 +114,12 @@ private:
     void fill_holes();
     void require_single_fans() const;
     [[nodiscard]] int feature_edges_at(VertexId v) const;
+    [[nodiscard]] int common_neighbours(VertexId a, VertexId b) const;
 
     std::vector<VertexId> origin_;      ///< by half-edge; kNone where removed
     std::vector<HalfEdge> twin_;        ///< by half-edge
     std::vector<HalfEdge> leaving_;     ///< by vertex
     std::vector<std::uint32_t> patch_;  ///< by triangle
-    std::vector<VertexId> marked_;      ///< by vertex; kNone between calls
     std::uint32_t first_hole_ = 0;      ///< patches from here on are holes
 };
 

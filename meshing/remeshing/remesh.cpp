@@ -20,7 +20,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kRounds = 12;  // of split, collapse, flip, relax
+constexpr int kRounds = 8;      // of split, collapse, flip, relax
+constexpr int kMendRounds = 5;  // of the same around bad places
 /// In the first round edges are split well below the target length [-]: the following collapses
 /// then remove the pattern of a coarse source.
 constexpr double kFirstSplit = 0.8;
@@ -69,10 +70,11 @@ double split_limit(int round) {
     return round == 0 ? kFirstSplit : round < kEarlyRounds ? kEarlySplit : Remesher::kLong;
 }
 
-void run_rounds(Remesher& remesher, int rounds, const Progress& progress) {
+/// \param first earlier rounds are left out
+void run_rounds(Remesher& remesher, int first, int rounds, const Progress& progress) {
     remesher.collapse_short_edges();  // before needles are split into many short edges
-    for (int round = 0; round < rounds; ++round) {
-        progress.report(static_cast<double>(round) / rounds, "remeshing");
+    for (int round = first; round < rounds; ++round) {
+        progress.report(static_cast<double>(round - first) / (rounds - first), "remeshing");
         remesher.split_long_edges(split_limit(round));
         remesher.collapse_short_edges();
         if (round >= 2 && round + 2 < rounds)
@@ -99,11 +101,13 @@ void check_count(const Surface& surface, const std::vector<double>& sizes, doubl
         formatted(1.1 * edge * std::sqrt(count / most), "%.2g") + " or more");
 }
 
-/// One attempt.
-Surface remeshed_once(const Surface& surface, std::vector<double> sizes, const Progress& progress) {
+std::vector<double> target_lengths(std::vector<double> sizes) {
     for (double& size : sizes) size /= Remesher::kStretch;
-    Remesher remesher(surface, sizes, surface, progress);
-    run_rounds(remesher, kRounds, progress.part(0.0, 0.8));
+    return sizes;
+}
+
+Surface remeshed(Remesher& remesher, int first_round, const Progress& progress) {
+    run_rounds(remesher, first_round, kRounds, progress.part(0.0, 0.8));
     return finished(remesher, progress.part(0.8, 1.0));
 }
 
@@ -172,12 +176,16 @@ Surface parted(const Surface& source, const Surface& result, RemeshReport& repor
 Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, double gradation,
                              RemeshReport& report, const Progress& progress) {
     check_count(surface, sizes, report.edge);
-    Surface result = remeshed_once(surface, sizes, progress);
+    constexpr double kFirst = 0.7, kMore = (1.0 - kFirst) / kMostAttempts;
+    Remesher remesher(surface, target_lengths(sizes), surface, progress);
+    Surface result = remeshed(remesher, 0, progress.part(0.0, kFirst));
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
         const Positions places = bad_places(result);
         if (places.empty()) return result;
         refine(surface, places, gradation, sizes);
-        result = remeshed_once(surface, sizes, progress);
+        remesher.set_sizes(target_lengths(sizes));
+        const double from = kFirst + attempt * kMore;
+        result = remeshed(remesher, kRounds - kMendRounds, progress.part(from, from + kMore));
     }
     return parted(surface, result, report);
 }
@@ -194,14 +202,15 @@ RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
 }
 
 Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
-               double gradation, const Progress& progress) {
+               const RemeshParameters& parameters, const Progress& progress) {
     std::vector<double> sizes = sizing_field(surface, radii,
                                              {.edge = report.edge,
                                               .min_edge = report.min_edge,
                                               .max_edge = report.max_edge,
-                                              .gradation = gradation},
+                                              .gradation = parameters.gradation,
+                                              .resolution = parameters.resolution},
                                              progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, std::move(sizes), gradation, report,
+    return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, report,
                                 progress.part(0.2, 1.0));
 }
 
@@ -232,10 +241,9 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
         throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
     const std::vector<double> radii = local_radii(surface, lines, progress.part(0.0, 0.1));
     RemeshReport report = decided(surface, parameters, radii);
-    Surface result =
-        parameters.mode == RemeshMode::Uniform
-            ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
-            : graded(surface, radii, report, parameters.gradation, progress.part(0.1, 1.0));
+    Surface result = parameters.mode == RemeshMode::Uniform
+                         ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
+                         : graded(surface, radii, report, parameters, progress.part(0.1, 1.0));
     check_volume(surface, result, report);
     result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();

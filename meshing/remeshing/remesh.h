@@ -19,6 +19,8 @@ struct RemeshParameters {
     std::optional<double> min_edge = {};  ///< graded: shortest edge [mm]; default edge / 5
     std::optional<double> max_edge = {};  ///< graded: longest edge [mm]; default 2 edge
     double gradation = 1.5;               ///< graded: largest ratio of neighbouring edges, > 1
+    /// Graded, for prints: longer edges where the surface stays this close [mm]; 0: no
+    double resolution = 0.0;
 };
 
 /// Decisions and results of remeshing.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "meshing/remeshing/selected.h"
+
 namespace vesselbench {
 
 namespace {
@@ -10,8 +12,8 @@ namespace {
 constexpr double kTurn = 0.3;
 
 bool turns_too_far(const Vec3& before, const Vec3& after) {
-    const double scale = before.norm() * after.norm();
-    return before.dot(after) <= kTurn * scale;
+    const double dot = before.dot(after);
+    return dot <= 0.0 || dot * dot <= kTurn * kTurn * before.squaredNorm() * after.squaredNorm();
 }
 
 }  // namespace
@@ -22,17 +24,22 @@ RemeshState::RemeshState(const Surface& source, const std::vector<double>& sourc
       mesh(start),
       patches(source.patches),
       sizes(mesh.vertex_count(), *std::min_element(source_sizes.begin(), source_sizes.end())),
-      hints(mesh.vertex_count(), 0),
+      hints(mesh.vertex_count(), TargetPlace::kNowhere),
+      inner_of(mesh.vertex_count(), EditMesh::kNone),
       cancel(end.silent()) {
-    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-        check_cancelled();
-        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
+    const bool from_source = start.topology == source.topology;
+    for_all(mesh.vertex_count(), cancel, [&](VertexId v) {
+        if (mesh.leaving(v) == EditMesh::kNone) return;
         const VertexKind kind = kind_of(v);
+        if (kind.features == 0) inner_of[v] = kind.p;
+        if (is_hub(v)) return;
+        if (from_source && kind.features == 0) hints[v] = EditMesh::triangle_of(mesh.leaving(v));
         if (kind.features == 0 || kind.features == 2) move(v, place_for(v, kind, mesh.points[v]));
-    }
+    });
 }
 
 RemeshState::VertexKind RemeshState::kind_of(VertexId v) const {
+    if (inner_of[v] != EditMesh::kNone) return {0, inner_of[v], inner_of[v]};
     VertexKind kind;
     kind.p = kind.q = mesh.patch_at(mesh.leaving(v));
     mesh.for_each_leaving(v, [&](HalfEdge h) {
@@ -43,8 +50,19 @@ RemeshState::VertexKind RemeshState::kind_of(VertexId v) const {
 }
 
 bool RemeshState::is_hub(VertexId v) const {
-    const HalfEdge h = mesh.leaving(v);
-    return mesh.is_hole(mesh.patch_at(h)) && kind_of(v).features == 0;
+    return inner_of[v] != EditMesh::kNone && mesh.is_hole(inner_of[v]);
+}
+
+VertexId RemeshState::split(HalfEdge h) {
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    // Hints on rims are segments, within patches triangles.
+    const bool is_rim = mesh.is_feature(h);
+    const TriangleId near = hints[(kind_of(a).features == 0) == is_rim ? b : a];
+    const VertexId m = mesh.split(h, 0.5 * (mesh.points[a] + mesh.points[b]));
+    inner_of.push_back(is_rim ? EditMesh::kNone : mesh.patch_at(h));
+    sizes.push_back(wanted(a, b));
+    hints.push_back(near);
+    return m;
 }
 
 TargetPlace RemeshState::place_for(VertexId v, const VertexKind& kind, const Vec3& x) const {
@@ -58,28 +76,28 @@ void RemeshState::move(VertexId v, const TargetPlace& place) {
     hints[v] = place.near;
 }
 
-bool RemeshState::may_collapse(HalfEdge h, double limit) {
-    if (!mesh.can_collapse(h)) return false;
+bool RemeshState::may_collapse(HalfEdge h, double limit) const {
     const VertexId a = mesh.origin(h), b = mesh.target(h);
-    constexpr double kSlack =
-        1.01;  // edges that are already long may stay so: needles are collapsed first
-    const Vec3& pa = mesh.points[a];
-    bool allowed = true;
-    mesh.for_each_leaving(a, [&](HalfEdge k) {
-        if (!allowed || mesh.is_hole(mesh.patch_at(k))) return;
+    // Edges that are already long may stay so: needles are collapsed first.
+    constexpr double kSlack = 1.01 * 1.01;
+    const Vec3 &pa = mesh.points[a], &pb = mesh.points[b];
+    const auto grows_long = [&](VertexId x) {
+        const Vec3& p = mesh.points[x];
+        const double after = (p - pb).squaredNorm(), most = limit * wanted(x, b);
+        return after > most * most && after > kSlack * (p - pa).squaredNorm();
+    };
+    HalfEdge k = h;
+    do {
         const VertexId u = mesh.target(k), w = mesh.apex(k);
-        if (u == b || w == b) return;
-        const Vec3 &pu = mesh.points[u], &pw = mesh.points[w], &pb = mesh.points[b];
-        const auto grows_long = [&](const Vec3& p, VertexId x) {
-            const double after = (p - pb).norm();
-            return after > limit * wanted(x, b) && after > kSlack * (p - pa).norm();
-        };
-        if (grows_long(pu, u) || grows_long(pw, w)) allowed = false;
-        const Vec3 before = mesh.area_normal_of(EditMesh::triangle_of(k));
-        const Vec3 after = (pu - pb).cross(pw - pb);
-        if (!before.isZero(0.0) && turns_too_far(before, after)) allowed = false;
-    });
-    return allowed;
+        if (u != b && w != b && !mesh.is_hole(mesh.patch_at(k))) {
+            if (grows_long(u) || grows_long(w)) return false;
+            const Vec3 before = mesh.area_normal_of(EditMesh::triangle_of(k));
+            const Vec3 after = (mesh.points[u] - pb).cross(mesh.points[w] - pb);
+            if (!before.isZero(0.0) && turns_too_far(before, after)) return false;
+        }
+        k = mesh.around(k);
+    } while (k != h);
+    return mesh.can_collapse(h);
 }
 
 bool RemeshState::flip_keeps_shape(HalfEdge h) const {

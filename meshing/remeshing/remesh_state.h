@@ -41,8 +41,14 @@ struct RemeshState {
     /// True for the vertex that closes a hole of the surface: it is not part of the result.
     [[nodiscard]] bool is_hub(VertexId v) const;
 
+    /// Splits the edge of h at its middle, which may be off the source. \return the new vertex
+    VertexId split(HalfEdge h);
+
     /// The place on the source, on the patch or rim of the vertex, that is closest to x.
     [[nodiscard]] TargetPlace place_for(VertexId v, const VertexKind& kind, const Vec3& x) const;
+
+    /// True for vertices that no pass may move.
+    [[nodiscard]] bool rests(VertexId v) const { return v < resting.size() && resting[v] != 0; }
 
     [[nodiscard]] double wanted(VertexId a, VertexId b) const {
         return 0.5 * (sizes[a] + sizes[b]);
@@ -57,7 +63,7 @@ struct RemeshState {
 
     /// True if collapsing h preserves rims, creates no edge longer than `limit` target lengths and
     /// folds nothing over. Edges that are already too long may stay so.
-    [[nodiscard]] bool may_collapse(HalfEdge h, double limit);
+    [[nodiscard]] bool may_collapse(HalfEdge h, double limit) const;
 
     [[nodiscard]] bool flip_keeps_shape(HalfEdge h) const;
     [[nodiscard]] bool move_keeps_shape(VertexId v, const Vec3& x) const;
@@ -69,8 +75,10 @@ struct RemeshState {
     RemeshTarget target;
     EditMesh mesh;
     std::vector<Patch> patches;
-    std::vector<double> sizes;      ///< target edge length by vertex [mm]
-    std::vector<TriangleId> hints;  ///< by vertex: the source's triangle where searches begin
+    std::vector<double> sizes;            ///< target edge length by vertex [mm]
+    std::vector<TriangleId> hints;        ///< by vertex: the source's triangle where searches begin
+    std::vector<std::uint32_t> inner_of;  ///< by vertex: its patch; kNone on rims
+    std::vector<std::uint8_t> resting;    ///< by vertex; those beyond the end do not rest
     Progress cancel;
     unsigned turns = 0;  ///< of loops
 };

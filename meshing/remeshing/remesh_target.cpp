@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "geometry/kernel/parallel.h"
 #include "meshing/remeshing/vertex_fields.h"
 
 namespace vesselbench {
@@ -20,17 +21,30 @@ constexpr double kFlatness = 2e-3;
 constexpr double kRoundness = 1e-3;
 constexpr double kRoundestEdge = 0.53;  // edge length in radii, slightly above 2 sin(15 deg)
 
+/// A walk that ends farther away than this many target lengths may have missed a closer place.
+constexpr double kFarWalk = 0.3;
+
+constexpr double kSlack = 1.0 + 1e-9;  // rounding must not exclude the hint itself
+
 }  // namespace
 
 RemeshTarget::RemeshTarget(const Surface& surface, std::span<const double> sizes)
     : surface_(surface), sizes_(sizes.begin(), sizes.end()), patches_(surface.patches.size()) {
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        patches_[(*surface.patch_labels)[t]].triangles.push_back(surface.triangles()[t]);
+        patches_[(*surface.patch_labels)[t]].triangles.push_back(t);
     find_planes();
     flatten();
-    for (PatchTarget& patch : patches_)
-        if (!patch.triangles.empty())
-            patch.search = distance_to(surface_.points(), patch.triangles);
+    normals_.resize(surface.triangle_count());
+    for_each_vertex(normals_.size(), [&](std::size_t t) {
+        normals_[t] = area_normal(surface_.points(), surface_.triangles()[t]).normalized();
+    });
+    walk_.emplace(surface_);
+    for (PatchTarget& patch : patches_) {
+        if (patch.triangles.empty()) continue;
+        std::vector<Triangle> corners;
+        for (const TriangleId t : patch.triangles) corners.push_back(triangle(t));
+        patch.search = distance_to(surface_.points(), corners);
+    }
     find_rims();
 }
 
@@ -44,18 +58,18 @@ std::optional<RemeshTarget::Plane> RemeshTarget::fitted_plane(const PatchTarget&
     const Positions& points = surface_.points();
     Vec3 normal = Vec3::Zero(), centroid = Vec3::Zero();
     double area = 0.0;
-    for (const Triangle& triangle : patch.triangles) {
-        const Vec3 n = area_normal(points, triangle);
+    for (const TriangleId t : patch.triangles) {
+        const Vec3 n = area_normal(points, triangle(t));
         const double weight = n.norm();
         normal += n;
         area += weight;
-        for (const VertexId v : triangle) centroid += weight / 3.0 * points[v];
+        for (const VertexId v : triangle(t)) centroid += weight / 3.0 * points[v];
     }
     if (!(area > 0.0) || normal.norm() < 0.9 * area) return std::nullopt;
     const Plane plane{centroid / area, normal.normalized()};
     const double allowed = kFlatness * std::sqrt(0.5 * area);
-    for (const Triangle& triangle : patch.triangles)
-        for (const VertexId v : triangle)
+    for (const TriangleId t : patch.triangles)
+        for (const VertexId v : triangle(t))
             if (std::abs((points[v] - plane.origin).dot(plane.normal)) > allowed)
                 return std::nullopt;
     return plane;
@@ -66,8 +80,8 @@ void RemeshTarget::flatten() {
     for (const PatchTarget& patch : patches_) {
         if (!patch.plane) continue;
         const auto& [origin, normal] = *patch.plane;
-        for (const Triangle& triangle : patch.triangles)
-            for (const VertexId v : triangle) flat[v] -= (flat[v] - origin).dot(normal) * normal;
+        for (const TriangleId t : patch.triangles)
+            for (const VertexId v : triangle(t)) flat[v] -= (flat[v] - origin).dot(normal) * normal;
     }
     surface_ = surface_.with_positions(std::move(flat));
 }
@@ -126,34 +140,41 @@ std::optional<RemeshTarget::Circle> RemeshTarget::fitted_circle(const RimTarget&
     return circle;
 }
 
-SurfacePoint RemeshTarget::closest(const SurfaceDistance& search,
-                                   const std::vector<Triangle>& triangles, const Vec3& x,
-                                   TriangleId near) const {
-    constexpr double kSlack = 1.0 + 1e-9;  // rounding must not exclude the hint itself
-    if (near >= triangles.size()) return search.closest_point(x);
-    const auto& [a, b, c] = triangles[near];
-    const Positions& points = surface_.points();
-    const Vec3 hint = closest_point_on_triangle(x, points[a], points[b], points[c]);
-    const auto found = search.closest_point(x, kSlack * (hint - x).norm());
-    return found ? *found : search.closest_point(x);
+SurfaceWalk::Place RemeshTarget::closest_on(std::uint32_t patch, const Vec3& x,
+                                            TriangleId near) const {
+    const PatchTarget& target = patches_[patch];
+    SurfaceWalk::Place walked;
+    if (near < normals_.size() && (*surface_.patch_labels)[near] == patch) {
+        walked = walk_->closest(x, near);
+        const double far = kFarWalk * size_at(triangle(walked.triangle), walked.weights);
+        if (walked.squared <= far * far) return walked;
+    }
+    const auto hit = target.search->closest_point(x, kSlack * std::sqrt(walked.squared));
+    const TriangleId t = hit ? target.triangles[hit->triangle] : walked.triangle;
+    return walk_->place_on(t, x);
 }
 
-double RemeshTarget::size_at(const Triangle& triangle, const Vec3& x) const {
-    const Vec3 weights = barycentric(surface_.points(), triangle, x);
+SurfacePoint RemeshTarget::closest_on(const RimTarget& rim, const Vec3& x, TriangleId near) const {
+    if (near >= rim.segments.size()) return rim.search->closest_point(x);
+    const auto& [a, b, c] = rim.segments[near];
+    const Positions& points = surface_.points();
+    const Vec3 hint = closest_point_on_triangle(x, points[a], points[b], points[c]);
+    const auto found = rim.search->closest_point(x, kSlack * (hint - x).norm());
+    return found ? *found : rim.search->closest_point(x);
+}
+
+double RemeshTarget::size_at(const Triangle& triangle, const Vec3& weights) const {
     return weights[0] * sizes_[triangle[0]] + weights[1] * sizes_[triangle[1]] +
            weights[2] * sizes_[triangle[2]];
 }
 
 TargetPlace RemeshTarget::on_patch(std::uint32_t patch, const Vec3& x, TriangleId near) const {
-    const PatchTarget& target = patches_[patch];
-    const SurfacePoint hit = closest(*target.search, target.triangles, x, near);
-    const Triangle& triangle = target.triangles[hit.triangle];
-    TargetPlace place{hit.point, Vec3::Zero(), size_at(triangle, hit.point), hit.triangle};
-    if (target.plane) {
-        place.normal = target.plane->normal;
-        place.point = x - (x - target.plane->origin).dot(place.normal) * place.normal;
-    } else {
-        place.normal = area_normal(surface_.points(), triangle).normalized();
+    const SurfaceWalk::Place hit = closest_on(patch, x, near);
+    TargetPlace place{hit.point, normals_[hit.triangle],
+                      size_at(triangle(hit.triangle), hit.weights), hit.triangle};
+    if (const auto& plane = patches_[patch].plane) {
+        place.normal = plane->normal;
+        place.point = x - (x - plane->origin).dot(place.normal) * place.normal;
     }
     return place;
 }
@@ -161,8 +182,10 @@ TargetPlace RemeshTarget::on_patch(std::uint32_t patch, const Vec3& x, TriangleI
 TargetPlace RemeshTarget::on_rim(std::uint32_t p, std::uint32_t q, const Vec3& x,
                                  TriangleId near) const {
     const RimTarget& rim = rims_.at(key(p, q));
-    const SurfacePoint hit = closest(*rim.search, rim.segments, x, near);
-    TargetPlace place{hit.point, Vec3::Zero(), size_at(rim.segments[hit.triangle], hit.point),
+    const SurfacePoint hit = closest_on(rim, x, near);
+    const Triangle& segment = rim.segments[hit.triangle];
+    TargetPlace place{hit.point, Vec3::Zero(),
+                      size_at(segment, barycentric(surface_.points(), segment, hit.point)),
                       hit.triangle};
     if (rim.circle) {
         const auto& [centre, axis, radius] = *rim.circle;

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include "geometry/kernel/errors.h"
+#include "meshing/remeshing/selected.h"
 
 namespace vesselbench {
 
@@ -17,10 +21,14 @@ constexpr double kLong = Remesher::kLong, kShort = 4.0 / 5.0;
 // slightly above twice the height of an equilateral triangle. Flips and moves shorten those.
 constexpr double kDefect = 1.2, kAfterDefect = 1.8;
 
-/// A prime above any number of half-edges: i * kScatter mod count visits each edge once in a
-/// scattered order. In index order every second row of a regular grid would be collapsed, and the
-/// remaining rows would stay too far apart in one direction.
-constexpr std::uint64_t kScatter = 4294967311ULL;
+/// The edges in a scattered order: in index order every second row of a regular grid would be
+/// collapsed, and the remaining rows would stay too far apart in one direction.
+std::vector<EditMesh::HalfEdge> scattered(std::vector<EditMesh::HalfEdge> edges) {
+    constexpr std::uint32_t kGolden = 2654435769U;  // odd: no two edges share a place
+    std::sort(edges.begin(), edges.end(),
+              [](std::uint32_t g, std::uint32_t h) { return g * kGolden < h * kGolden; });
+    return edges;
+}
 
 constexpr double kMostLift = 0.05;  // in target edges: twice the lift for 14 edges around
 
@@ -66,16 +74,23 @@ double cotangent(const Vec3& at, const Vec3& p, const Vec3& q) {
 }  // namespace
 
 bool Remesher::is_long(HalfEdge h, double limit) const {
-    if (mesh.origin(h) == EditMesh::kNone || mesh.origin(h) > mesh.target(h)) return false;
-    if (mesh.is_hole(mesh.patch_at(h)) && mesh.is_hole(mesh.patch_at(mesh.twin(h)))) return false;
-    return length(h) > limit * wanted(mesh.origin(h), mesh.target(h));
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    if (a == EditMesh::kNone || a > b || !is_above(h, limit) || rests(h)) return false;
+    return !(mesh.is_hole(mesh.patch_at(h)) && mesh.is_hole(mesh.patch_at(mesh.twin(h))));
 }
 
 double Remesher::longest_share() const {
-    double longest = 0.0;
-    for (HalfEdge h = 0; h < mesh.half_edge_count(); ++h)
-        if (is_long(h, longest)) longest = length(h) / wanted(mesh.origin(h), mesh.target(h));
-    return longest;
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.half_edge_count(), 4096), 0.0,
+        [&](const auto& range, double longest) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                const auto h = static_cast<HalfEdge>(i);
+                if (is_long(h, longest))
+                    longest = length(h) / wanted(mesh.origin(h), mesh.target(h));
+            }
+            return longest;
+        },
+        [](double one, double other) { return std::max(one, other); });
 }
 
 void Remesher::check_size() const {
@@ -83,6 +98,31 @@ void Remesher::check_size() const {
     throw AlgorithmFailure("remeshing would make more than " +
                            std::to_string(kMostTriangles / 1'000'000) +
                            " million triangles; use a larger edge");
+}
+
+void Remesher::set_sizes(const std::vector<double>& source_sizes) {
+    constexpr int kRings = 3;
+    constexpr double kSame = 0.99;
+    target.set_sizes(source_sizes);
+    std::vector<std::uint8_t> rest(mesh.vertex_count(), 1);
+    for_all(rest.size(), cancel, [&](VertexId v) {
+        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) return;
+        const VertexKind kind = kind_of(v);
+        if (kind.features != 0 && kind.features != 2) return;
+        const double before = sizes[v];
+        move(v, place_for(v, kind, mesh.points[v]));
+        if (sizes[v] < kSame * before) rest[v] = 0;
+    });
+    for (int ring = 0; ring < kRings; ++ring) {
+        const std::vector<std::uint8_t> last = rest;
+        for_all(rest.size(), cancel, [&](VertexId v) {
+            if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) return;
+            mesh.for_each_leaving(v, [&](HalfEdge h) {
+                if (last[mesh.target(h)] == 0) rest[v] = 0;
+            });
+        });
+    }
+    resting = std::move(rest);
 }
 
 void Remesher::split_long_edges(double limit) {
@@ -96,39 +136,40 @@ void Remesher::split_long_edges(double limit) {
 
 void Remesher::split_edges_above(double limit) {
     for (int pass = 0; pass < kMostPasses; ++pass) {
-        const std::size_t count = mesh.half_edge_count();
-        for (HalfEdge h = 0; h < count; ++h) {
+        const auto edges =
+            selected(mesh.half_edge_count(), cancel, [&](HalfEdge h) { return is_long(h, limit); });
+        if (edges.empty()) return;
+        for (const HalfEdge h : edges) {
             check_cancelled();
-            if (!is_long(h, limit)) continue;
             check_size();
-            const VertexId a = mesh.origin(h), b = mesh.target(h);
-            const VertexId near = mesh.is_feature(h) && kind_of(a).features != 2 ? b : a;
-            const VertexId m = mesh.split(h, 0.5 * (mesh.points[a] + mesh.points[b]));
-            sizes.push_back(wanted(a, b));
-            hints.push_back(hints[near]);
+            const VertexId m = split(h);
             const TargetPlace place = place_for(m, kind_of(m), mesh.points[m]);
             if (move_keeps_shape(m, place.point)) move(m, place);
         }
-        if (mesh.half_edge_count() == count) return;
     }
 }
 
+bool Remesher::is_short(HalfEdge h) const {
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    return a != EditMesh::kNone && a < b && !is_above(h, kShort) && !rests(h) && !is_hub(a) &&
+           !is_hub(b);
+}
+
 void Remesher::collapse_short_edges() {
-    const std::uint64_t count = mesh.half_edge_count();
     Touched touched(mesh.vertex_count());
+    const auto may = [&](HalfEdge h) {
+        return is_short(h) && (touched[mesh.origin(h)] || touched[mesh.target(h)]) &&
+               (may_collapse(h, kLong) || may_collapse(mesh.twin(h), kLong));
+    };
     do {
         touched.begin_pass();
-        for (std::uint64_t i = 0; i < count; ++i) {
+        for (const HalfEdge h : scattered(selected(mesh.half_edge_count(), cancel, may))) {
             check_cancelled();
-            const auto h = static_cast<HalfEdge>(i * kScatter % count);
-            if (mesh.origin(h) == EditMesh::kNone) continue;
+            if (!is_short(h)) continue;
             const VertexId a = mesh.origin(h), b = mesh.target(h);
-            if (a > b || !(touched[a] || touched[b])) continue;
-            if (is_hub(a) || is_hub(b) || length(h) >= kShort * wanted(a, b)) continue;
-            const HalfEdge g = mesh.twin(h);
             const bool to_b = may_collapse(h, kLong);
-            if (!to_b && !may_collapse(g, kLong)) continue;
-            mesh.collapse(to_b ? h : g);
+            if (!to_b && !may_collapse(mesh.twin(h), kLong)) continue;
+            mesh.collapse(to_b ? h : mesh.twin(h));
             mesh.for_each_leaving(to_b ? b : a, [&](HalfEdge k) { touched.add(mesh.target(k)); });
         }
     } while (touched.any() && touched.passes() < kMostPasses);
@@ -149,19 +190,22 @@ int Remesher::collapse_valence_excess(HalfEdge h) const {
            square(d);
 }
 
+bool Remesher::is_defect(HalfEdge h) const {
+    const VertexId a = mesh.origin(h), b = mesh.target(h);
+    return a != EditMesh::kNone && collapse_valence_excess(h) <= 0 && !is_above(h, kDefect) &&
+           !rests(h) && !is_hub(a) && !is_hub(b);
+}
+
 void Remesher::collapse_defects() {
     count_valences();
-    const std::uint64_t count = mesh.half_edge_count();
-    for (std::uint64_t i = 0; i < count; ++i) {
+    for (const HalfEdge h : scattered(selected(mesh.half_edge_count(), cancel, [&](HalfEdge k) {
+             return is_defect(k) && may_collapse(k, kAfterDefect);
+         }))) {
         check_cancelled();
-        const auto h = static_cast<HalfEdge>(i * kScatter % count);
-        if (mesh.origin(h) == EditMesh::kNone) continue;
-        const VertexId a = mesh.origin(h), b = mesh.target(h);
-        if (is_hub(a) || is_hub(b) || length(h) > kDefect * wanted(a, b)) continue;
-        if (collapse_valence_excess(h) > 0 || !may_collapse(h, kAfterDefect)) continue;
+        if (!is_defect(h) || !may_collapse(h, kAfterDefect)) continue;
         --valence_[mesh.apex(h)];
         --valence_[mesh.apex(mesh.twin(h))];
-        valence_[b] += valence_[a] - 4;
+        valence_[mesh.target(h)] += valence_[mesh.origin(h)] - 4;
         mesh.collapse(h);
     }
     mesh.compact();
@@ -178,10 +222,12 @@ int Remesher::flip_valence_excess(HalfEdge h) const {
 }
 
 bool Remesher::flip_helps(HalfEdge h, FlipRule rule) const {
+    if (mesh.origin(h) == EditMesh::kNone || h > mesh.twin(h)) return false;
+    if (mesh.is_feature(h) || mesh.is_hole(mesh.patch_at(h)) || rests(h)) return false;
+    if (rule == FlipRule::Valence) return flip_valence_excess(h) < 0;
     const Vec3 &a = mesh.points[mesh.origin(h)], &b = mesh.points[mesh.target(h)],
                &c = mesh.points[mesh.apex(h)], &d = mesh.points[mesh.apex(mesh.twin(h))];
-    if (rule == FlipRule::Angle) return cotangent(c, a, b) + cotangent(d, a, b) < -1e-9;
-    return flip_valence_excess(h) < 0;
+    return cotangent(c, a, b) + cotangent(d, a, b) < -1e-9;
 }
 
 void Remesher::flip_edges(FlipRule rule) {
@@ -189,14 +235,16 @@ void Remesher::flip_edges(FlipRule rule) {
     Touched touched(mesh.vertex_count());
     do {
         touched.begin_pass();
-        for (HalfEdge h = 0; h < mesh.half_edge_count(); ++h) {
+        const auto edges = selected(mesh.half_edge_count(), cancel, [&](HalfEdge h) {
+            if (mesh.origin(h) == EditMesh::kNone) return false;
+            return (touched[mesh.origin(h)] || touched[mesh.target(h)]) && flip_helps(h, rule) &&
+                   mesh.can_flip(h) && flip_keeps_shape(h);
+        });
+        for (const HalfEdge h : edges) {
             check_cancelled();
-            if (mesh.origin(h) == EditMesh::kNone || h > mesh.twin(h)) continue;
-            const VertexId a = mesh.origin(h), b = mesh.target(h);
-            if (!(touched[a] || touched[b])) continue;
-            if (mesh.is_feature(h) || mesh.is_hole(mesh.patch_at(h))) continue;
             if (!flip_helps(h, rule) || !mesh.can_flip(h) || !flip_keeps_shape(h)) continue;
-            const VertexId c = mesh.apex(h), d = mesh.apex(mesh.twin(h));
+            const VertexId a = mesh.origin(h), b = mesh.target(h), c = mesh.apex(h),
+                           d = mesh.apex(mesh.twin(h));
             mesh.flip(h);
             --valence_[a], --valence_[b], ++valence_[c], ++valence_[d];
             for (const VertexId v : {a, b, c, d}) touched.add(v);
@@ -246,34 +294,38 @@ Vec3 Remesher::shapely_position(VertexId v) const {
     return count > 0.0 ? Vec3(sum / count) : mesh.points[v];
 }
 
-Vec3 Remesher::relaxed_position(VertexId v, const VertexKind& kind, RelaxRule rule) const {
+Vec3 Remesher::relaxed_position(VertexId v, const VertexKind& kind, const Vec3& normal,
+                                RelaxRule rule) const {
     if (kind.features == 2) return middle_on_rim(v);
     const Vec3& at = mesh.points[v];
     const Vec3 step = (rule == RelaxRule::Size ? centroid_around(v) : shapely_position(v)) - at;
-    const Vec3 normal = normal_at(v);
     return at + step - step.dot(normal) * normal;
 }
 
 void Remesher::relax(RelaxRule rule) {
-    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-        check_cancelled();
-        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
+    std::vector<std::optional<TargetPlace>> places(mesh.vertex_count());
+    for_all(places.size(), cancel, [&](VertexId v) {
+        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v) || RemeshState::rests(v)) return;
         const VertexKind kind = kind_of(v);
-        if (kind.features != 0 && kind.features != 2) continue;
-        const TargetPlace place = place_for(v, kind, relaxed_position(v, kind, rule));
+        if (kind.features != 0 && kind.features != 2) return;
+        const Vec3 normal = normal_at(v);
+        const TargetPlace place = place_for(v, kind, relaxed_position(v, kind, normal, rule));
         // Near another wall the closest place may be on that wall.
-        if (!place.normal.isZero(0.0) && place.normal.dot(normal_at(v)) < 0.0) continue;
-        if (move_keeps_shape(v, place.point)) move(v, place);
+        if (!place.normal.isZero(0.0) && place.normal.dot(normal) < 0.0) return;
+        places[v] = place;
+    });
+    for (VertexId v = 0; v < places.size(); ++v) {
+        check_cancelled();
+        if (places[v] && move_keeps_shape(v, places[v]->point)) move(v, *places[v]);
     }
 }
 
 void Remesher::keep_volume() {
     Positions lifted = mesh.points;
-    for (VertexId v = 0; v < mesh.vertex_count(); ++v) {
-        check_cancelled();
-        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) continue;
+    for_all(lifted.size(), cancel, [&](VertexId v) {
+        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) return;
         const VertexKind kind = kind_of(v);
-        if (kind.features != 0 || target.plane_normal(kind.p)) continue;
+        if (kind.features != 0 || target.plane_normal(kind.p)) return;
         const Vec3 normal = normal_at(v);
         double sum = 0.0, count = 0.0;
         mesh.for_each_leaving(v, [&](HalfEdge h) {
@@ -283,7 +335,7 @@ void Remesher::keep_volume() {
         });
         const double most = kMostLift * sizes[v];
         lifted[v] += std::clamp(sum / count, -most, most) * normal;
-    }
+    });
     mesh.points = std::move(lifted);
 }
 

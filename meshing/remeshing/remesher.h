@@ -6,8 +6,9 @@
 
 namespace vesselbench {
 
-/// The passes of remeshing over a whole surface. They are sequential and visit edges and vertices
-/// in the order of their numbers, so that the same input gives the same bits. All throw Cancelled.
+/// The passes of remeshing over a whole surface. What a pass has to do is found, and new places are
+/// computed, on all threads; edits are made on one, in an order that follows from the mesh alone,
+/// so that the same input gives the same bits for any number of threads. All throw Cancelled.
 class Remesher : public RemeshState {
 public:
     using RemeshState::RemeshState;
@@ -17,6 +18,11 @@ public:
 
     /// Finer meshes are refused: they would only fill the memory.
     static constexpr std::size_t kMostTriangles = 10'000'000;
+
+    /// Changes the target edge lengths [mm], by vertex of the source: returns all vertices to the
+    /// source, and from now on the passes leave alone what is more than three edges away from any
+    /// place with a shorter length than before.
+    void set_sizes(const std::vector<double>& source_sizes);
 
     /// Splits edges longer than `limit` target lengths until there are none.
     /// \throw AlgorithmFailure beyond kMostTriangles
@@ -49,7 +55,20 @@ public:
     void keep_volume();
 
 private:
+    [[nodiscard]] bool is_above(HalfEdge h, double limit) const {
+        const double most = limit * wanted(mesh.origin(h), mesh.target(h));
+        return (mesh.points[mesh.origin(h)] - mesh.points[mesh.target(h)]).squaredNorm() >
+               most * most;
+    }
+
+    [[nodiscard]] bool rests(HalfEdge h) const {
+        return RemeshState::rests(mesh.origin(h)) && RemeshState::rests(mesh.target(h));
+    }
+
+    // The first of an edge's half-edges has these properties, in target lengths.
     [[nodiscard]] bool is_long(HalfEdge h, double limit) const;
+    [[nodiscard]] bool is_short(HalfEdge h) const;
+    [[nodiscard]] bool is_defect(HalfEdge h) const;
     void check_size() const;
     [[nodiscard]] double longest_share() const;  ///< of all edges, in target lengths
     void split_edges_above(double limit);
@@ -57,7 +76,8 @@ private:
     [[nodiscard]] int collapse_valence_excess(HalfEdge h) const;
     [[nodiscard]] bool flip_helps(HalfEdge h, FlipRule rule) const;
     [[nodiscard]] int flip_valence_excess(HalfEdge h) const;
-    [[nodiscard]] Vec3 relaxed_position(VertexId v, const VertexKind& kind, RelaxRule rule) const;
+    [[nodiscard]] Vec3 relaxed_position(VertexId v, const VertexKind& kind, const Vec3& normal,
+                                        RelaxRule rule) const;
     [[nodiscard]] Vec3 middle_on_rim(VertexId v) const;
     [[nodiscard]] Vec3 centroid_around(VertexId v) const;
     [[nodiscard]] Vec3 shapely_position(VertexId v) const;

@@ -95,6 +95,18 @@ std::vector<double> outer_gaps(const Surface& surface, double reach) {
     return gaps;
 }
 
+/// The longest edge whose triangles stay within the deviation of a wall of this curvature [mm].
+double printable_edge(double resolution, double curvature, double radius) {
+    // A triangle's middle is edge^2 / 6 times the curvature below a ball; edges scatter by a third.
+    constexpr double kSquares = 5.0;
+    constexpr double kMostPerRadius = 0.7;  // 9 edges around
+    const double most = kMostPerRadius * radius;
+    if (!(resolution > 0.0)) return 0.0;
+    return curvature * most * most > kSquares * resolution
+               ? std::sqrt(kSquares * resolution / curvature)
+               : most;
+}
+
 }  // namespace
 
 double slope_of(double gradation) {
@@ -138,16 +150,20 @@ std::vector<double> sizing_field(const Surface& surface, const std::vector<doubl
     progress.report(0.0, "measuring curvature");
     const std::vector<double> curvature = curvatures(surface, parameters.edge);
     progress.report(0.4, "measuring gaps");
-    const std::vector<double> gaps =
-        outer_gaps(surface, 2.0 * parameters.gap_edges * parameters.max_edge);
+    double longest = parameters.max_edge;
+    for (std::size_t v = 0; v < radii.size(); ++v)
+        longest = std::max(longest, printable_edge(parameters.resolution, curvature[v], radii[v]));
+    const std::vector<double> gaps = outer_gaps(surface, 2.0 * parameters.gap_edges * longest);
     // An edge that the user wants long for its vessel exceeds `turn` on every wall.
     const double turn = std::max(parameters.turn, 1.5 * parameters.edge / usual);
     std::vector<double> sizes(radii.size());
     for (std::size_t v = 0; v < sizes.size(); ++v) {
         double size = parameters.edge * radii[v] / usual;
         if (curvature[v] * size > turn) size = turn / curvature[v];
-        size = std::min(size, gaps[v] / parameters.gap_edges);
-        sizes[v] = std::clamp(size, parameters.min_edge, parameters.max_edge);
+        const double printable = printable_edge(parameters.resolution, curvature[v], radii[v]);
+        const double most = std::max(parameters.max_edge, printable);
+        size = std::min(std::max(size, printable), gaps[v] / parameters.gap_edges);
+        sizes[v] = std::clamp(size, parameters.min_edge, most);
     }
     progress.report(0.8, "limiting the gradation");
     limit_slope(surface, slope_of(parameters.gradation), sizes);

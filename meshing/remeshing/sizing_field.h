@@ -15,6 +15,10 @@ struct SizingParameters {
     double gradation = 1.5;  ///< largest ratio of neighbouring edges [-], > 1
     double turn = 0.7;       ///< an edge spans at most this angle of the curved wall [rad]
     double gap_edges = 1.0;  ///< edges that fit into the gap to the opposite wall [-]
+    /// For prints: edges are as long as a deviation of this much allows, but at most 0.7 of the
+    /// vessel's radius, if that is longer than the rules above permit (not that of gaps) [mm]; 0:
+    /// no.
+    double resolution = 0.0;
 };
 
 /// The median radius over the wall's area [mm]. \throw InvalidInput without a wall

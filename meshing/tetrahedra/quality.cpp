@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include <tbb/parallel_for.h>
+
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -51,7 +53,7 @@ SideBuckets side_buckets(const VolumeMesh& mesh) {
 std::vector<std::uint32_t> cells_behind(const VolumeMesh& mesh) {
     const SideBuckets buckets = side_buckets(mesh);
     std::vector<std::uint32_t> behind(4 * mesh.tetrahedra.size(), kOutside);
-    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    tbb::parallel_for(std::size_t{0}, mesh.points.size(), [&](std::size_t v) {
         for (std::uint32_t i = buckets.offsets[v]; i < buckets.offsets[v + 1]; ++i)
             for (std::uint32_t j = i + 1; j < buckets.offsets[v + 1]; ++j) {
                 const Side &a = buckets.sides[i], &b = buckets.sides[j];
@@ -61,6 +63,7 @@ std::vector<std::uint32_t> cells_behind(const VolumeMesh& mesh) {
                 behind[a.cell_face] = b.cell_face / 4;
                 behind[b.cell_face] = a.cell_face / 4;
             }
+    });
     return behind;
 }
 
@@ -175,10 +178,10 @@ double boundary_skewness(const VolumeMesh& mesh, const MeshFace& face, const Vec
     return length / (extent + 1e-300);
 }
 
-void add_faces(const VolumeMesh& mesh, const std::vector<CellShape>& shapes,
-               VolumeQuality& quality) {
+void add_faces(const VolumeMesh& mesh, std::span<const MeshFace> faces,
+               const std::vector<CellShape>& shapes, VolumeQuality& quality) {
     double cosines = 0.0, ratios = 0.0;
-    for (const MeshFace& face : mesh_faces(mesh)) {
+    for (const MeshFace& face : faces) {
         ++quality.faces;
         const Vec3 normal = area_normal(mesh.points, face.corners);
         const CellShape& owner = shapes[face.owner];
@@ -260,13 +263,17 @@ std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh) {
 }
 
 VolumeQuality volume_quality(const VolumeMesh& mesh) {
+    return volume_quality(mesh, mesh_faces(mesh));
+}
+
+VolumeQuality volume_quality(const VolumeMesh& mesh, std::span<const MeshFace> faces) {
     VolumeQuality quality;
     quality.points = mesh.points.size();
     quality.cells = mesh.tetrahedra.size();
     std::vector<CellShape> shapes;
     shapes.reserve(mesh.tetrahedra.size());
     add_cells(mesh, quality, shapes);
-    add_faces(mesh, shapes, quality);
+    add_faces(mesh, faces, shapes, quality);
     return quality;
 }
 

@@ -48,6 +48,9 @@ struct VolumeQuality {
 
 [[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh);
 
+/// The same if the mesh's faces are known.
+[[nodiscard]] VolumeQuality volume_quality(const VolumeMesh& mesh, std::span<const MeshFace> faces);
+
 /// Only the largest_non_orthogonality [deg], for known faces.
 /// \param faces of mesh_faces
 [[nodiscard]] double largest_non_orthogonality(const VolumeMesh& mesh,

@@ -26,10 +26,25 @@ std::array<VertexId, 2> others(const Tetrahedron& cell, VertexId a, VertexId b) 
 }  // namespace
 
 TetStore::TetStore(const VolumeMesh& mesh)
-    : points(mesh.points), stars_(mesh.points.size()), on_boundary_(mesh.points.size(), 0) {
-    for (const Tetrahedron& cell : mesh.tetrahedra) add(cell);
+    : points(mesh.points),
+      cells_(mesh.tetrahedra),
+      alive_(mesh.tetrahedra.size(), 1),
+      stars_(mesh.points.size()),
+      on_boundary_(mesh.points.size(), 0) {
+    fill_stars();
     for (const Triangle& triangle : mesh.boundary)
         for (const VertexId v : triangle) on_boundary_[v] = 1;
+}
+
+void TetStore::fill_stars() {
+    constexpr std::uint32_t kSpare = 8;  // exchanges let stars grow a little
+    std::vector<std::uint32_t> counts(points.size(), 0);
+    for (const Tetrahedron& cell : cells_)
+        for (const VertexId v : cell) ++counts[v];
+    for (std::size_t v = 0; v < stars_.size(); ++v)
+        if (counts[v] > 0) stars_[v].reserve(counts[v] + kSpare);
+    for (CellId cell = 0; cell < cells_.size(); ++cell)
+        for (const VertexId v : cells_[cell]) stars_[v].push_back(cell);
 }
 
 bool TetStore::find_ring(VertexId a, VertexId b, std::size_t largest, Ring& ring) const {
@@ -61,29 +76,36 @@ std::optional<TetStore::CellId> TetStore::behind(CellId cell, int corner) const 
     return std::nullopt;
 }
 
-void TetStore::replace(const std::vector<CellId>& old, const std::vector<Tetrahedron>& fresh) {
-    for (const CellId cell : old) remove(cell);
-    for (const Tetrahedron& cell : fresh) add(cell);
+void TetStore::provide(Slots& slots, std::size_t count) {
+    while (slots.size() < count) {
+        slots.push_back(static_cast<CellId>(cells_.size()));
+        cells_.push_back({});
+        alive_.push_back(0);
+    }
+}
+
+bool TetStore::replace(const std::vector<CellId>& old, const std::vector<Tetrahedron>& fresh,
+                       Slots& slots, std::vector<CellId>& added) {
+    added.clear();
+    if (slots.size() + old.size() < fresh.size()) return false;
+    for (const CellId cell : old) {
+        remove(cell);
+        slots.push_back(cell);
+    }
+    for (const Tetrahedron& cell : fresh) {
+        const CellId id = slots.back();
+        slots.pop_back();
+        cells_[id] = cell;
+        alive_[id] = 1;
+        for (const VertexId v : cell) stars_[v].push_back(id);
+        added.push_back(id);
+    }
+    return true;
 }
 
 void TetStore::remove(CellId cell) {
     alive_[cell] = 0;
-    free_.push_back(cell);
     for (const VertexId v : cells_[cell]) std::erase(stars_[v], cell);
-}
-
-void TetStore::add(const Tetrahedron& cell) {
-    CellId id = static_cast<CellId>(cells_.size());
-    if (free_.empty()) {
-        cells_.push_back(cell);
-        alive_.push_back(1);
-    } else {
-        id = free_.back();
-        free_.pop_back();
-        cells_[id] = cell;
-        alive_[id] = 1;
-    }
-    for (const VertexId v : cell) stars_[v].push_back(id);
 }
 
 std::vector<Tetrahedron> TetStore::cells() const {

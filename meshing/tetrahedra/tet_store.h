@@ -11,6 +11,9 @@ namespace vesselbench {
 
 /// A tetrahedral mesh under modification: each vertex knows its cells; cells are removed and added.
 /// The boundary triangles do not change.
+///
+/// Several threads may modify it, each within its own group of vertices: a thread may replace cells
+/// whose corners are all in its group, and use the slots of one list that no other thread uses.
 class TetStore {
 public:
     using CellId = std::uint32_t;
@@ -43,7 +46,17 @@ public:
     /// The cell behind the face opposite to corner `corner`, unless that face is on the boundary.
     [[nodiscard]] std::optional<CellId> behind(CellId cell, int corner) const;
 
-    void replace(const std::vector<CellId>& old, const std::vector<Tetrahedron>& fresh);
+    /// Free slots for new cells.
+    using Slots = std::vector<CellId>;
+
+    /// Adds free slots to a list until it has `count`.
+    void provide(Slots& slots, std::size_t count);
+
+    /// Replaces cells, if there are enough slots for the new ones; freed slots go to the list.
+    /// \param added receives the new cells
+    [[nodiscard]] bool replace(const std::vector<CellId>& old,
+                               const std::vector<Tetrahedron>& fresh, Slots& slots,
+                               std::vector<CellId>& added);
 
     /// The live cells, in order.
     [[nodiscard]] std::vector<Tetrahedron> cells() const;
@@ -51,12 +64,11 @@ public:
     Positions points;  ///< [mm]
 
 private:
+    void fill_stars();
     void remove(CellId cell);
-    void add(const Tetrahedron& cell);
 
     std::vector<Tetrahedron> cells_;
     std::vector<std::uint8_t> alive_;
-    std::vector<CellId> free_;
     std::vector<std::vector<CellId>> stars_;
     std::vector<std::uint8_t> on_boundary_;
 };

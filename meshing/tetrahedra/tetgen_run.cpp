@@ -15,6 +15,16 @@ namespace {
 // TetGen's refinement callback takes no context.
 thread_local const TooLarge* current_wish = nullptr;
 
+/// For as long as TetGen runs, however it ends.
+struct Wish {
+    explicit Wish(const TooLarge& wish) { current_wish = wish ? &wish : nullptr; }
+
+    ~Wish() { current_wish = nullptr; }
+
+    Wish(const Wish&) = delete;
+    Wish& operator=(const Wish&) = delete;
+};
+
 bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL* /*metric*/, REAL /*volume*/) {
     const Vec3 pa(a[0], a[1], a[2]), pb(b[0], b[1], b[2]), pc(c[0], c[1], c[2]),
         pd(d[0], d[1], d[2]);
@@ -116,10 +126,8 @@ TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
     if (!tetgen_guard_is_linked()) return result;
     tetgenio input, output;
     fill_input(surface, input);
-    if (too_large) {
-        current_wish = &too_large;
-        input.tetunsuitable = unsuitable;
-    }
+    const Wish wish(too_large);
+    if (too_large) input.tetunsuitable = unsuitable;
     std::string text = switches + "Q";
     try {
         tetrahedralize(text.data(), &input, &output);
@@ -128,7 +136,6 @@ TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
         result.error_code = code;
         result.error = tetgen_error_text(code);
     }
-    current_wish = nullptr;
     return result;
 }
 

@@ -75,17 +75,18 @@ std::vector<std::size_t> patch_counts(const PatchLabels& labels, std::size_t pat
 }
 
 // Groups of cells connected through faces; more than one group means that the region fell apart.
-std::size_t region_count(const VolumeMesh& mesh) {
+std::size_t region_count(const VolumeMesh& mesh, std::span<const MeshFace> faces) {
     DisjointSets sets(mesh.tetrahedra.size());
     std::size_t regions = mesh.tetrahedra.size();
-    for (const MeshFace& face : mesh_faces(mesh))
+    for (const MeshFace& face : faces)
         if (face.neighbour != MeshFace::kOutside && sets.join(face.owner, face.neighbour))
             --regions;
     return regions;
 }
 
 // How the mesh departs from the surface; empty if it does not.
-std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surface) {
+std::string loss(const VolumeMesh& mesh, std::span<const MeshFace> faces, const Surface& surface,
+                 bool keeps_surface) {
     if (mesh.tetrahedra.empty()) return "no cells";
     const double wanted = volume(surface), got = volume(mesh);
     if (std::abs(got - wanted) > kVolumeTolerance * wanted)
@@ -104,7 +105,7 @@ std::string loss(const VolumeMesh& mesh, const Surface& surface, bool keeps_surf
     for (std::size_t k = 0; k < patches; ++k)
         if (std::abs(after[k] - before[k]) > kVolumeTolerance * (before[k] + 1e-12))
             return "patch " + surface.patches[k].name + " lost area";
-    return region_count(mesh) == 1 ? "" : "the cells form several regions";
+    return region_count(mesh, faces) == 1 ? "" : "the cells form several regions";
 }
 
 // Points that fill a tetrahedron evenly, as weights of three of its corners.
@@ -126,16 +127,17 @@ struct VolumeSample {
 class Mesher {
 public:
     Mesher(const Surface& surface, const TetrahedralizeParameters& parameters,
-           TetrahedralizeReport& report, const Progress& progress)
+           TetrahedralizeReport& report, Progress progress)
         : surface_(surface),
           sizes_(surface, parameters.growth),
           rungs_(ladder(parameters.quality)),
           report_(report),
-          progress_(progress) {}
+          progress_(std::move(progress)) {}
 
     // One mesh, made by the first rung of the ladder that works.
     VolumeMesh mesh(double factor) {
         const TooLarge too_large = [&](const Vec3& centre, double cell_volume) {
+            report_progress();
             const double h = sizes_.at(centre, factor);
             return cell_volume > kVolumeBound * h * h * h;
         };
@@ -143,7 +145,8 @@ public:
             progress_.check_cancelled();
             TetgenResult result = run_tetgen(surface_, rung.switches, too_large);
             std::string failure = result.error;
-            if (failure.empty()) failure = loss(result.mesh, surface_, rung.keeps_surface);
+            if (failure.empty())
+                failure = loss(result.mesh, mesh_faces(result.mesh), surface_, rung.keeps_surface);
             report_.attempts.push_back(
                 rung.switches + " (" + rung.remedy + "), size " + formatted(factor, "%.4g") + ": " +
                 (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
@@ -178,11 +181,21 @@ public:
     }
 
 private:
+    /// TetGen reports nothing, but asks about every cell that it may divide; how many there will
+    /// be is not known.
+    void report_progress() {
+        constexpr std::size_t kBetween = 1 << 14, kMany = 1 << 20;
+        if (++asked_ % kBetween == 0)
+            progress_.report(static_cast<double>(asked_) / static_cast<double>(asked_ + kMany),
+                             "filling the lumen");
+    }
+
     const Surface& surface_;
     SizeField sizes_;
     std::vector<Rung> rungs_;
     TetrahedralizeReport& report_;
-    const Progress& progress_;
+    Progress progress_;
+    std::size_t asked_ = 0;
 };
 
 double expected_cells(const std::vector<VolumeSample>& samples, double factor) {
@@ -242,19 +255,22 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
                                      const Progress& progress) {
     TetrahedralizeResult result;
     progress.report(0.0, "checking the surface");
-    check_input(given, result.report, progress);
+    check_input(given, result.report, progress.part(0.0, 0.1));
     // TetGen would take unused vertices as points of the lumen.
     const Surface surface =
         select_triangles(given, std::vector<bool>(given.triangle_count(), true));
     progress.report(0.1, "filling the lumen");
-    Mesher mesher(surface, parameters, result.report, progress);
+    Mesher mesher(surface, parameters, result.report, progress.part(0.1, 0.5));
     result.mesh = mesh_of_size(mesher, parameters, result.report);
+    progress.report(0.5, "measuring the cells");
     result.report.raw = volume_quality(result.mesh);
     if (parameters.improve > 0)
         result.mesh =
-            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.5, 0.95));
+            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.55, 0.95));
+    progress.report(0.95, "checking the cells");
     result.mesh = in_cell_order(std::move(result.mesh));
-    const std::string lost = loss(result.mesh, surface, result.report.surface_kept);
+    const std::vector<MeshFace> faces = mesh_faces(result.mesh);
+    const std::string lost = loss(result.mesh, faces, surface, result.report.surface_kept);
     if (!lost.empty())
         throw AlgorithmFailure("tetrahedralize: the improved mesh is not valid (" + lost +
                                "); use improve=0");
@@ -262,7 +278,7 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
         result.report.warnings.emplace_back(
             "TetGen had to divide triangles of the surface: the volume mesh's boundary is finer "
             "than the surface");
-    result.report.quality = volume_quality(result.mesh);
+    result.report.quality = volume_quality(result.mesh, faces);
     if (parameters.cells) warn_of_number(*parameters.cells, result.report);
     return result;
 }

@@ -70,15 +70,16 @@ Surface to_surface(const LabelledMesh& labelled, const std::vector<Patch>& patch
 RemeshingRun cgal_isotropic(const Surface& surface, double edge) {
     LabelledMesh labelled = to_mesh(surface);
     const Stopwatch watch;
+    const std::clock_t start = std::clock();
     pmp::isotropic_remeshing(faces(labelled.mesh), edge, labelled.mesh,
                              CGAL::parameters::number_of_iterations(kIterations)
                                  .number_of_relaxation_steps(3)
                                  .face_patch_map(labelled.patch)
                                  .edge_is_constrained_map(labelled.feature)
                                  .relax_constraints(true));
-    const double seconds = watch.seconds();
+    const double seconds = watch.seconds(), processor = processor_seconds(start);
     labelled.mesh.collect_garbage();
-    return {to_surface(labelled, surface.patches), seconds};
+    return {to_surface(labelled, surface.patches), seconds, processor};
 }
 
 }  // namespace vesselbench::bench

@@ -1,9 +1,11 @@
 // Times our remeshing beside CGAL's isotropic remeshing to the same edge length, and prints a row
-// each: seconds, triangles made a second, the worst and mean triangle, change of the volume.
+// each: seconds, and those of all processors, triangles made a second, the worst and mean triangle,
+// change of the volume.
 //   bench_remeshing EDGE_MM SURFACE...    surfaces in mm
 
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <string>
 
@@ -20,16 +22,18 @@ namespace {
 
 RemeshingRun ours(const Surface& surface, RemeshMode mode, double edge) {
     const Stopwatch watch;
+    const std::clock_t start = std::clock();
     Surface result = remesh(surface, {.mode = mode, .edge = edge}).surface;
-    return {std::move(result), watch.seconds()};
+    return {std::move(result), watch.seconds(), processor_seconds(start)};
 }
 
 void print_row(const char* name, const Surface& source, const RemeshingRun& run) {
     const SurfaceMeasures facts = measure(run.surface);
     const auto count = static_cast<double>(run.surface.triangle_count());
     std::printf(
-        "  %-22s %8zu  %8.2f s  %8.0f triangles/s  skewness %.3f to %.3f  volume %+.3f %%\n", name,
-        run.surface.triangle_count(), run.seconds, count / run.seconds,
+        "  %-22s %8zu  %8.2f s (processor %6.2f s)  %8.0f triangles/s  skewness %.3f to %.3f  "
+        "volume %+.3f %%\n",
+        name, run.surface.triangle_count(), run.seconds, run.processor, count / run.seconds,
         facts.equiangle_skewness.mean, facts.equiangle_skewness.max,
         100.0 * (volume(run.surface) / volume(source) - 1.0));
     std::fflush(stdout);

@@ -12,6 +12,7 @@
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/surface_distance.h"
 #include "meshing/remeshing/remesher.h"
+#include "meshing/remeshing/surface_walk.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -158,6 +159,81 @@ SCENARIO("A coarse source is not split into slivers of slivers", "[meshing][reme
     remesher.split_long_edges();
     const double wanted = area(bar) / (std::sqrt(3.0) / 4.0 * kEdge * kEdge);
     CHECK(static_cast<double>(remesher.mesh.triangle_count()) < 12.0 * wanted);
+}
+
+SCENARIO("A walk finds the closest place, and stays on its sheet", "[meshing][remesh]") {
+    GIVEN("a sphere and a place near it") {
+        const Surface sphere = icosphere(5.0, 4);
+        const SurfaceWalk walk(sphere);
+        const SurfaceDistance search(sphere);
+        for (VertexId v = 0; v < sphere.vertex_count(); v += 97) {
+            const Vec3 x = 1.02 * sphere.points()[v] + Vec3(0.1, -0.2, 0.15);
+            const TriangleId from = sphere.topology->triangles_at().row(v)[0];
+            const SurfaceWalk::Place place = walk.closest(x, from);
+            CHECK(std::sqrt(place.squared) == Approx(search.closest_point(x).distance));
+            CHECK((place.point - x).squaredNorm() == Approx(place.squared));
+            CHECK(place.weights.sum() == Approx(1.0));
+        }
+    }
+    GIVEN("a dent close to the wall, and a place below the wall") {
+        const Surface body = dented(0.01);
+        const SurfaceDistance search(body);
+        const SurfacePoint below = search.closest_point(Vec3(0, 0, -5.1));
+        const SurfaceWalk::Place place =
+            SurfaceWalk(body).closest(Vec3(0.0, 0.0, -4.988), below.triangle);
+        CHECK(place.point.z() < -4.995);
+    }
+}
+
+SCENARIO("What is far from any change rests", "[meshing][remesh]") {
+    const Surface tube = closed_tube(1.0, 20.0, 40, 200);
+    std::vector<double> sizes(tube.vertex_count(), 0.3), finer = sizes;
+    Remesher remesher(tube, sizes, tube);
+    remesher.split_long_edges();
+    remesher.collapse_short_edges();
+    const Surface before = remesher.result();
+    for (VertexId v = 0; v < finer.size(); ++v)
+        if (tube.points()[v].z() > 15.0) finer[v] = 0.15;
+    remesher.set_sizes(finer);
+    remesher.split_long_edges();
+    remesher.relax(Remesher::RelaxRule::Shape);
+    const Surface after = remesher.result();
+    const auto count_in = [](const Surface& surface, double low, double high) {
+        return std::ranges::count_if(surface.points(),
+                                     [&](const Vec3& p) { return low < p.z() && p.z() < high; });
+    };
+    CHECK(count_in(after, 0.0, 12.0) == count_in(before, 0.0, 12.0));
+    CHECK(count_in(after, 16.0, 20.0) > 2 * count_in(before, 16.0, 20.0));
+}
+
+SCENARIO("A print has the triangles that its resolution needs", "[meshing][remesh]") {
+    const Surface tube = mapped(closed_tube(3.0, 60.0, 200, 600), [](const Vec3& p) {
+        const double factor = 1.0 - 0.7 * p.z() / 60.0;  // radius 3 to 0.9 mm
+        return Vec3(factor * p.x(), factor * p.y() + 2.0 * std::sin(p.z() / 6.0), p.z());
+    });
+    const Remeshed usual = remesh(tube), print = remesh(tube, {.resolution = 0.1}),
+                   fine = remesh(tube, {.resolution = 0.02});
+    check_sound(print.surface, true);
+    check_quality(print.report);
+    CHECK(2 * print.report.triangles_after < usual.report.triangles_after);
+    CHECK(print.report.triangles_after < fine.report.triangles_after);
+    const SurfaceDistance to_print(print.surface), to_tube(tube);
+    double largest = 0.0;
+    for (const Vec3& p : tube.points())
+        largest = std::max(largest, to_print.closest_point(p).distance);
+    for (const Vec3& p : print.surface.points())
+        largest = std::max(largest, to_tube.closest_point(p).distance);
+    CHECK(largest < 0.1);
+    CHECK(volume(print.surface) == Approx(volume(tube)).epsilon(0.01));
+}
+
+SCENARIO("Remeshing reports its progress, which never goes back", "[meshing][remesh]") {
+    std::vector<double> reports;
+    const Progress progress([&](double fraction, auto) { reports.push_back(fraction); }, {});
+    static_cast<void>(remesh(dented(0.01), {.edge = 0.5}, nullptr, progress));
+    CHECK(reports.size() >= 15);
+    CHECK(std::ranges::is_sorted(reports));
+    CHECK(reports.back() <= 1.0);
 }
 
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {

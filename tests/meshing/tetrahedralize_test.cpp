@@ -102,6 +102,20 @@ SCENARIO("closed surfaces are filled with well-shaped cells", "[meshing][tetrahe
     }
 }
 
+SCENARIO("filling and improving report their progress", "[meshing][tetrahedralize]") {
+    std::vector<double> reports;
+    const Progress progress([&](double fraction, auto) { reports.push_back(fraction); }, {});
+    const auto result =
+        tetrahedralized(test::fine_tube(2.0, 10.0, 24), {.cells = 40000.0}, progress);
+    REQUIRE(result.mesh.tetrahedra.size() > 20'000);
+    const auto within = [&](double from, double to) {
+        return std::ranges::count_if(reports, [&](double at) { return from < at && at < to; });
+    };
+    CHECK(within(0.1, 0.5) >= 2);     // in TetGen
+    CHECK(within(0.55, 0.95) >= 10);  // in the improvement
+    CHECK(std::ranges::is_sorted(reports));
+}
+
 SCENARIO("the number of cells follows the request", "[meshing][tetrahedralize]") {
     const Surface tube = test::fine_tube(2.0, 10.0, 24);
     for (const double cells : {5000.0, 12000.0, 40000.0}) {

@@ -31,7 +31,8 @@ RemeshParameters parameters_from(const Arguments& arguments) {
             .edge = arguments.optional_real("edge"),
             .min_edge = arguments.optional_real("min_edge"),
             .max_edge = arguments.optional_real("max_edge"),
-            .gradation = arguments.real("gradation")};
+            .gradation = arguments.real("gradation"),
+            .resolution = arguments.real("print_resolution")};
 }
 
 Report report_from(const RemeshReport& figures) {
@@ -66,11 +67,15 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     Outcome outcome;
     outcome.resolved = arguments;
     const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.3));
+    // An edge length that was asked for is no subject of the printer's resolution.
+    if (arguments.has("edge") || arguments.text("mode") == "uniform")
+        outcome.resolved.set("print_resolution", 0.0);
     Remeshed remeshed =
-        remesh(surface, parameters_from(arguments), lines.get(), progress.part(0.3, 1.0));
+        remesh(surface, parameters_from(outcome.resolved), lines.get(), progress.part(0.3, 1.0));
     const RemeshReport& figures = remeshed.report;
-    outcome.resolved.set("edge", figures.edge);
-    if (arguments.text("mode") == "graded") {
+    const bool for_print = outcome.resolved.real("print_resolution") > 0.0;
+    if (!for_print) outcome.resolved.set("edge", figures.edge);
+    if (arguments.text("mode") == "graded" && !for_print) {
         outcome.resolved.set("min_edge", figures.min_edge);
         outcome.resolved.set("max_edge", figures.max_edge);
     }
@@ -155,7 +160,15 @@ Operation remesh_operation() {
               .default_value = 1.5,
               .help = "graded: largest ratio of neighbouring edge lengths",
               .minimum = 1.05,
-              .maximum = 3.0}},
+              .maximum = 3.0},
+             {.name = "print_resolution",
+              .unit = "mm",
+              .default_value = 0.0,
+              .help = "graded, without edge: a print needs no triangles for less deviation than "
+                      "this: edges are as long as it allows, at most 0.7 of the radius; 0: no "
+                      "print; prepare --for rp uses 0.1",
+              .minimum = 0.0,
+              .maximum = 10.0}},
         .run = &run,
         .thesis = "3.3.2, 4.2.9",
         .search = {.parameters = &searched_parameters,
