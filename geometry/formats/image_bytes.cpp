@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -15,6 +16,8 @@
 #include <zlib.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 
@@ -146,6 +149,18 @@ std::size_t checked_voxel_count(const std::array<long long, 3>& size, const std:
         count *= static_cast<std::size_t>(n);
     }
     return count;
+}
+
+std::string detached_bytes(const std::string& header, const std::string& other,
+                           const std::string& name) {
+    if (other.starts_with("LIST") || other.find('%') != std::string::npos)
+        bad_file(name, "its voxels are in several files", "save it as one file");
+    if (other.empty() || printable(other) != other)
+        bad_file(name, "the name of its voxel file is '" + shortened(printable(other)) + "'",
+                 "export the file again");
+    const std::filesystem::path file(other);
+    return file_content(
+        (file.is_absolute() ? file : std::filesystem::path(header).parent_path() / file).string());
 }
 
 bool is_gzip(std::string_view bytes) {

@@ -39,6 +39,12 @@ struct ImageHeader {
 [[nodiscard]] std::size_t checked_voxel_count(const std::array<long long, 3>& size,
                                               const std::string& name);
 
+/// The content of the voxel file that a detached header names, relative to the header's folder.
+/// \param header path \param other name of the voxel file, as in the header
+/// \throw InvalidInput if these are several files, or no file can have the name; IoError
+[[nodiscard]] std::string detached_bytes(const std::string& header, const std::string& other,
+                                         const std::string& name);
+
 /// True if the bytes start like a gzip stream.
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -137,11 +136,7 @@ std::string data_bytes(const std::string& path, const std::string& all, const He
                        const std::string& name) {
     const std::string& other = header.fields.at("elementdatafile");
     if (other == "LOCAL" || other == "Local" || other == "local") return all.substr(header.data);
-    if (other.starts_with("LIST") || other.find('%') != std::string::npos)
-        bad_file(name, "its voxels are in several files", "save it as one file");
-    const std::filesystem::path file(other);
-    return file_content(
-        (file.is_absolute() ? file : std::filesystem::path(path).parent_path() / file).string());
+    return detached_bytes(path, other, name);
 }
 
 Image decoded(const ImageHeader& header, std::string_view data, const Fields& fields,

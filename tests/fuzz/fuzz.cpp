@@ -206,12 +206,16 @@ void show(Board& board, const std::string& text) {
     const int err = open((place / "stderr").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
     dup2(err, STDERR_FILENO);
     dup2(err, STDOUT_FILENO);
+    std::ofstream said(place.parent_path() / "said.txt", std::ios::app);
     for (std::uint64_t seed = first; seed < end; ++seed) {
         (void)!ftruncate(err, 0);
         board.seed = seed;
         limit_time(kSeconds, kWallSeconds);
         const Reading reading = fuzzer.run(seed, place, board);
         ++board.counts[fuzzer.format_of(seed)][static_cast<std::size_t>(reading.verdict)];
+        said << seed << ' ' << fuzzer.formats()[fuzzer.format_of(seed)] << ' '
+             << static_cast<int>(reading.verdict) << ' '
+             << reading.text.substr(0, reading.text.find('\n')) << std::endl;
         const bool kept = reading.verdict == Verdict::Finding ||
                           (reading.verdict == Verdict::Contained && board.by_program);
         if (!kept) continue;

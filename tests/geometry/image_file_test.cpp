@@ -231,6 +231,18 @@ SCENARIO("MetaImage headers of all kinds are understood", "[images][io]") {
     }
 }
 
+SCENARIO("A detached header names a file that can exist", "[images][io][bad-input]") {
+    for (const std::string& name : {std::string("\0d.raw", 6), std::string("\x1b[31m.raw")}) {
+        const std::string nrrd =
+            "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 1\nencoding: raw\n";
+        const std::string meta =
+            "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n";
+        for (const std::string& path : {write_text("d.nhdr", nrrd + "data file: " + name + "\n"),
+                                        write_text("d.mhd", meta + "ElementDataFile = " + name)})
+            CHECK_THAT(message_of(path), Contains("name of its voxel file is '\\x"));
+    }
+}
+
 SCENARIO("A VTK image keeps its direction matrix", "[images][io]") {
     vtkNew<vtkImageData> data;
     data->SetExtent(2, 4, 0, 3, 0, 1);
