@@ -372,7 +372,8 @@ std::vector<Parameter> resolved_parameters() {
          .unit = "mm",
          .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
                  "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
-                 "stub was removed"}};
+                 "stub was removed",
+         .meaning = Meaning::Planes}};
 }
 
 std::vector<Parameter> parameters() {

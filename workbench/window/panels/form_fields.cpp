@@ -106,6 +106,14 @@ void draw_label(const PanelContext& c, const FormField& field, float width) {
 }
 
 /// \return true if the mouse or the keyboard is in the field's line
+/// What an earlier run or a stroke has to fill in: no user types it.
+bool is_recorded(const FormField& field) {
+    const Meaning meaning = field.parameter->meaning;
+    const bool resolved =
+        meaning == Meaning::Planes || meaning == Meaning::Patches || meaning == Meaning::Dabs;
+    return resolved && field.text.empty();
+}
+
 bool draw_field(PanelContext& c, const FormField& field) {
     const float whole = ImGui::GetContentRegionAvail().x, label = whole * 0.4F;
     const float left = ImGui::GetCursorPosX();
@@ -131,7 +139,7 @@ const Parameter* draw_form_fields(PanelContext& c, OperationForm& form) {
     // Editing a field changes the form: its fields are read one by one.
     for (std::size_t i = 0; i < form.fields().size(); ++i) {
         const FormField field = form.fields()[i];
-        if (field.active && draw_field(c, field)) shown = field.parameter;
+        if (field.active && !is_recorded(field) && draw_field(c, field)) shown = field.parameter;
     }
     return shown;
 }
