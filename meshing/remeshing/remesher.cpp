@@ -15,7 +15,7 @@ namespace vesselbench {
 namespace {
 
 // Botsch & Kobbelt's limits: splitting and collapsing then do not undo each other.
-constexpr double kLong = Remesher::kLong, kShort = 4.0 / 5.0;
+constexpr double kShort = 4.0 / 5.0;
 
 // Longest edges that may be collapsed for better valences, and longest edges that may result:
 // slightly above twice the height of an equilateral triangle. Flips and moves shorten those.
