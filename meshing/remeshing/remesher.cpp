@@ -15,7 +15,7 @@ namespace vesselbench {
 namespace {
 
 // Botsch & Kobbelt's limits: splitting and collapsing then do not undo each other.
-constexpr double kLong = Remesher::kLong, kShort = 4.0 / 5.0;
+constexpr double kShort = 4.0 / 5.0;
 
 // Longest edges that may be collapsed for better valences, and longest edges that may result:
 // slightly above twice the height of an equilateral triangle. Flips and moves shorten those.
@@ -30,7 +30,8 @@ std::vector<EditMesh::HalfEdge> scattered(std::vector<EditMesh::HalfEdge> edges)
     return edges;
 }
 
-constexpr double kMostLift = 0.05;  // in target edges: twice the lift for 14 edges around
+constexpr double kMostLift =
+    0.08;  // in target edges: a third more than the lift for 9 edges around
 
 constexpr int kMostPasses = 12;  // of splits or collapses in one step; each halves the rest
 

@@ -431,7 +431,7 @@ std::size_t Improver::move() {
     tbb::parallel_for(std::size_t{0}, count,
                       [&](std::size_t v) { place[v] = place_of(static_cast<VertexId>(v)); });
     std::vector<std::size_t> moved(ranges_ + 1, 0);
-    for (std::uint8_t i = 0; i < kPartitions.size(); ++i)
+    for (std::size_t i = 0; i < kPartitions.size(); ++i)
         tbb::parallel_for(
             std::size_t{0}, ranges_,
             [&](std::size_t range) {

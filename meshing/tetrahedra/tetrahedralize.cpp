@@ -145,8 +145,9 @@ public:
             progress_.check_cancelled();
             TetgenResult result = run_tetgen(surface_, rung.switches, too_large);
             std::string failure = result.error;
-            if (failure.empty())
-                failure = loss(result.mesh, mesh_faces(result.mesh), surface_, rung.keeps_surface);
+            std::vector<MeshFace> faces;
+            if (failure.empty()) faces = mesh_faces(result.mesh);
+            if (failure.empty()) failure = loss(result.mesh, faces, surface_, rung.keeps_surface);
             report_.attempts.push_back(
                 rung.switches + " (" + rung.remedy + "), size " + formatted(factor, "%.4g") + ": " +
                 (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
@@ -154,6 +155,7 @@ public:
             if (!failure.empty()) continue;
             report_.switches = rung.switches;
             report_.surface_kept = rung.keeps_surface;
+            report_.raw = volume_quality(result.mesh, faces);
             return std::move(result.mesh);
         }
         throw AlgorithmFailure(
@@ -262,11 +264,9 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
     progress.report(0.1, "filling the lumen");
     Mesher mesher(surface, parameters, result.report, progress.part(0.1, 0.5));
     result.mesh = mesh_of_size(mesher, parameters, result.report);
-    progress.report(0.5, "measuring the cells");
-    result.report.raw = volume_quality(result.mesh);
     if (parameters.improve > 0)
         result.mesh =
-            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.55, 0.95));
+            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.5, 0.95));
     progress.report(0.95, "checking the cells");
     result.mesh = in_cell_order(std::move(result.mesh));
     const std::vector<MeshFace> faces = mesh_faces(result.mesh);

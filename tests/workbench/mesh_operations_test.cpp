@@ -73,6 +73,19 @@ SCENARIO("remesh decides its edges once and replays them", "[workbench][remesh]"
     CHECK_THROWS_AS(run("remesh", tube, {{"min_edge", 1.0}, {"max_edge", 0.5}}), UsageError);
 }
 
+SCENARIO("remesh for a print replays too, and gives way to an edge", "[workbench][remesh]") {
+    const Surface tube = closed_tube(2.0, 20.0, 40, 60);
+    const Outcome usual = run("remesh", tube, {});
+    const Outcome print = run("remesh", tube, {{"print_resolution", 0.1}});
+    CHECK(2 * print.scene.surface->triangle_count() < usual.scene.surface->triangle_count());
+    CHECK_FALSE(print.resolved.has("edge"));
+    const Outcome again = run("remesh", tube, print.resolved);
+    CHECK(again.scene.surface->points() == print.scene.surface->points());
+    const Outcome asked = run("remesh", tube, {{"print_resolution", 0.1}, {"edge", 0.5}});
+    CHECK(asked.resolved.real("print_resolution") == 0.0);
+    CHECK(asked.scene.surface->triangle_count() > usual.scene.surface->triangle_count());
+}
+
 SCENARIO("subdivide splits each triangle into four", "[workbench][subdivide]") {
     const Outcome outcome = run("subdivide", icosphere(5.0, 2), {});
     CHECK(outcome.scene.surface->triangle_count() == 4 * 320);

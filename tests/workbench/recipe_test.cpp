@@ -101,6 +101,9 @@ SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {
                 const auto names = operations_of(default_recipe(use));
                 INFO(input << " " << purpose);
                 CHECK(std::ranges::count(names, "remesh") == 1);
+                for (const RecipeEntry& entry : default_recipe(use))
+                    if (entry.given.operation().name == "remesh")
+                        CHECK(entry.given->has("print_resolution") == (purpose == "rp"));
                 CHECK(std::ranges::count(names, "extract-surface") == (input == "image" ? 1 : 0));
                 CHECK(names.back() == (purpose == "cfd" ? "tetrahedralize" : "print-check"));
             }
