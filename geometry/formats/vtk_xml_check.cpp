@@ -1,9 +1,13 @@
 #include "geometry/formats/vtk_xml_check.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 
+#include "geometry/formats/image_bytes.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -67,6 +71,7 @@ public:
         big_endian_ = attribute(file, "byte_order") == "BigEndian";
         const std::string_view compressor = attribute(file, "compressor").value_or("");
         compressed_ = !compressor.empty();
+        zlib_ = compressor.find("ZLib") != std::string_view::npos;
         ratio_ = !compressed_                                        ? 1
                  : compressor.find("LZMA") != std::string_view::npos ? kLzmaRatio
                                                                      : kZlibRatio;
@@ -98,7 +103,76 @@ public:
         }
     }
 
+    /// Lists of texts: VTK writes as many as the data holds, beyond the announced number too.
+    void check_texts() const {
+        for (auto at = head_.find("<Array"); at != std::string_view::npos;
+             at = head_.find("<Array", at + 1)) {
+            const std::string_view tag = tag_at(at);
+            const auto texts = number(attribute(tag, "NumberOfTuples"));
+            const auto parts = number(attribute(tag, "NumberOfComponents").value_or("1"));
+            if (!texts || !parts) damaged("a list of texts does not announce its length");
+            if (texts_in(tag, head_.substr(at + tag.size())) > *texts * std::min(*parts, size_))
+                damaged("a list of texts is longer than announced");
+        }
+    }
+
 private:
+    /// Texts of a list, each of which ends with a zero. \param rest of the file after the tag
+    [[nodiscard]] std::uint64_t texts_in(std::string_view tag, std::string_view rest) const {
+        const auto format = attribute(tag, "format");
+        const std::string_view text =
+            rest.substr(0, rest.find('<', 1)).substr(rest.empty() ? 0 : 1);
+        if (format == "appended") {
+            check_appended(tag);
+            return zeros(content(data_.substr(*number(attribute(tag, "offset"))), raw_));
+        }
+        if (format == "binary") {
+            const auto first = text.find_first_not_of(" \t\r\n");
+            if (first == std::string_view::npos) return 0;
+            check_block(text.substr(first), false);
+            return zeros(content(text.substr(first), false));
+        }
+        std::istringstream words{std::string(text)};
+        std::uint64_t count = 0;
+        for (std::string word; words >> word;) count += std::strtol(word.c_str(), nullptr, 10) == 0;
+        return count;
+    }
+
+    static std::uint64_t zeros(const std::string& bytes) {
+        return static_cast<std::uint64_t>(std::ranges::count(bytes, '\0'));
+    }
+
+    /// The bytes of a checked block.
+    [[nodiscard]] std::string content(std::string_view block, bool raw) const {
+        const std::size_t word = wide_ ? 8 : 4;
+        const auto plain = [&](std::string_view part, std::size_t wanted) {
+            std::string bytes = raw ? std::string(part.substr(0, wanted)) : decoded(part, wanted);
+            if (bytes.size() < wanted) damaged("a list of texts is cut off");
+            bytes.resize(wanted);
+            return bytes;
+        };
+        const std::uint64_t first = *word_at(plain(block, word), 0);
+        if (!compressed_) return plain(block, word + first).substr(word);
+        if (first == 0) return {};
+        if (!zlib_) damaged("its texts are compressed in an unusual way (use zlib)");
+        const std::size_t head_bytes = (3 + first) * word;
+        const std::string head = plain(block, head_bytes);
+        block.remove_prefix(std::min(block.size(), raw ? head_bytes : (head_bytes + 2) / 3 * 4));
+        std::uint64_t stored = 0;
+        for (std::uint64_t i = 0; i < first; ++i) stored += *word_at(head, 3 + i);
+        const std::string all = plain(block, stored);
+        std::string result;
+        std::size_t at = 0;
+        for (std::uint64_t i = 0; i < first; ++i) {
+            const std::uint64_t bytes = *word_at(head, 3 + i), last = *word_at(head, 2);
+            const bool is_short = i + 1 == first && last != 0;
+            result += inflated(std::string_view(all).substr(at, bytes),
+                               is_short ? last : *word_at(head, 1), name_);
+            at += bytes;
+        }
+        return result;
+    }
+
     [[noreturn]] void damaged(const std::string& what) const {
         throw InvalidInput(name_ + ": " + what + ": it is damaged; copy or download it again");
     }
@@ -167,7 +241,7 @@ private:
 
     const std::string& name_;
     std::string_view head_, data_;
-    bool raw_ = false, wide_ = false, big_endian_ = false, compressed_ = false;
+    bool raw_ = false, wide_ = false, big_endian_ = false, compressed_ = false, zlib_ = false;
     std::uint64_t ratio_ = 1, size_ = 0;
 };
 
@@ -182,6 +256,7 @@ void require_vtk_xml(std::string_view bytes, const std::string& name) {
     const Checker checker(bytes, name);
     checker.check_counts();
     checker.check_arrays();
+    checker.check_texts();
 }
 
 }  // namespace vesselbench

@@ -7,6 +7,10 @@
 
 #include <catch2/catch.hpp>
 #include <sys/resource.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
 
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
@@ -296,6 +300,43 @@ SCENARIO("A VTP file that announces huge arrays is refused at once", "[geometry]
         std::ofstream(file, std::ios::binary) << damaged;
         CHECK_THROWS_WITH(read_surface(file), Catch::Contains("cube.vtp announces an array"));
     }
+}
+
+SCENARIO("A VTP file's lists of texts hold no more than announced", "[geometry][io][bad-input]") {
+    const std::string file = temporary_folder() + "/tube.vtp";
+    write_surface(closed_tube(2.0, 8.0, 12, 4), file);  // PatchNames: wall, inlet, outlet_1
+    REQUIRE(read_surface(file).surface.patches.size() == 3);
+    std::string text = bytes_of(file);
+    const std::string key = "NumberOfTuples=\"3\"";
+    REQUIRE(text.find(key) != std::string::npos);
+    text.replace(text.find(key), key.size(), "NumberOfTuples=\"1\"");
+    std::ofstream(file, std::ios::binary) << text;
+    CHECK_THROWS_WITH(read_surface(file), Catch::Contains("texts is longer than announced"));
+    const auto list_of = [](const std::string& count) {
+        return "<VTKFile type=\"PolyData\" version=\"0.1\"><PolyData><FieldData><Array "
+               "type=\"String\" "
+               "Name=\"PatchNames\" NumberOfTuples=\"" +
+               count + "\" format=\"ascii\">97 0 98 0</Array></FieldData></PolyData></VTKFile>";
+    };
+    CHECK_THROWS_WITH(read_surface(written("a.vtp", list_of("1"))), Catch::Contains("texts"));
+    CHECK_THROWS_WITH(read_surface(written("a.vtp", list_of("2"))), !Catch::Contains("texts"));
+}
+
+SCENARIO("A VTP file's lists of texts are read in every encoding", "[geometry][io]") {
+    const std::string file = temporary_folder() + "/tube.vtp";
+    write_surface(closed_tube(2.0, 8.0, 12, 4), file);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(reader->GetOutput());
+    writer->SetFileName(file.c_str());
+    writer->SetDataMode(
+        GENERATE(vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended));
+    if (GENERATE(false, true)) writer->SetCompressorTypeToNone();
+    writer->SetEncodeAppendedData(GENERATE(0, 1));
+    REQUIRE(writer->Write() == 1);
+    CHECK(read_surface(file).surface.patches.size() == 3);
 }
 
 SCENARIO("A failed write leaves no file behind", "[geometry][io]") {
