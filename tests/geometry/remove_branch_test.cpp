@@ -1,6 +1,7 @@
 #include "geometry/vessel/openings/remove_branch.h"
 
 #include <cmath>
+#include <functional>
 
 #include <catch2/catch.hpp>
 
@@ -12,6 +13,10 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/branch_part.h"
+#include "geometry/vessel/openings/clip.h"
+#include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/lost_vessels.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
@@ -136,5 +141,105 @@ SCENARIO("A branch is named by a point at its tip", "[geometry][remove-branch]")
     THEN("a vessel without a parent has no part") {
         CHECK_THROWS_WITH(branch_part(fine_tube(4, 30, 24), Vec3(0, 0, 30), 0.4),
                           Catch::Contains("no parent"));
+    }
+}
+
+SCENARIO("A vessel that a later surface has no longer is found", "[geometry][openings]") {
+    const Surface with_branch = branched(Vec3(16, 0, 20), 2.0, 1.0, 0.3);
+    const auto graph = centerlines_of(with_branch);
+    const auto node = nearest_tip(*graph, Vec3(16, 0, 20));
+    REQUIRE(node);
+    THEN("one is, with its place, if the branch is removed") {
+        const auto lost = lost_vessels(*graph, remove_branch(with_branch, *graph, *node).surface);
+        REQUIRE(lost.size() == 1);
+        CHECK(lost[0].length == Approx(13.5).margin(1.5));
+        CHECK(lost[0].diameter == Approx(2.0).epsilon(0.1));
+        CHECK((lost[0].place - Vec3(9, 0, 20)).norm() < 1.5);
+    }
+    THEN("none is if the ends are cut") {
+        const OpeningPlan plan = plan_openings(with_branch, *graph);
+        const Surface opened = clip_openings(with_branch, plan, {}, graph.get()).surface;
+        CHECK(lost_vessels(*graph, opened).empty());
+        CHECK(openings_in_walls(with_branch, opened).empty());
+    }
+}
+
+SCENARIO("An opening in a vessel's side is found", "[geometry][openings]") {
+    const Surface tube = closed_tube(2.0, 30.0, 40, 90);
+    PatchLabels labels = *tube.patch_labels;
+    for (TriangleId t = 0; t < tube.triangle_count(); ++t) {
+        const Triangle& c = tube.triangles()[t];
+        const Vec3 middle = (tube.points()[c[0]] + tube.points()[c[1]] + tube.points()[c[2]]) / 3.0;
+        if ((middle - Vec3(2, 0, 15)).norm() < 1.0)
+            labels[t] = static_cast<std::uint16_t>(tube.patches.size());
+    }
+    std::vector<Patch> patches = tube.patches;
+    patches.push_back({"outlet_2", PatchKind::Outlet});
+    const Surface opened = tube.with_patches(labels, patches);
+    CHECK(openings_in_walls(tube, opened) == std::vector<std::size_t>{patches.size() - 1});
+    CHECK(openings_in_walls(opened, opened).empty());
+}
+
+namespace {
+
+/// The triangles whose middle is kept.
+Surface without(const Surface& surface, const std::function<bool(const Vec3&)>& gone) {
+    std::vector<Triangle> kept;
+    for (const Triangle& t : surface.triangles()) {
+        const Positions& x = surface.points();
+        if (!gone((x[t[0]] + x[t[1]] + x[t[2]]) / 3.0)) kept.push_back(t);
+    }
+    return repair(make_surface(surface.points(), kept)).surface;
+}
+
+std::string told(const OpeningPlan& plan) {
+    std::string text;
+    for (const EndRecord& end : plan.ends)
+        text += to_string(end.fate) + " " + std::to_string(end.place.x()) + " " +
+                std::to_string(end.place.z()) + " " + end.why + "\n";
+    return text;
+}
+
+}  // namespace
+
+SCENARIO("A stub without a whole section is removed", "[geometry][openings]") {
+    const Surface with_stub = without(branched(Vec3(6, 0, 20), 2.0, 1.2, 0.3), [](const Vec3& p) {
+        return p.x() > 2.45 + 0.35 * std::sin(2.0 * std::atan2(p.y(), p.z() - 20.0));
+    });
+    const auto graph = centerlines_of(with_stub);
+    const OpeningPlan plan = plan_openings(with_stub, *graph);
+    INFO(told(plan));
+    REQUIRE(plan.closings.size() == 1);
+    CHECK(plan.closings[0].way == ClosingWay::RemoveStub);
+    const auto removed = std::ranges::find(plan.ends, EndFate::Removed, &EndRecord::fate);
+    REQUIRE(removed != plan.ends.end());
+    CHECK_THAT(removed->why, Catch::Contains("stub"));
+    const ClippedSurface made = clip_openings(with_stub, plan, {}, graph.get());
+    CHECK(made.failed.empty());
+    CHECK(is_closed_manifold(made.surface));
+    for (const Vec3& p : made.surface.points()) CHECK(p.x() < 2.4);
+}
+
+SCENARIO("A vessel that ends in its furcation is cut across it", "[geometry][openings]") {
+    // Both branches end less than a radius behind the furcation, with ragged rims.
+    const Surface ending = without(branched(Vec3(8, 0, 20), 2.0, 1.3, 0.2), [](const Vec3& p) {
+        return p.z() > 22.6 + 0.35 * std::sin(3.0 * std::atan2(p.y(), p.x())) ||
+               p.x() > 2.9 + 0.35 * std::sin(3.0 * std::atan2(p.y(), p.z() - 20.0));
+    });
+    REQUIRE(ending.topology->boundary_loops().size() == 2);
+    const auto graph = centerlines_of(ending);
+    const auto tip = nearest_tip(*graph, Vec3(0, 0, 22.6));
+    REQUIRE(tip);
+    const auto on_trunk = [](const OpeningPlace& place) { return place.plane.point.z() < 19.5; };
+    const auto place = place_across_furcation(ending, *graph, *tip, on_trunk);
+    REQUIRE(place);
+    CHECK(place->plane.point.z() > 14.0);
+    CHECK(angle_deg(place->plane.normal, Vec3::UnitZ()) < 5.0);
+    CHECK(place->distance == Approx(22.6 - place->plane.point.z()).margin(1.0));
+    const Surface cut = clip_branch(ending, place->plane, {"inlet", PatchKind::Inlet});
+    CHECK(cut.topology->boundary_loops().empty());  // both ragged ends are gone
+    THEN("no such place is taken where none is accepted") {
+        CHECK_FALSE(place_across_furcation(ending, *graph, *tip,
+                                           [](const OpeningPlace&) { return false; }));
     }
 }

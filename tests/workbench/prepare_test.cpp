@@ -7,11 +7,13 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/export/export_formats.h"
+#include "workbench/prepare/model_check.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -67,6 +69,14 @@ SCENARIO("A phantom becomes a model for planning and one for surgery simulation"
         CHECK((purpose == "planning") == (skewness > 0.2));  // only simulation asks for good ones
         CHECK_THAT(text_of(out + "/report.html"), Contains("Model for"));
     }
+}
+
+SCENARIO("A model that has lost a vessel is an error", "[workbench][prepare]") {
+    const Surface tube = closed_tube(2.0, 30.0, 40, 90);
+    CHECK_NOTHROW(check_vessels(tube, closed_tube(2.0, 29.0, 40, 90), {}));
+    CHECK_THROWS_WITH(
+        check_vessels(tube, closed_tube(2.0, 12.0, 40, 90), {}),
+        Contains("lost vessels") && Contains("diameter 4") && Contains("clip-opening"));
 }
 
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {

@@ -14,6 +14,7 @@
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/apply_recipe.h"
+#include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/session/stored_recipes.h"
 
@@ -191,6 +192,42 @@ void keep_recipes(const fs::path& project, const Input& input) {
     if (input.recipes) store_recipes(project, input.recipes->dump());
 }
 
+/// True if the recipe leaves it to clip-opening which ends it opens where, and removes nothing
+/// afterwards: a vessel that is missing then is missing unasked.
+bool decides_by_itself(const Recipe& recipe, Recipe::const_iterator cut) {
+    for (const char* asked : {"tip", "distance", "radii", "planes"})
+        if (cut->given->has(asked)) return false;
+    return std::none_of(cut + 1, recipe.end(), [](const RecipeEntry& entry) {
+        const std::string& name = entry.given.operation().name;
+        return name == "remove-branch" || name == "crop" || name == "clip-opening";
+    });
+}
+
+/// Applies the recipe; a model that has lost vessels, or an opening in a vessel's side, is an
+/// error.
+std::vector<std::string> apply_checked(Session& session, const Recipe& recipe,
+                                       const std::string& variant, const Teller& tell,
+                                       const Progress& progress) {
+    const auto cut = std::ranges::find_if(
+        recipe, [](const RecipeEntry& entry) { return entry.given.operation().recipe.cuts_ends; });
+    if (cut == recipe.end() || cut == recipe.begin() || !decides_by_itself(recipe, cut))
+        return apply_recipe(session, recipe, variant, tell, progress);
+    const double size = static_cast<double>(recipe.size());
+    const double until = static_cast<double>(cut - recipe.begin()) / size;
+    auto warnings = apply_recipe(session, Recipe(recipe.begin(), cut), variant, tell,
+                                 progress.part(0.0, until));
+    const Surface before = surface_of(session.scene(variant));
+    const auto add = [&](const Recipe& part, double from, double to) {
+        const auto more = apply_recipe(session, part, variant, tell, progress.part(from, to));
+        warnings.insert(warnings.end(), more.begin(), more.end());
+    };
+    add({*cut}, until, until + 1.0 / size);
+    check_openings(before, surface_of(session.scene(variant)));
+    add(Recipe(cut + 1, recipe.end()), until + 1.0 / size, 0.98);
+    check_vessels(before, surface_of(session.scene(variant)), progress.part(0.98, 1.0));
+    return warnings;
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
     keep_earlier_products(options, tell);
@@ -240,8 +277,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             any_edit = true;
             tell(text);
         };
-        prepared.warnings = apply_recipe(session, recipe, options.purpose, noting,
-                                         progress.part(0.02, kEditsShare));
+        prepared.warnings = apply_checked(session, recipe, options.purpose, noting,
+                                          progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
         const std::string openings = openings_text(surface_of(prepared.scene));
         if (!openings.empty()) tell("openings: " + openings);
