@@ -225,6 +225,20 @@ std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     return warnings;
 }
 
+/// Of flat ends that were kept although the vessel behind them runs another way.
+std::vector<std::string> tilt_warnings(const Resolved& resolved) {
+    constexpr double kNoticedTiltDeg = 10.0;
+    std::vector<std::string> warnings;
+    for (const ordered_json& opening : resolved.openings)
+        if (opening["kept"] == true && opening["tilt_deg"].is_number() &&
+            opening["tilt_deg"] > kNoticedTiltDeg)
+            warnings.push_back(opening["name"].get<std::string>() +
+                               ": its flat end was kept, tilted by " +
+                               formatted(opening["tilt_deg"], "%.0f") +
+                               " degrees against the vessel's axis; strict=true cuts it across");
+    return warnings;
+}
+
 /// What to say of outlets that look like inlets; empty if there are none.
 std::string further_inlets(const Surface& surface) {
     const std::vector<std::size_t> likely = likely_inlets(surface);
@@ -274,6 +288,8 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     outcome.warnings = end_warnings(made.plan);
     outcome.warnings.insert(outcome.warnings.end(), made.plan.warnings.begin(),
                             made.plan.warnings.end());
+    for (std::string& warning : tilt_warnings(resolved))
+        outcome.warnings.push_back(std::move(warning));
     const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
     if (const std::string text = own_choice ? further_inlets(made.surface) : ""; !text.empty())
         outcome.warnings.push_back(text);

@@ -198,8 +198,9 @@ bool decides_by_itself(const Recipe& recipe, Recipe::const_iterator cut) {
     for (const char* asked : {"tip", "distance", "radii", "planes"})
         if (cut->given->has(asked)) return false;
     return std::none_of(cut + 1, recipe.end(), [](const RecipeEntry& entry) {
-        const std::string& name = entry.given.operation().name;
-        return name == "remove-branch" || name == "crop" || name == "clip-opening";
+        const Operation& operation = entry.given.operation();
+        return operation.recipe.cuts_ends || operation.usual_step == Step::Source ||
+               operation.usual_step == Step::Branches;
     });
 }
 
