@@ -12,14 +12,17 @@ namespace vesselbench {
 
 namespace {
 
-// TetGen's refinement callback takes no context.
-thread_local const TooLarge* current_wish = nullptr;
+/// TetGen's refinement callback takes no context.
+const TooLarge*& current_wish() {
+    thread_local const TooLarge* wish = nullptr;
+    return wish;
+}
 
 /// For as long as TetGen runs, however it ends.
 struct Wish {
-    explicit Wish(const TooLarge& wish) { current_wish = wish ? &wish : nullptr; }
+    explicit Wish(const TooLarge& wish) { current_wish() = wish ? &wish : nullptr; }
 
-    ~Wish() { current_wish = nullptr; }
+    ~Wish() { current_wish() = nullptr; }
 
     Wish(const Wish&) = delete;
     Wish& operator=(const Wish&) = delete;
@@ -29,7 +32,7 @@ bool unsuitable(REAL* a, REAL* b, REAL* c, REAL* d, REAL* /*metric*/, REAL /*vol
     const Vec3 pa(a[0], a[1], a[2]), pb(b[0], b[1], b[2]), pc(c[0], c[1], c[2]),
         pd(d[0], d[1], d[2]);
     const double volume = std::abs((pb - pa).cross(pc - pa).dot(pd - pa)) / 6.0;
-    return (*current_wish)((pa + pb + pc + pd) / 4.0, volume);
+    return (*current_wish())((pa + pb + pc + pd) / 4.0, volume);
 }
 
 void fill_input(const Surface& surface, tetgenio& input) {

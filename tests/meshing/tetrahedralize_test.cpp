@@ -111,7 +111,7 @@ SCENARIO("filling and improving report their progress", "[meshing][tetrahedraliz
     const auto within = [&](double from, double to) {
         return std::ranges::count_if(reports, [&](double at) { return from < at && at < to; });
     };
-    CHECK(within(0.1, 0.5) >= 2);     // in TetGen
+    CHECK(within(0.1, 0.5) >= 2);    // in TetGen
     CHECK(within(0.5, 0.95) >= 10);  // in the improvement
     CHECK(std::ranges::is_sorted(reports));
 }

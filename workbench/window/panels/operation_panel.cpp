@@ -95,8 +95,8 @@ void draw_title(PanelContext& c, const OperationForm& form) {
         c.place.reset_form();
     ImGui::SameLine(0, 0);
     // What a brush paints is known once it has painted: its edit has a command.
-    const bool paints = is_brush(form.operation()) && text_of(form, "dabs").empty() &&
-                        text_of(form, "at").empty();
+    const bool paints =
+        is_brush(form.operation()) && text_of(form, "dabs").empty() && text_of(form, "at").empty();
     if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
                     form.valid() && !paints))
         c.to_clipboard(c.place.command());
