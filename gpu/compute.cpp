@@ -11,10 +11,43 @@ namespace vesselbench {
 
 namespace {
 
-/// Errors of earlier calls; a lost context reports its own error forever.
-void forget_errors() {
-    for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) {
+/// Errors that earlier commands have left.
+void collect_errors(const Device& device) {
+    constexpr int kMost = 8;  // a lost context reports its own error forever
+    for (int i = 0; i < kMost; ++i) {
+        const unsigned error = glGetError();
+        if (error == GL_NO_ERROR) return;
+        device.health->fail(error == GL_OUT_OF_MEMORY
+                                ? "the device ran out of memory"
+                                : "the driver refused a command (OpenGL error " +
+                                      std::to_string(error) + ")");
     }
+}
+
+/// True if a test wants this command to fail.
+bool fails_by_intent(const Device& device, DeviceCommand command) {
+    return device.fails && device.fails(command);
+}
+
+/// A failure of a command that is noticed when something is read.
+bool skipped(const Device& device, DeviceCommand command) {
+    const bool skip = fails_by_intent(device, command);
+    if (skip) device.health->fail("the driver did not run a command");
+    return skip;
+}
+
+[[noreturn]] void report_out_of_memory(const std::string& label, std::size_t bytes) {
+    throw GpuUnavailable("the device is out of memory for " + label + " (" + std::to_string(bytes) +
+                         " bytes)");
+}
+
+/// Defines the content of the buffer that is bound to a target.
+void allocate(const Device& device, unsigned target, std::size_t bytes, const void* content,
+              const std::string& label) {
+    collect_errors(device);
+    glBufferData(target, static_cast<GLsizeiptr>(bytes), content, GL_STATIC_COPY);
+    if (fails_by_intent(device, DeviceCommand::Allocate) || glGetError() != GL_NO_ERROR)
+        report_out_of_memory(label, bytes);
 }
 
 Buffer allocated(const Device& device, std::size_t bytes, const void* content,
@@ -23,18 +56,13 @@ Buffer allocated(const Device& device, std::size_t bytes, const void* content,
         throw GpuUnavailable(label + " takes " + std::to_string(bytes) +
                              " bytes; the device allows " +
                              std::to_string(device.limits.largest_storage_block) + " in a buffer");
-    forget_errors();
     unsigned id = 0;
     glGenBuffers(1, &id);
     Buffer buffer(id);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, id);
     // an empty buffer cannot be bound
-    glBufferData(GL_SHADER_STORAGE_BUFFER,
-                 static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)),
-                 bytes == 0 ? nullptr : content, GL_STATIC_COPY);
-    if (glGetError() != GL_NO_ERROR)
-        throw GpuUnavailable("the device is out of memory for " + label + " (" +
-                             std::to_string(bytes) + " bytes)");
+    allocate(device, GL_SHADER_STORAGE_BUFFER, std::max<std::size_t>(bytes, 16),
+             bytes == 0 ? nullptr : content, label);
     glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(label.size()), label.c_str());
     return buffer;
 }
@@ -76,7 +104,8 @@ Buffer make_storage(const Device& device, std::size_t bytes, const std::string& 
     return allocated(device, bytes, nullptr, label);
 }
 
-void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes) {
+void copy_storage(const Device& device, const Buffer& from, const Buffer& to, std::size_t bytes) {
+    if (skipped(device, DeviceCommand::Copy)) return;
     glBindBuffer(GL_COPY_READ_BUFFER, from.id());
     glBindBuffer(GL_COPY_WRITE_BUFFER, to.id());
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -84,7 +113,8 @@ void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes) {
                         static_cast<GLsizeiptr>(bytes));
 }
 
-void fill_storage(const Buffer& buffer, std::uint32_t word) {
+void fill_storage(const Device& device, const Buffer& buffer, std::uint32_t word) {
+    if (skipped(device, DeviceCommand::Fill)) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer.id());
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
@@ -103,7 +133,7 @@ std::size_t group_count(std::size_t elements) {
 }
 
 void dispatch(const Device& device, const Program& program, std::size_t elements) {
-    if (elements == 0) return;
+    if (elements == 0 || skipped(device, DeviceCommand::Dispatch)) return;
     const std::size_t groups = group_count(elements);
     const std::size_t rows =
         (groups + device.limits.largest_group_count - 1) / device.limits.largest_group_count;
@@ -114,7 +144,8 @@ void dispatch(const Device& device, const Program& program, std::size_t elements
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void dispatch_group(const Program& program, std::size_t elements) {
+void dispatch_group(const Device& device, const Program& program, std::size_t elements) {
+    if (skipped(device, DeviceCommand::Dispatch)) return;
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<unsigned>(elements));
     glDispatchCompute(1, 1, 1);
@@ -152,17 +183,21 @@ Buffer make_filled_storage(const Device& device, std::span<const std::byte> byte
     return allocated(device, bytes.size(), bytes.data(), label);
 }
 
-void read_bytes(const Buffer& buffer, std::span<std::byte> bytes) {
+void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
+    require_context(device);
     if (bytes.empty()) return;
     // Through a second buffer: drivers move a buffer to host memory when it is read.
     unsigned id = 0;
     glGenBuffers(1, &id);
     const Buffer staging(id);
-    const auto size = static_cast<GLsizeiptr>(bytes.size());
     glBindBuffer(GL_COPY_WRITE_BUFFER, id);
-    glBufferData(GL_COPY_WRITE_BUFFER, size, nullptr, GL_STREAM_READ);
-    copy_storage(buffer, staging, bytes.size());
-    glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, size, bytes.data());
+    allocate(device, GL_COPY_WRITE_BUFFER, bytes.size(), nullptr, "reading");
+    copy_storage(device, buffer, staging, bytes.size());
+    if (!skipped(device, DeviceCommand::Read))
+        glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()),
+                           bytes.data());
+    collect_errors(device);
+    require_context(device);
 }
 
 }  // namespace detail

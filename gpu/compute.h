@@ -31,14 +31,17 @@ template <class T>
                                   const std::string& label);
 
 /// Waits for the device and reads a buffer's first elements.
+/// \throw GpuUnavailable if that fails, or if any command before has failed
 template <class T>
-[[nodiscard]] std::vector<T> read_storage(const Buffer& buffer, std::size_t count);
+[[nodiscard]] std::vector<T> read_storage(const Device& device, const Buffer& buffer,
+                                          std::size_t count);
 
-/// Copies the first bytes of one buffer to another on the device.
-void copy_storage(const Buffer& from, const Buffer& to, std::size_t bytes);
+/// Copies the first bytes of one buffer to another on the device. A failure is found when something
+/// is read.
+void copy_storage(const Device& device, const Buffer& from, const Buffer& to, std::size_t bytes);
 
-/// Sets all of a buffer's 32-bit words to a number.
-void fill_storage(const Buffer& buffer, std::uint32_t word);
+/// Sets all of a buffer's 32-bit words to a number. A failure is found when something is read.
+void fill_storage(const Device& device, const Buffer& buffer, std::uint32_t word);
 
 /// Binds buffers to bindings 0, 1, 2 ... of the shaders; a null pointer keeps its binding.
 void bind_storage(std::initializer_list<const Buffer*> buffers);
@@ -47,11 +50,12 @@ void bind_storage(std::initializer_list<const Buffer*> buffers);
 [[nodiscard]] std::size_t group_count(std::size_t elements);
 
 /// Runs a program on `elements` elements, after its uniforms and buffers are set; uniform 0
-/// receives their number. Its writes are visible to every later command.
+/// receives their number. Its writes are visible to every later command. A failure is found when
+/// something is read.
 void dispatch(const Device& device, const Program& program, std::size_t elements);
 
 /// The same with one work group for all elements.
-void dispatch_group(const Program& program, std::size_t elements);
+void dispatch_group(const Device& device, const Program& program, std::size_t elements);
 
 /// Waits until the device has completed all commands.
 void finish_device();
@@ -71,7 +75,7 @@ private:
 namespace detail {
 [[nodiscard]] Buffer make_filled_storage(const Device& device, std::span<const std::byte> bytes,
                                          const std::string& label);
-void read_bytes(const Buffer& buffer, std::span<std::byte> bytes);
+void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
 }  // namespace detail
 
 template <class T>
@@ -80,9 +84,9 @@ Buffer make_storage(const Device& device, std::span<const T> values, const std::
 }
 
 template <class T>
-std::vector<T> read_storage(const Buffer& buffer, std::size_t count) {
+std::vector<T> read_storage(const Device& device, const Buffer& buffer, std::size_t count) {
     std::vector<T> values(count);
-    detail::read_bytes(buffer, std::as_writable_bytes(std::span(values)));
+    detail::read_bytes(device, buffer, std::as_writable_bytes(std::span(values)));
     return values;
 }
 

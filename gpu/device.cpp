@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
@@ -21,9 +22,17 @@ std::size_t limit(unsigned name) {
     return static_cast<std::size_t>(std::max<GLint64>(value, 0));
 }
 
-bool context_lost() {
-    if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_KHR_robustness")) return false;
-    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+/// Asks the driver for the state of the context that is current now. What it can tell is found
+/// once: the list of extensions is long.
+std::function<bool()> loss_of_context() {
+    const bool of_egl = eglGetCurrentContext() != EGL_NO_CONTEXT;
+    const bool tells_resets =
+        epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+    return [of_egl, tells_resets] {
+        // Without a context every command does nothing, and reports nothing.
+        if (of_egl && eglGetCurrentContext() == EGL_NO_CONTEXT) return true;
+        return tells_resets && glGetGraphicsResetStatus() != GL_NO_ERROR;
+    };
 }
 
 void require_at_least(const char* what, std::size_t offered, std::size_t needed) {
@@ -35,7 +44,8 @@ void require_at_least(const char* what, std::size_t offered, std::size_t needed)
 }  // namespace
 
 Device current_device() {
-    Device device{.limits = {}, .shaders = &shader_texts(), .lost = context_lost};
+    Device device{
+        .limits = {}, .shaders = &shader_texts(), .lost = loss_of_context(), .fails = nullptr};
     const int version = epoxy_gl_version();
     device.limits.major = version / 10;
     device.limits.minor = version % 10;
@@ -61,7 +71,8 @@ void require_compute(const DeviceLimits& limits) {
 }
 
 void require_context(const Device& device) {
-    if (device.lost()) throw GpuUnavailable("the graphics driver was reset and lost its context");
+    if (device.lost()) device.health->fail("the graphics driver was reset and lost its context");
+    if (!device.health->failure().empty()) throw GpuUnavailable(device.health->failure());
 }
 
 bool is_software(const DeviceLimits& limits) {

@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "gpu/device_health.h"
 
 namespace vesselbench {
 
@@ -16,14 +19,20 @@ struct DeviceLimits {
     std::size_t storage_blocks = 0;         ///< buffers a compute shader may use
 };
 
+/// Commands whose failure OpenGL reports later, if at all.
+enum class DeviceCommand { Allocate, Copy, Fill, Dispatch, Read };
+
 /// The context that is current on this thread, whoever created it (an OffscreenContext, a window),
 /// as computing uses it. A value; tests change its members to simulate failures.
 struct Device {
     DeviceLimits limits;
     /// Texts of the shaders by file name.
     const std::map<std::string, std::string>* shaders = nullptr;
-    /// True once the driver has lost the context; nothing on the device can be trusted then.
+    /// True when the driver has lost the context, or none is current on this thread.
     std::function<bool()> lost;
+    /// Asked before each command, by tests: true if it is to fail. Null: none fails by intent.
+    std::function<bool(DeviceCommand)> fails;
+    std::shared_ptr<DeviceHealth> health = std::make_shared<DeviceHealth>();
 };
 
 /// The device of the current context.
@@ -34,7 +43,7 @@ struct Device {
 /// storage buffers that OpenGL 4.3 guarantees
 void require_compute(const DeviceLimits& limits);
 
-/// \throw GpuUnavailable if the driver has lost the context
+/// \throw GpuUnavailable if the context was lost, or a command has failed; then ever after
 void require_context(const Device& device);
 
 /// True for renderers that compute on the CPU (llvmpipe, softpipe, SwiftShader): vesselbench's own

@@ -34,7 +34,7 @@ struct PartBuffers {
         normals = make_storage(device, 3 * count * sizeof(std::int32_t), "flat vertices' normals");
         labels = make_storage(device, count * sizeof(VertexId), "labels of parts");
         parts = make_storage(device, count * sizeof(PartSums), "sums of parts");
-        fill_storage(parts, 0);
+        fill_storage(device, parts, 0);
     }
 };
 
@@ -74,23 +74,20 @@ std::vector<LabelledVertex> read_planes(const DeviceSurface& surface, int smalle
     const Program& program = surface.program("plane_vertices");
     const Buffer count = make_storage(device, sizeof(std::uint32_t), "vertices in planes");
     const auto run = [&](const Buffer& list, bool lists) {
-        fill_storage(count, 0);
+        fill_storage(device, count, 0);
         bind_storage({nullptr, &buffers.normals, &buffers.labels, nullptr, nullptr, &buffers.parts,
                       &count, &list});
         glUseProgram(program.id());
         glUniform1ui(1, static_cast<unsigned>(smallest_faces));
         glUniform1i(2, lists ? 1 : 0);
         dispatch(device, program, surface.vertex_count());
-        const auto found = read_storage<std::uint32_t>(count, 1).front();
-        require_context(device);
-        return found;
+        return read_storage<std::uint32_t>(device, count, 1).front();
     };
     const std::uint32_t found = run(count, false);
     if (found == 0) return {};
     const Buffer list = make_storage(device, found * sizeof(LabelledVertex), "vertices in planes");
     run(list, true);
-    auto vertices = read_storage<LabelledVertex>(list, found);
-    require_context(device);
+    auto vertices = read_storage<LabelledVertex>(device, list, found);
     std::ranges::sort(vertices, [](const LabelledVertex& a, const LabelledVertex& b) {
         return std::array{a.part, a.vertex} < std::array{b.part, b.vertex};
     });

@@ -96,15 +96,14 @@ NeighbourDistances find_neighbour_distances(const DeviceSurface& surface,
     NeighbourDistances found;
     found.count = count;
     found.distances = make_storage(device, count * sizeof(float), "distances to neighbours");
-    fill_storage(found.distances, std::bit_cast<std::uint32_t>(kUnknown));
+    fill_storage(device, found.distances, std::bit_cast<std::uint32_t>(kUnknown));
     for (const Surface& neighbour : neighbours) search(surface, neighbour, found.distances);
     const std::array<std::uint32_t, 2> none = {0xFFFFFFFF, 0};
     const Buffer range =
         make_storage(device, std::span<const std::uint32_t>(none), "range of distances");
     bind_storage({&found.distances, &range});
     dispatch(device, surface.program("distance_range"), count);
-    const auto bits = read_storage<std::uint32_t>(range, 2);
-    require_context(device);
+    const auto bits = read_storage<std::uint32_t>(device, range, 2);
     found.least = std::bit_cast<float>(bits[0]);
     found.most = std::bit_cast<float>(bits[1]);
     return found;

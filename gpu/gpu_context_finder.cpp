@@ -14,10 +14,10 @@ public:
     explicit GpuFinder(std::shared_ptr<const DeviceSurface> surface)
         : surface_(std::move(surface)) {}
 
-    [[nodiscard]] StaircaseContext staircases(const Vec3& stack_axis,
+    [[nodiscard]] StaircaseContext staircases(const StackAxes& stack_axes,
                                               const StaircaseParameters& parameters) override {
         GpuWeights weights(surface_);
-        weights.find_orientation_change(stack_axis);
+        weights.find_orientation_change(stack_axes);
         weights.multiply_staircases(parameters);
         return {read(weights), weights.staircase_vertices()};
     }
@@ -35,8 +35,8 @@ private:
 
     /// An operation multiplies weights by painted ones and reports their means.
     [[nodiscard]] std::vector<double> read(const GpuWeights& weights) const {
-        const auto found = read_storage<float>(weights.weights(), surface_->vertex_count());
-        require_context(surface_->device());
+        const auto found =
+            read_storage<float>(surface_->device(), weights.weights(), surface_->vertex_count());
         return {found.begin(), found.end()};
     }
 

@@ -42,7 +42,7 @@ public:
           common_(other.common_),
           smoother_(other.smoother_.copy()),
           references_(common_->meter.make_references()) {
-        copy_storage(other.references_, references_,
+        copy_storage(common_->surface->device(), other.references_, references_,
                      common_->surface->vertex_count() * sizeof(VertexId));
     }
 
@@ -88,7 +88,7 @@ public:
         original_ = common_->meter.read().front().quality;
         if (!staircases_) return;
         staircase_weights_.emplace(common_->surface);
-        staircase_weights_->find_orientation_change(staircases_->stack_axis);
+        staircase_weights_->find_orientation_change(staircases_->stack_axes);
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
@@ -145,7 +145,7 @@ private:
         if (staircases_->others) staircase_weights_->multiply(uploaded(staircases_->others));
         const std::size_t bytes = common_->surface->vertex_count() * sizeof(float);
         Buffer buffer = make_storage(common_->surface->device(), bytes, "weights");
-        copy_storage(staircase_weights_->weights(), buffer, bytes);
+        copy_storage(common_->surface->device(), staircase_weights_->weights(), buffer, bytes);
         return keep({nullptr, values, std::move(buffer)});
     }
 

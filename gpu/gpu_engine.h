@@ -8,13 +8,14 @@
 
 #include "gpu/device_choice.h"
 #include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 #include "smoothing/quality/smoothing_engine.h"
 
 namespace vesselbench {
 
 /// The inputs of staircase weights that do not depend on thresholds.
 struct StaircaseGround {
-    Vec3 stack_axis = Vec3::UnitZ();
+    StackAxes stack_axes = Vec3::UnitZ();
     std::vector<std::uint8_t> caps;  ///< as in StaircaseParameters
     StaircaseScaling scaling = StaircaseScaling::TauMax;
     SharedWeights others;  ///< multiplied with them

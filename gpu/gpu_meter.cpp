@@ -47,7 +47,8 @@ GpuMeter::GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t sta
 }
 
 void GpuMeter::restart() {
-    copy_storage(own_references_, references_, surface_->vertex_count() * sizeof(VertexId));
+    copy_storage(surface_->device(), own_references_, references_,
+                 surface_->vertex_count() * sizeof(VertexId));
 }
 
 void GpuMeter::measure_shape(const Buffer& shifts) {
@@ -83,13 +84,13 @@ void GpuMeter::total(std::size_t parts, std::size_t place) {
     const Program& program = surface_->program("total");
     glUseProgram(program.id());
     glUniform1ui(1, static_cast<unsigned>(place));
-    dispatch_group(program, parts);
+    dispatch_group(surface_->device(), program, parts);
 }
 
 Buffer GpuMeter::make_references() const {
     const std::size_t bytes = surface_->vertex_count() * sizeof(VertexId);
     Buffer references = make_storage(surface_->device(), bytes, "references");
-    copy_storage(own_references_, references, bytes);
+    copy_storage(surface_->device(), own_references_, references, bytes);
     return references;
 }
 
@@ -115,8 +116,7 @@ void GpuMeter::measure(const Buffer& shifts, const Buffer& references, bool foll
 }
 
 std::vector<DeviceMeasures> GpuMeter::read(std::size_t states) const {
-    const auto totals = read_storage<Vector4f>(results_, 2 * states);
-    require_context(surface_->device());
+    const auto totals = read_storage<Vector4f>(surface_->device(), results_, 2 * states);
     const auto count = static_cast<double>(surface_->vertex_count());
     std::vector<DeviceMeasures> measures(states);
     for (std::size_t i = 0; i < states; ++i) {

@@ -7,6 +7,7 @@
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
+#include "smoothing/filters/divergence.h"
 #include "smoothing/filters/filter_settings.h"
 #include "smoothing/filters/linear_steps.h"
 
@@ -20,15 +21,15 @@ constexpr float kFixed = -1.0F;
 
 /// Uniforms of gpu/shaders/filter_pass.glsl.
 enum Uniform {
-    kFactors = 1,
-    kOnto,
-    kLast,
-    kOfPositions,
-    kIteration,
-    kCell,
-    kHalfSize,
-    kCellAxes,
-    kFeatureCurvature
+    Factors = 1,
+    Onto,
+    Last,
+    OfPositions,
+    Iteration,
+    Cell,
+    HalfSize,
+    CellAxes,
+    FeatureCurvature
 };
 
 /// Shifts at the start, with w the vertex's weight, or kFixed.
@@ -54,7 +55,7 @@ GpuSmoother::GpuSmoother(std::shared_ptr<const DeviceSurface> surface,
     start_ = std::make_shared<const Buffer>(
         make_storage(surface_->device(), std::span<const Vector4f>(start), "start"));
     for (Buffer& values : values_) values = make_storage(surface_->device(), bytes, "shifts");
-    copy_storage(*start_, values_[0], bytes);
+    copy_storage(surface_->device(), *start_, values_[0], bytes);
 }
 
 GpuSmoother GpuSmoother::copy() const {
@@ -69,7 +70,7 @@ GpuSmoother GpuSmoother::copy() const {
     other.iterations_done_ = iterations_done_;
     const auto copied = [&](const Buffer& from, std::size_t bytes) {
         Buffer to = make_storage(device, bytes, "copy of a run");
-        copy_storage(from, to, bytes);
+        copy_storage(device, from, to, bytes);
         return to;
     };
     const std::size_t count = surface_->vertex_count();
@@ -119,7 +120,7 @@ void GpuSmoother::plan(const AnisotropicParameters& parameters) {
     require_positive("feature_curvature", feature);
     const Program& smooth = surface_->program("anisotropic");
     glUseProgram(smooth.id());
-    glUniform1d(kFeatureCurvature, feature);
+    glUniform1d(FeatureCurvature, feature);
     passes_.push_back({.program = &smooth, .factors = {parameters.lambda}, .by_corners = true});
 }
 
@@ -151,7 +152,7 @@ void GpuSmoother::find_first_iterations(double trigger) {
 void GpuSmoother::set_weights(const Buffer& weights) {
     const std::size_t bytes = surface_->vertex_count() * sizeof(Vector4f);
     Buffer start = make_storage(surface_->device(), bytes, "start");
-    copy_storage(*start_, start, bytes);
+    copy_storage(surface_->device(), *start_, start, bytes);
     bind_storage({&start, &weights});
     dispatch(surface_->device(), surface_->program("set_weights"), surface_->vertex_count());
     start_ = std::make_shared<const Buffer>(std::move(start));
@@ -175,7 +176,8 @@ void GpuSmoother::start(const FilterParameters& parameters) {
     passes_.clear();
     steps_done_ = 0;
     iterations_done_ = 0;
-    copy_storage(*start_, values_[0], surface_->vertex_count() * sizeof(Vector4f));
+    copy_storage(surface_->device(), *start_, values_[0],
+                 surface_->vertex_count() * sizeof(Vector4f));
     std::visit([&](const auto& filter) { plan(filter); }, parameters);
 }
 
@@ -187,12 +189,12 @@ void GpuSmoother::run_pass(const Pass& pass, bool last) {
          &surface_->anchors(), first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
     glUseProgram(pass.program->id());
     const Vector4f factors = Eigen::Vector4d(pass.factors.data()).cast<float>();
-    glUniform4fv(kFactors, 1, factors.data());
-    glUniform1i(kOnto, pass.onto);
-    glUniform1i(kLast, last ? 1 : 0);
-    glUniform1i(kOfPositions, pass.of_positions ? 1 : 0);
-    glUniform1i(kIteration, iterations_done_);
-    glUniform1i(kCell, 0);
+    glUniform4fv(Factors, 1, factors.data());
+    glUniform1i(Onto, pass.onto);
+    glUniform1i(Last, last ? 1 : 0);
+    glUniform1i(OfPositions, pass.of_positions ? 1 : 0);
+    glUniform1i(Iteration, iterations_done_);
+    glUniform1i(Cell, 0);
     if (last && constraint_) set_constraint(*constraint_);
     dispatch(surface_->device(), *pass.program, surface_->vertex_count());
     ++steps_done_;
@@ -201,9 +203,9 @@ void GpuSmoother::run_pass(const Pass& pass, bool last) {
 void GpuSmoother::set_constraint(const PositionConstraint& constraint) {
     const Eigen::Vector3f half_size = (0.5 * constraint.size).cast<float>();
     const Eigen::Matrix3f axes = constraint.axes.cast<float>();
-    glUniform1i(kCell, constraint.cell == PositionConstraint::Cell::Voxel ? 1 : 2);
-    glUniform3fv(kHalfSize, 1, half_size.data());
-    glUniformMatrix3fv(kCellAxes, 1, GL_FALSE, axes.data());
+    glUniform1i(Cell, constraint.cell == PositionConstraint::Cell::Voxel ? 1 : 2);
+    glUniform3fv(HalfSize, 1, half_size.data());
+    glUniformMatrix3fv(CellAxes, 1, GL_FALSE, axes.data());
 }
 
 void GpuSmoother::run(int iterations, const Progress& progress) {
@@ -224,8 +226,7 @@ void GpuSmoother::run(int iterations, const Progress& progress) {
 
 Positions GpuSmoother::positions() const {
     const std::size_t count = surface_->vertex_count();
-    const auto moved = read_storage<Vector4f>(shifts(), count);
-    require_context(surface_->device());
+    const auto moved = read_storage<Vector4f>(surface_->device(), shifts(), count);
     const Positions& start = surface_->surface().points();
     Positions result(count);
     for_each_vertex(count, [&](std::size_t v) {
@@ -236,6 +237,7 @@ Positions GpuSmoother::positions() const {
                 ? start[v]
                 : Vec3(surface_->centre() + from.anchor.cast<double>() + shift.cast<double>());
     });
+    require_bounded(start, result);
     return result;
 }
 

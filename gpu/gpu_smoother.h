@@ -51,7 +51,8 @@ public:
 
     /// Waits for the device and reads the positions [mm]; vertices that did not move get the bits
     /// of their start.
-    /// \throw GpuUnavailable if the context was lost
+    /// \throw GpuUnavailable if the context was lost or a command failed; AlgorithmFailure if the
+    /// filter diverges (require_bounded)
     [[nodiscard]] Positions positions() const;
 
     /// Shifts of the vertices (DeviceSurface), for drawing and measuring.

@@ -9,7 +9,6 @@
 
 #include "geometry/kernel/errors.h"
 #include "smoothing/context/staircase_weights.h"
-#include "smoothing/context/staircases.h"
 
 namespace vesselbench {
 
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double kFar = 3e38;  // gpu/shaders/distance_weight.comp
 
-enum Kind { kStaircases, kLinear, kExponential, kNoDistance };
+enum Kind { Staircases, Linear, Exponential, NoDistance };
 
 }  // namespace
 
@@ -26,37 +25,40 @@ GpuWeights::GpuWeights(std::shared_ptr<const DeviceSurface> surface)
     const Device& device = surface_->device();
     const std::size_t count = surface_->vertex_count();
     changes_ = make_storage(device, count * sizeof(double), "orientation changes");
-    fill_storage(changes_, 0);
+    fill_storage(device, changes_, 0);
     ones_ = make_storage(device, count * sizeof(float), "ones");
-    fill_storage(ones_, std::bit_cast<std::uint32_t>(1.0F));
+    fill_storage(device, ones_, std::bit_cast<std::uint32_t>(1.0F));
     weights_ = make_storage(device, count * sizeof(float), "weights");
     restart();
 }
 
 void GpuWeights::restart() {
-    copy_storage(ones_, weights_, surface_->vertex_count() * sizeof(float));
+    copy_storage(surface_->device(), ones_, weights_, surface_->vertex_count() * sizeof(float));
 }
 
-void GpuWeights::find_orientation_change(const Vec3& stack_axis) {
-    const Vec3 axis = unit_axis(stack_axis);
+void GpuWeights::find_orientation_change(const StackAxes& stack_axes) {
+    std::vector<Vec3> axes;  // checked before anything changes
+    for (const Vec3& axis : stack_axes) axes.push_back(unit_axis(axis));
     const Device& device = surface_->device();
     const std::size_t triangles = surface_->surface().triangle_count();
     const Buffer orientations = make_storage(device, triangles * sizeof(double), "orientations");
-    const Program& of_faces = surface_->program("face_orientation");
-    bind_storage({&surface_->exact(), &surface_->triangles(), &orientations});
-    glUseProgram(of_faces.id());
-    glUniform3d(1, axis.x(), axis.y(), axis.z());
-    dispatch(device, of_faces, triangles);
+    const Program &of_faces = surface_->program("face_orientation"),
+                  &of_vertices = surface_->program("orientation_change");
     const DeviceRows& rows = surface_->triangles_at();
-    bind_storage({&orientations, &changes_, nullptr, &rows.offsets, &rows.values});
-    dispatch(device, surface_->program("orientation_change"), surface_->vertex_count());
+    fill_storage(device, changes_, 0);
+    for (const Vec3& axis : axes) {
+        bind_storage({&surface_->exact(), &surface_->triangles(), &orientations});
+        glUseProgram(of_faces.id());
+        glUniform3d(1, axis.x(), axis.y(), axis.z());
+        dispatch(device, of_faces, triangles);
+        bind_storage({&orientations, &changes_, nullptr, &rows.offsets, &rows.values});
+        dispatch(device, of_vertices, surface_->vertex_count());
+    }
     search_.reset();
 }
 
 std::vector<double> GpuWeights::orientation_change() const {
-    auto changes = read_storage<double>(changes_, surface_->vertex_count());
-    require_context(surface_->device());
-    return changes;
+    return read_storage<double>(surface_->device(), changes_, surface_->vertex_count());
 }
 
 void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters) {
@@ -92,7 +94,7 @@ void GpuWeights::multiply_staircases(const StaircaseParameters& parameters) {
         parameters.scaling == StaircaseScaling::Thesis ? staircases_.farthest : parameters.tau_max;
     const std::array scale = {static_cast<float>(largest), static_cast<float>(parameters.beta_min),
                               0.0F, 0.0F};
-    multiply(staircases_.distances, free_of_caps_, scale, kStaircases);
+    multiply(staircases_.distances, free_of_caps_, scale, Staircases);
 }
 
 void GpuWeights::multiply_distances(const NeighbourDistances& distances,
@@ -108,11 +110,11 @@ void GpuWeights::multiply_distances(const NeighbourDistances& distances,
     const std::array scale = {static_cast<float>(from), static_cast<float>(distances.most - from),
                               static_cast<float>(parameters.omega), 0.0F};
     multiply(distances.distances, ones_, scale,
-             parameters.scaling == DistanceScaling::Exponential ? kExponential : kLinear);
+             parameters.scaling == DistanceScaling::Exponential ? Exponential : Linear);
 }
 
 void GpuWeights::multiply(const Buffer& others) {
-    multiply(ones_, others, std::array<float, 4>{}, kNoDistance);
+    multiply(ones_, others, std::array<float, 4>{}, NoDistance);
 }
 
 }  // namespace vesselbench

@@ -11,6 +11,7 @@
 #include "gpu/staircase_search.h"
 #include "smoothing/context/distance_weights.h"
 #include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 
 namespace vesselbench {
 
@@ -24,9 +25,9 @@ public:
     explicit GpuWeights(std::shared_ptr<const DeviceSurface> surface);
 
     /// Computes the orientation change of every vertex (Eqs. 5.3-5.4), in double precision, so that
-    /// the same vertices exceed a threshold as on the CPU. \throw InvalidInput if the axis has no
+    /// the same vertices exceed a threshold as on the CPU. \throw InvalidInput if an axis has no
     /// direction
-    void find_orientation_change(const Vec3& stack_axis);
+    void find_orientation_change(const StackAxes& stack_axes);
 
     /// Reads the orientation changes [-], #V; all 0 before they are computed.
     [[nodiscard]] std::vector<double> orientation_change() const;

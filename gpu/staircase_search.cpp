@@ -37,7 +37,7 @@ public:
           nearest_(make_storage(device_, count_ * sizeof(VertexId), "nearest staircases")),
           doubts_(make_storage(device_, count_ * sizeof(VertexId), "staircases in doubt")),
           found_(make_storage(device_, sizeof(Found), "results of a search")) {
-        fill_storage(found_, 0);
+        fill_storage(device_, found_, 0);
     }
 
     void find_sources(const Buffer& changes, const Buffer& free_of_caps, double tau_theta) {
@@ -52,7 +52,7 @@ public:
 
     /// \return vertices still open
     std::vector<OpenVertex> find_nearest() {
-        fill_storage(doubts_, kNone);
+        fill_storage(device_, doubts_, kNone);
         if (sources_ == 0) return {};
         make_cells();
         const DeviceRows& rings = surface_.rings(1);
@@ -80,18 +80,13 @@ public:
 
     /// The staircase vertices, ascending.
     [[nodiscard]] std::vector<VertexId> sources() const {
-        auto sources = read_storage<VertexId>(sources_by_cell_, sources_);
-        require_context(device_);
+        auto sources = read_storage<VertexId>(device_, sources_by_cell_, sources_);
         std::ranges::sort(sources);
         return sources;
     }
 
 private:
-    [[nodiscard]] Found found() const {
-        const Found result = read_storage<Found>(found_, 1).front();
-        require_context(device_);
-        return result;
-    }
+    [[nodiscard]] Found found() const { return read_storage<Found>(device_, found_, 1).front(); }
 
     void set_cells(const Program& program) const {
         glUseProgram(program.id());
@@ -110,7 +105,7 @@ private:
         cell_offsets_ =
             make_storage(device_, (cells_.count() + 1) * sizeof(std::uint32_t), "cells");
         sources_by_cell_ = make_storage(device_, sources_ * sizeof(VertexId), "sources by cell");
-        fill_storage(cell_offsets_, 0);
+        fill_storage(device_, cell_offsets_, 0);
         put_in_cells(false);
         add_up(surface_, cell_offsets_, cells_.count() + 1);
         put_in_cells(true);
@@ -147,8 +142,7 @@ private:
         const Buffer list = make_storage(device_, open * sizeof(OpenVertex), "open vertices");
         bind_storage({nullptr, &doubts_, &nearest_, nullptr, nullptr, &list, nullptr, &found_});
         dispatch(device_, surface_.program("open_vertices"), count_);
-        auto vertices = read_storage<OpenVertex>(list, open);
-        require_context(device_);
+        auto vertices = read_storage<OpenVertex>(device_, list, open);
         std::ranges::sort(vertices, {}, &OpenVertex::vertex);
         return vertices;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 
 #include "geometry/kernel/surface_distance.h"
@@ -21,9 +22,10 @@ constexpr std::size_t kPointsAtOnce = 16384;
 constexpr double kLeastRange = 1e-6;
 
 double range_of(const std::vector<double>& values) {
-    if (values.empty()) return kLeastRange;
-    std::vector<double> sizes(values.size());
-    std::ranges::transform(values, sizes.begin(), [](double value) { return std::abs(value); });
+    std::vector<double> sizes;
+    for (const double value : values)
+        if (!std::isnan(value)) sizes.push_back(std::abs(value));
+    if (sizes.empty()) return kLeastRange;
     const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(
                                         kShownShare * static_cast<double>(sizes.size() - 1));
     std::ranges::nth_element(sizes, at);
@@ -33,7 +35,7 @@ double range_of(const std::vector<double>& values) {
 }  // namespace
 
 DeviationMap deviation_map(const Surface& surface, const Surface& reference,
-                           const Progress& progress) {
+                           std::span<const std::uint8_t> compared, const Progress& progress) {
     const SurfaceDistance distance(reference);
     const std::span<const Vec3> points = surface.points();
     DeviationMap map;
@@ -43,6 +45,8 @@ DeviationMap deviation_map(const Surface& surface, const Surface& reference,
         const auto part = points.subspan(first, std::min(kPointsAtOnce, points.size() - first));
         std::ranges::copy(distance.signed_distances(part), std::back_inserter(map.values));
     }
+    for (std::size_t v = 0; v < compared.size(); ++v)
+        if (!compared[v]) map.values[v] = std::numeric_limits<double>::quiet_NaN();
     map.full = range_of(map.values);
     return map;
 }

@@ -17,16 +17,17 @@ float squared_to(uint u, uint v) {
     return dot(way, way);
 }
 
-// Every step comes strictly closer, so the loop ends.
+// Every step comes strictly closer, so the loop ends. Comparisons are false for not-a-number.
 uint drifted(uint reference, uint v) {
     float closest = squared_to(reference, v);
-    for (bool closer = true; closer;) {
+    bool closer = true;
+    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
         closer = false;
         uint from = reference, end = first_corner(from + 1u);
         for (uint i = first_corner(from); i < end; ++i)
             for (int k = 0; k < 2; ++k) {
                 float squared = squared_to(corners[i][k], v);
-                if (squared >= closest) continue;
+                if (!(squared < closest)) continue;
                 closest = squared;
                 reference = corners[i][k];
                 closer = true;

@@ -40,12 +40,13 @@ RingPlace closest_in_ring(uint centre, uint v) {
 // moves there. Every step comes strictly closer, so the loop ends.
 float to_ring(uint reference, uint v) {
     RingPlace best = closest_in_ring(reference, v);
-    for (bool closer = best.outer; closer;) {
+    bool closer = best.outer;
+    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
         closer = false;
         uvec2 ends = best.ends;
         for (int k = 0; k < 2; ++k) {
             RingPlace next = closest_in_ring(ends[k], v);
-            if (next.squared >= best.squared) continue;
+            if (!(next.squared < best.squared)) continue;
             best = next;
             closer = next.outer;
         }

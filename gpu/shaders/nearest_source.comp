@@ -57,8 +57,9 @@ void look_around(dvec3 p, double distance, inout Source best) {
 // Widens the search step by step, so that most vertices visit few cells.
 Source nearest_in_space(dvec3 p) {
     Source best = Source(none, reach * reach);
-    for (double distance = 1.0lf / per_length; ; distance *= 2.0lf) {
-        bool whole = !(distance < reach);
+    double distance = 1.0lf / per_length;
+    for (int doublings = 0; ; ++doublings, distance *= 2.0lf) {
+        bool whole = !(distance < reach) || doublings >= 64;
         look_around(p, whole ? reach : distance, best);
         if (whole || best.squared <= distance * distance) return best;
     }
@@ -67,7 +68,7 @@ Source nearest_in_space(dvec3 p) {
 bool walk_arrives(uint v, uint source) {
     dvec3 goal = exact_at(source);
     double here = squared_length(exact_at(v) - goal);
-    while (v != source) {
+    for (uint steps = 0u; v != source; ++steps) {
         uint from = v, end = offsets[from + 1u];
         for (uint i = offsets[from]; i < end; ++i) {
             uint u = neighbours[i];
@@ -78,7 +79,7 @@ bool walk_arrives(uint v, uint source) {
                 v = u;
             }
         }
-        if (v == from) return false;
+        if (v == from || steps >= most_steps) return false;
     }
     return true;
 }

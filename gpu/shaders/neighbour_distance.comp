@@ -45,7 +45,7 @@ float nearest_squared(vec3 p, float known) {
     float best = known;
     while (depth > 0) {
         uint at = stack[--depth];
-        if (squared_to_box(p, at) >= best) continue;
+        if (!(squared_to_box(p, at) < best)) continue;
         uint right = nodes[at].right, begin = nodes[at].begin;
         if (right >= leaf) {
             uint end = begin + (right - leaf);
@@ -71,6 +71,7 @@ float solid_angle(vec3 a, vec3 b, vec3 c) {
 }
 
 bool inside(vec3 p) {
+    if (isnan(p.x + p.y + p.z)) return false;  // else it would visit the whole tree
     uint stack[40];
     int depth = 0;
     stack[depth++] = 0u;

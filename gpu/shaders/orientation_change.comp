@@ -1,11 +1,12 @@
 #version 430 core
 // Orientation change of every vertex (thesis Eq. 5.4): the largest minus the smallest orientation
-// of the triangles around it; those without a normal are ignored.
-// 0 orientations, 1 out: changes, 3 offsets and 4 triangles at every vertex
+// of the triangles around it; those without a normal are ignored. A larger change of an earlier axis
+// stays.
+// 0 orientations, 1 in and out: changes, 0 before the first axis, 3 offsets and 4 triangles at every vertex
 #include "elements.glsl"
 
 layout(std430, binding = 0) readonly buffer Orientations { double orientations[]; };
-layout(std430, binding = 1) writeonly buffer Changes { double changes[]; };
+layout(std430, binding = 1) buffer Changes { double changes[]; };
 layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
 layout(std430, binding = 4) readonly buffer TrianglesAt { uint triangles_at[]; };
 
@@ -19,5 +20,5 @@ void main() {
         smallest = min(smallest, orientation);
         largest = max(largest, orientation);
     }
-    changes[v] = largest < 0.0lf ? 0.0lf : largest - smallest;
+    if (largest >= 0.0lf) changes[v] = max(changes[v], largest - smallest);
 }

@@ -282,19 +282,30 @@ if [ -z "$WM_PROJECT_DIR" ] && [ -d /usr/share/openfoam ]; then
     WM_PROJECT_DIR=/usr/share/openfoam
     export WM_PROJECT_DIR
 fi
-set -e
+run() {  # run NAME COMMAND...: its output goes to log.NAME
+    name=$1
+    shift
+    "$@" > "log.$name" 2>&1 && return
+    tail -n 5 "log.$name" >&2
+    echo "$name failed: see log.$name" >&2
+    exit 1
+}
 )sh";
-    if (!parallel)
-        return head +
-               "checkMesh > log.checkMesh 2>&1\nsimpleFoam > log.simpleFoam 2>&1\ntail -n 3 "
-               "log.simpleFoam\n";
+    const std::string end = R"sh(if converged=$(grep -i "solution converged" log.simpleFoam); then
+    echo "$converged"
+else
+    echo "The flow has not converged: see log.simpleFoam; controlDict limits the iterations"
+fi
+echo "Result: folder $(ls -d [1-9]* | sort -n | tail -n 1); ParaView opens case.foam"
+touch case.foam
+)sh";
+    if (!parallel) return head + "run checkMesh checkMesh\nrun simpleFoam simpleFoam\n" + end;
     return head +
            R"sh(parts=$(sed -n 's/^numberOfSubdomains *\([0-9]*\);.*/\1/p' system/decomposeParDict)
-decomposePar -force > log.decomposePar 2>&1
-mpirun -np "$parts" $MPIRUN_OPTIONS simpleFoam -parallel > log.simpleFoam 2>&1
-reconstructPar -latestTime > log.reconstructPar 2>&1
-tail -n 3 log.simpleFoam
-)sh";
+run decomposePar decomposePar -force
+run simpleFoam mpirun -np "$parts" $MPIRUN_OPTIONS simpleFoam -parallel
+run reconstructPar reconstructPar -latestTime
+)sh" + end;
 }
 
 std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "smoothing/context/staircases.h"
-
 namespace vesselbench {
 
 namespace {
@@ -13,9 +11,9 @@ class CpuFinder final : public ContextFinder {
 public:
     explicit CpuFinder(Surface surface) : surface_(std::move(surface)) {}
 
-    [[nodiscard]] StaircaseContext staircases(const Vec3& stack_axis,
+    [[nodiscard]] StaircaseContext staircases(const StackAxes& stack_axes,
                                               const StaircaseParameters& parameters) override {
-        const auto change = orientation_change(*surface_.topology, surface_.points(), stack_axis);
+        const auto change = orientation_change(*surface_.topology, surface_.points(), stack_axes);
         StaircaseContext found;
         found.weights =
             staircase_weights(*surface_.topology, surface_.points(), change, parameters);

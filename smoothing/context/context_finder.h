@@ -9,6 +9,7 @@
 #include "smoothing/context/caps.h"
 #include "smoothing/context/distance_weights.h"
 #include "smoothing/context/staircase_weights.h"
+#include "smoothing/context/staircases.h"
 
 namespace vesselbench {
 
@@ -37,7 +38,7 @@ public:
     }
 
     /// As staircase_weights of orientation_change. \throw InvalidInput as they do
-    [[nodiscard]] virtual StaircaseContext staircases(const Vec3& stack_axis,
+    [[nodiscard]] virtual StaircaseContext staircases(const StackAxes& stack_axes,
                                                       const StaircaseParameters& parameters) = 0;
 
     /// As distance_weights of neighbour_distances. \throw InvalidInput as they do

@@ -77,19 +77,6 @@ Neighbourhood neighbourhood(const FaceNormals& faces, const Vec3& axis) {
     return near;
 }
 
-/// Directions of a mask's faces [mm^-1, relative]: sums of the axes over the edges, each added,
-/// subtracted or omitted.
-std::vector<Vec3> lattice_normals(const std::array<Vec3, 3>& axes, const Vec3& edges) {
-    std::vector<Vec3> normals;
-    const auto sign = [](int digits) { return static_cast<double>(digits % 3 - 1); };
-    for (int code = 14; code < 27; ++code) {  // one of each pair of opposites
-        const Vec3 n = sign(code / 9) / edges[0] * axes[0] + sign(code / 3) / edges[1] * axes[1] +
-                       sign(code) / edges[2] * axes[2];
-        normals.push_back(n.normalized());
-    }
-    return normals;
-}
-
 double share_along(const FaceNormals& faces, const std::vector<Vec3>& directions, double degrees) {
     const double limit = cosine(degrees);
     std::size_t fitting = 0;
@@ -103,12 +90,11 @@ double share_along(const FaceNormals& faces, const std::vector<Vec3>& directions
 std::optional<VoxelLattice> lattice_of(const FaceNormals& faces,
                                        const std::array<const NormalPeak*, 3>& peaks) {
     // Flat faces have half the product of the other two edges: an edge is proportional to 1 / area.
-    const std::array<Vec3, 3> axes = {peaks[0]->axis, peaks[1]->axis, peaks[2]->axis};
-    const Vec3 edges(1.0 / peaks[0]->area, 1.0 / peaks[1]->area, 1.0 / peaks[2]->area);
-    std::array<int, 3> order = {0, 1, 2};
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return edges[a] > edges[b]; });
-    const Vec3& long_axis = axes[static_cast<std::size_t>(order[0])];
-    const std::vector<Vec3> normals = lattice_normals(axes, edges);
+    const Vec3 areas(peaks[0]->area, peaks[1]->area, peaks[2]->area);
+    VoxelGrid grid{.spacing = std::sqrt(2.0 * areas.prod()) * areas.cwiseInverse()};
+    for (int k = 0; k < 3; ++k) grid.axes.col(k) = peaks[static_cast<std::size_t>(k)]->axis;
+    const Vec3 long_axis = grid.axes.col(grid.longest());
+    const std::vector<Vec3> normals = mask_directions(grid);
     std::vector<Vec3> oblique;
     for (const Vec3& n : normals) {
         const double along =
@@ -116,8 +102,7 @@ std::optional<VoxelLattice> lattice_of(const FaceNormals& faces,
         if (along > std::sin(radians(kRightAngle)) && along < 0.9) oblique.push_back(n);
     }
     if (share_along(faces, oblique, 0.5 * kFitsLattice) < kShareOblique) return {};
-    return VoxelLattice{long_axis, edges[order[1]] / edges[order[0]],
-                        share_along(faces, normals, kFitsLattice)};
+    return VoxelLattice{grid, share_along(faces, normals, kFitsLattice)};
 }
 
 bool orthogonal(const NormalPeak& a, const NormalPeak& b) {

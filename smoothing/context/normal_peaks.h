@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/kernel/vec3.h"
+#include "smoothing/context/voxel_grid.h"
 
 namespace vesselbench {
 
@@ -29,14 +30,13 @@ struct NormalPeak {
 
 /// Voxels as seen in the surface of a mask.
 struct VoxelLattice {
-    Vec3 long_axis = Vec3::UnitZ();  ///< unit: of the longest voxel edge
-    double second_edge = 1.0;        ///< [-] second longest edge relative to the longest
-    double share = 0.0;              ///< [-] of the faces that fit the lattice
+    VoxelGrid grid;
+    double share = 0.0;  ///< [-] of the faces that fit the lattice
 };
 
 /// Recognises a surface whose vertices lie halfway between voxels: nearly all face normals are
 /// along the three axes or across one or all voxel diagonals. A flat face is half a voxel side,
-/// which gives the ratios of the edges.
+/// which gives the edges.
 [[nodiscard]] std::optional<VoxelLattice> voxel_lattice(const FaceNormals& faces,
                                                         const std::vector<NormalPeak>& peaks);
 

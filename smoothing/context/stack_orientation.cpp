@@ -17,7 +17,7 @@ constexpr double kCertain = 2.0 / 3.0;    // confidence above which the axis is 
 constexpr double kFewestFaces = 20.0;     // for a peak to be certain
 constexpr double kSmallestShare = 0.003;  // of all faces, likewise
 constexpr double kOtherPeak = 0.9945;  // cosine of 6 degrees: closer ones belong to the same peak
-constexpr double kLongestSecondEdge = 0.8;  // relative to the longest, of voxels with an axis
+constexpr double kOffAxis = 0.9998;    // cosine of 1 degree: a peak farther from the voxels' axes
 
 /// \param counts 0 where a face is ignored; empty: all count
 FaceNormals face_normals(const Topology& topology, const Positions& positions,
@@ -103,21 +103,42 @@ double peak_confidence(const std::vector<NormalPeak>& peaks, std::size_t faces) 
 }
 
 /// 2/3 if the longest voxel edge is just enough longer than the next.
-double lattice_confidence(const VoxelLattice& lattice) {
-    return std::clamp(kCertain * (1.0 - lattice.second_edge) / (1.0 - kLongestSecondEdge), 0.0,
-                      lattice.share);
+double grid_confidence(const VoxelGrid& grid) {
+    const int k = grid.longest();
+    const double second = std::max(grid.spacing[(k + 1) % 3], grid.spacing[(k + 2) % 3]);
+    constexpr double kLongestSecond = 1.0 / VoxelGrid::kCubic;
+    return std::clamp(kCertain * (1.0 - second / grid.spacing[k]) / (1.0 - kLongestSecond), 0.0,
+                      1.0);
 }
 
-StackOrientation estimate(const FaceNormals& faces, const StackOrientationParameters& parameters) {
+/// Peaks of cubic voxels count only along their axes.
+bool is_along_axis(const VoxelGrid& grid, const Vec3& direction) {
+    return (grid.axes.transpose() * direction).cwiseAbs().maxCoeff() > kOffAxis;
+}
+
+/// The voxels of an interpolated surface; of a mask whose lattice shows too few faces, too.
+std::optional<VoxelGrid> grid_of(const Topology& topology, const Positions& positions) {
+    auto grid = interpolated_grid(topology, positions);
+    // A mask's vertices halfway between voxels lie in planes of their own.
+    if (grid && is_of_mask(topology, positions, *grid)) grid->spacing *= 2.0;
+    return grid;
+}
+
+StackOrientation estimate(const Topology& topology, const Positions& positions,
+                          const FaceNormals& faces, const StackOrientationParameters& parameters) {
     StackOrientation found;
     if (faces.normals.empty()) return found;
     const std::vector<NormalPeak> peaks = highest_peaks(faces);
-    if (const auto lattice = voxel_lattice(faces, peaks)) {
-        found.direction = lattice->long_axis;
-        found.confidence = lattice_confidence(*lattice);
-    } else {
+    const auto lattice = voxel_lattice(faces, peaks);
+    found.grid = lattice ? lattice->grid : grid_of(topology, positions);
+    if (found.grid) {
+        found.direction = found.grid->axes.col(found.grid->longest());
+        found.confidence = grid_confidence(*found.grid);
+    }
+    if (!lattice && found.confidence < kCertain) {
         found.direction = peaks.front().axis;
-        found.confidence = peak_confidence(peaks, faces.normals.size());
+        const bool possible = !found.grid || is_along_axis(*found.grid, found.direction);
+        found.confidence = possible ? peak_confidence(peaks, faces.normals.size()) : 0.0;
     }
     found.certain = found.confidence >= kCertain;
     if (!found.certain)
@@ -138,7 +159,7 @@ void require_usable(const StackOrientationParameters& parameters) {
 StackOrientation estimate_stack_orientation(const Topology& topology, const Positions& positions,
                                             const StackOrientationParameters& parameters) {
     require_usable(parameters);
-    return estimate(face_normals(topology, positions, {}), parameters);
+    return estimate(topology, positions, face_normals(topology, positions, {}), parameters);
 }
 
 StackOrientation estimate_stack_orientation(const Surface& surface,
@@ -148,7 +169,8 @@ StackOrientation estimate_stack_orientation(const Surface& surface,
     std::vector<std::uint8_t> wall(surface.triangle_count());
     for (TriangleId t = 0; t < wall.size(); ++t)
         wall[t] = surface.patch_of(t).kind == PatchKind::Wall ? 1 : 0;
-    return estimate(face_normals(*surface.topology, surface.points(), wall), parameters);
+    return estimate(*surface.topology, surface.points(),
+                    face_normals(*surface.topology, surface.points(), wall), parameters);
 }
 
 StackOrientation estimate_stack_orientation(const Surface& surface, std::span<const Cap> caps,
@@ -158,7 +180,8 @@ StackOrientation estimate_stack_orientation(const Surface& surface, std::span<co
     std::vector<std::uint8_t> wall(surface.triangle_count(), 1);
     for (const Cap& cap : caps)
         for (const TriangleId t : cap.triangles) wall[t] = 0;
-    return estimate(face_normals(*surface.topology, surface.points(), wall), parameters);
+    return estimate(*surface.topology, surface.points(),
+                    face_normals(*surface.topology, surface.points(), wall), parameters);
 }
 
 }  // namespace vesselbench

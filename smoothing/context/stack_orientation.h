@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "geometry/kernel/surface.h"
 #include "smoothing/context/caps.h"
+#include "smoothing/context/voxel_grid.h"
 
 namespace vesselbench {
 
@@ -13,6 +15,8 @@ struct StackOrientation {
     double confidence = 0.0;         ///< [-] in [0, 1]; how distinct the direction is
     bool certain = false;            ///< the direction may be used without confirmation
     double flat_share = 0.0;         ///< [-] share of the faces with theta < theta_limit (Eq. 5.3)
+    std::optional<VoxelGrid> grid =
+        std::nullopt;  ///< seen in the triangles, also in uncertain results
 };
 
 /// Parameters of the estimation (thesis 5.3.1).
@@ -26,16 +30,16 @@ struct StackOrientationParameters {
 /// midway between mean and maximum) and takes the one with the most flat faces around it. That
 /// yields an axis on any surface, even on a sphere; it is the direction of an uncertain result. A
 /// certain result needs further evidence:
-/// - On surfaces with interpolated vertices, the axis is a sharp peak of the normals, beyond what
-///   the surrounding shape explains, with a minimum share of the faces and no comparable second
-///   peak. Any single plane makes such a peak (a flat end unrelated to slices): exclude such faces.
-/// - Surfaces of labels or masks have only a few normals, and flat faces along all voxel axes.
-///   These give the ratios of the voxel's edges; the stack axis is that of the longest edge, if it
-///   is a quarter longer than the others. Surfaces without staircases are uncertain, too, as are
-///   smoothed or noisy ones of masks and those of cubic voxels, which have no stack axis. The
-///   direction is the median of the peak's normals, each face counting once. Faces without a normal
-///   (degenerate, not finite) are ignored; without any faces the result is uncertain and along z.
-///   Bit-identical for any number of threads.
+/// - The voxels' edges, if the triangles show them (interpolated_grid, voxel_lattice): the stack
+///   axis is that of the longest edge, if it is more than a fifth longer than the others. Masks of
+///   cubic voxels have no stack axis.
+/// - Else a sharp peak of the normals, beyond what the surrounding shape explains, with a minimum
+///   share of the faces and no comparable second peak; along an axis of the voxels, if these are
+///   seen. Any single plane makes such a peak (a flat end unrelated to slices): exclude such faces.
+/// Surfaces without staircases whose vertices were moved are uncertain. The direction of a peak is
+/// the median of its normals, each face counting once. Faces without a normal
+/// (degenerate, not finite) are ignored; without any faces the result is uncertain and along z.
+/// Bit-identical for any number of threads.
 /// \throw InvalidInput if radius is not in [0.02, 0.5] or theta_limit not in (0, 1]
 [[nodiscard]] StackOrientation estimate_stack_orientation(
     const Topology& topology, const Positions& positions,

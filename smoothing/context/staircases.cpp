@@ -33,6 +33,22 @@ std::vector<double> raw_orientations(const Topology& topology, const Positions& 
     return theta;
 }
 
+/// Raises the changes to those of one axis (Eq. 5.4).
+void add_change(const Topology& topology, const std::vector<double>& theta,
+                std::vector<double>& change) {
+    const CompressedRows& rows = topology.triangles_at();
+    for_each_vertex(change.size(), [&](std::size_t v) {
+        constexpr double kNone = std::numeric_limits<double>::infinity();
+        double smallest = kNone, largest = -kNone;
+        for (const TriangleId t : rows.row(v)) {
+            if (theta[t] == kDegenerate) continue;
+            smallest = std::min(smallest, theta[t]);
+            largest = std::max(largest, theta[t]);
+        }
+        if (smallest != kNone) change[v] = std::max(change[v], largest - smallest);
+    });
+}
+
 }  // namespace
 
 Vec3 unit_axis(const Vec3& stack_axis) {
@@ -50,20 +66,10 @@ std::vector<double> face_orientations(const Topology& topology, const Positions&
 }
 
 std::vector<double> orientation_change(const Topology& topology, const Positions& positions,
-                                       const Vec3& stack_axis) {
-    const std::vector<double> theta = raw_orientations(topology, positions, stack_axis);
-    const CompressedRows& rows = topology.triangles_at();
-    std::vector<double> change(positions.size());
-    for_each_vertex(change.size(), [&](std::size_t v) {
-        constexpr double kNone = std::numeric_limits<double>::infinity();
-        double smallest = kNone, largest = -kNone;
-        for (const TriangleId t : rows.row(v)) {
-            if (theta[t] == kDegenerate) continue;
-            smallest = std::min(smallest, theta[t]);
-            largest = std::max(largest, theta[t]);
-        }
-        change[v] = smallest == kNone ? 0.0 : largest - smallest;
-    });
+                                       const StackAxes& stack_axes) {
+    std::vector<double> change(positions.size(), 0.0);
+    for (const Vec3& axis : stack_axes)
+        add_change(topology, raw_orientations(topology, positions, axis), change);
     return change;
 }
 

@@ -1,5 +1,7 @@
 #include "smoothing/filters/filter.h"
 
+#include "smoothing/filters/divergence.h"
+
 namespace vesselbench {
 
 namespace {
@@ -41,7 +43,9 @@ struct Run {
 Positions apply_filter(const Topology& topology, const Positions& positions,
                        const FilterParameters& parameters, const FilterSettings& settings,
                        const Progress& progress) {
-    return std::visit(Run{topology, positions, settings, progress}, parameters);
+    Positions result = std::visit(Run{topology, positions, settings, progress}, parameters);
+    require_bounded(positions, result);
+    return result;
 }
 
 }  // namespace vesselbench

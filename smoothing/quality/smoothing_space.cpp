@@ -98,7 +98,7 @@ FilterParameters with_values(const std::vector<SearchParameter>& parameters,
 std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options) {
     std::vector<SearchParameter> list =
         std::visit(ParametersOf{options.all_parameters}, options.filter);
-    if (options.staircase) {
+    if (options.staircase && options.all_parameters) {
         list.push_back({"tau_theta", "-", steps(0.2, 0.9, 0.1), 3});
         list.push_back({"tau_max", "mm", {}, 2});
         for (const double slices : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
@@ -118,7 +118,7 @@ SearchSpace smoothing_space(const SmoothingSpaceOptions& options) {
         SmoothingChoice choice{with_values(parameters, values, options.filter, options.mu_stays),
                                options.weights};
         if (roughens(choice.filter)) return std::nullopt;
-        if (!options.staircase) return choice;
+        if (!has(parameters, "tau_theta")) return choice;
         StaircaseValues staircase;
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (parameters[i].name == "tau_theta") staircase.tau_theta = values[i];

@@ -10,9 +10,11 @@ namespace vesselbench {
 struct SmoothingSpaceOptions {
     FilterParameters filter;  ///< with the values of the fixed parameters
     std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< fixed; null: all 1
-    StaircaseWeights staircase = nullptr;  ///< set: search tau_theta, tau_max, beta_min too (7.2)
-    bool engine_weighs = false;            ///< SmoothingEngine::weighs_staircases
-    double slice = 1.0;                    ///< distance of the image's slices; scales tau_max [mm]
+    /// Set: graphs vary tau_theta, tau_max and beta_min, too (7.2). A search keeps them: its score
+    /// falls with the curvature of all the surface, so it would smooth everywhere (beta_min 1).
+    StaircaseWeights staircase = nullptr;
+    bool engine_weighs = false;  ///< SmoothingEngine::weighs_staircases
+    double slice = 1.0;          ///< distance of the image's slices; scales tau_max [mm]
     int most_iterations = 50;
     bool all_parameters = false;  ///< also those that the search does not vary: for graphs
     bool mu_stays = false;        ///< Taubin: mu does not follow lambda

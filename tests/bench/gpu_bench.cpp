@@ -63,7 +63,7 @@ double copy_bandwidth(const Device& device) {
         std::min(device.limits.largest_storage_block, std::size_t{1} << 30) & ~std::size_t{4095};
     const Buffer from = make_storage(device, bytes, "copied from");
     const Buffer to = make_storage(device, bytes, "copied to");
-    const double time = device_milliseconds([&] { copy_storage(from, to, bytes); });
+    const double time = device_milliseconds([&] { copy_storage(device, from, to, bytes); });
     return 2.0 * static_cast<double>(bytes) / (1e-3 * time);
 }
 

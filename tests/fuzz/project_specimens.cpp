@@ -8,11 +8,10 @@
 #include "geometry/formats/surface_file.h"
 #include "tests/forest/dice.h"
 #include "tests/support/image_shapes.h"
+#include "tests/support/scene_bits.h"
 #include "tests/support/shapes.h"
 #include "workbench/case/history.h"
 #include "workbench/operations/table.h"
-#include "workbench/project/content_hash.h"
-#include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
 
 namespace vesselbench::fuzz {
@@ -44,13 +43,6 @@ void make_image_project(const fs::path& file) {
     session.apply("load-image", {{"file", image}});
     session.apply("extract-surface", {});
     session.apply("repair", {});
-}
-
-/// Digest of a scene's bits.
-std::string bits_of(const Scene& scene) {
-    ContentHash hash;
-    hash.add(encode_scene(scene));
-    return hash.hex();
 }
 
 void run_sql(sqlite3* database, const std::string& sql) {
@@ -145,7 +137,8 @@ std::string content_of(const fs::path& project) {
                    (entry.result ? stored_text(entry.result->resolved) : "") + "\n";
     for (const ReplayEntry& entry : session.replay())
         if (!entry.differences.empty()) return "";
-    for (const std::string variant : {"cfd", "rp"}) content += bits_of(session.scene(variant));
+    for (const std::string variant : {"cfd", "rp"})
+        content += test::bits_of(session.scene(variant));
     const std::shared_ptr<const Snapshot> snapshot = session.snapshot();
     for (const auto& [id, state] : snapshot->history->states()) {
         (void)session.known_scene(id, "rp");

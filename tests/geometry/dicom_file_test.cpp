@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <catch2/catch.hpp>
 #include <gdcmAttribute.h>
@@ -99,7 +100,31 @@ std::string write_series(const std::vector<Slice>& slices) {
     return folder;
 }
 
+/// The files of a folder with other rows and columns in their headers.
+void announce_size(const std::string& folder, std::uint16_t size) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".dcm") continue;
+        std::ifstream in(entry.path(), std::ios::binary);
+        std::string bytes(std::istreambuf_iterator<char>(in), {});
+        for (const char element : {'\x10', '\x11'}) {
+            const std::size_t at =
+                bytes.find(std::string("\x28\0", 2) + element + std::string("\0US\2\0", 5));
+            REQUIRE(at != std::string::npos);
+            bytes[at + 8] = static_cast<char>(size & 0xff);
+            bytes[at + 9] = static_cast<char>(size >> 8);
+        }
+        std::ofstream(entry.path(), std::ios::binary) << bytes;
+    }
+}
+
 }  // namespace
+
+SCENARIO("A DICOM slice that announces more pixels than it holds is refused",
+         "[images][dicom][bad-input]") {
+    const std::string folder = write_series(oblique_series());
+    announce_size(folder, 40000);
+    CHECK_THAT(message_of(folder), Contains("its header announces 3200000000 bytes"));
+}
 
 SCENARIO("A DICOM series gives its true geometry", "[images][dicom]") {
     GIVEN("oblique slices in files of another order") {

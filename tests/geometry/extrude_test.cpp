@@ -80,6 +80,33 @@ SCENARIO("An opening is extruded along its normal", "[geometry][extrude]") {
     }
 }
 
+SCENARIO("An opening is extruded along its vessel", "[geometry][extrude]") {
+    GIVEN("a tube that leans 30 degrees, with caps across z") {
+        const double lean = std::tan(kPi / 6.0);
+        const Surface tube = mapped(closed_tube(2.0, 20.0, 48, 60), [=](const Vec3& p) {
+            return Vec3(p.x() + lean * p.z(), p.y(), p.z());
+        });
+        const Vec3 along = Vec3(lean, 0.0, 1.0);
+        const auto [longer, length, shortened] = extrude_opening(
+            tube, 2,
+            {.length = 8.0, .direction = along, .profile = ExtrusionProfile::Keep, .blend = 0.5});
+        THEN("it goes on straight, and the cap has moved by the length along it") {
+            CHECK(length == 8.0);
+            CHECK_FALSE(shortened);
+            CHECK(is_closed_manifold(longer));
+            const Vec3 end = patch_shape(longer, 2).plane.point;
+            CHECK((end - (20.0 * along + 8.0 * along.normalized())).norm() < 1e-6);
+            CHECK(enclosed_volume(longer) ==
+                  Approx(enclosed_volume(tube) * end.z() / 20.0).epsilon(1e-3));
+        }
+        THEN("its directions are limited") {
+            CHECK_THROWS_AS(
+                extrude_opening(tube, 2, {.length = 8.0, .direction = Vec3(3.0, 0.0, 1.0)}),
+                InvalidInput);
+        }
+    }
+}
+
 SCENARIO("An extrusion stops before it hits another vessel", "[geometry][extrude]") {
     const Surface tube = closed_tube(2.0, 20.0, 48, 60);
     const Surface across =

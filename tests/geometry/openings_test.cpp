@@ -89,6 +89,29 @@ void check_caps(const Surface& s, std::size_t openings, double most_tilt = 2.0) 
 
 }  // namespace
 
+SCENARIO("A cut moves inward only for a place that is clearly straighter", "[geometry][openings]") {
+    // From its end the vessel straightens as fast as giving up length costs: little is gained.
+    const double radius = 2.0, length = 120.0, step = 0.02;
+    Positions points;
+    std::vector<double> angles;
+    double angle = 0.0;
+    Vec3 at = Vec3::Zero();
+    for (double z = 0.0; z < length + 1.0; z += step) {
+        points.push_back(at);
+        angles.push_back(angle);
+        angle += std::max(0.0, 25.0 - 6.0 * z / radius) * kPi / 180.0 / (2.0 * radius) * step;
+        at += step * Vec3(std::sin(angle), 0.0, std::cos(angle));
+    }
+    const Path path = [&](double z) -> AxisPoint {
+        const auto i = static_cast<std::size_t>(std::lround(std::max(0.0, z) / step));
+        return {points[i], Vec3(std::cos(angles[i]), 0.0, -std::sin(angles[i]))};
+    };
+    const Surface tube = bent(open_tube(radius, length, 48, 480), path);
+    const OpeningPlace place = choose_opening_place(tube, line_graph(path, length, radius), 0);
+    CHECK(place.distance < 1.2 * radius);
+    CHECK(place.tilt_deg < 0.1);
+}
+
 SCENARIO("A tube is clipped at a known place", "[geometry][openings]") {
     const double radius = 2.0, length = 30.0;
     const int around = 40;

@@ -23,10 +23,10 @@ SCENARIO("Destroying a context makes the previous one current", "[gpu][context]"
         const OffscreenContext other;
         CHECK(current_device().limits.renderer == test->context.renderer());
     }
-    CHECK(read_storage<float>(buffer, 2) == values);
+    CHECK(read_storage<float>(test->device, buffer, 2) == values);
     OffscreenContext third;
     third.release();
-    CHECK(read_storage<float>(buffer, 2) == values);
+    CHECK(read_storage<float>(test->device, buffer, 2) == values);
 }
 
 SCENARIO("A fence orders the commands of two threads' contexts", "[gpu][context]") {
@@ -36,20 +36,22 @@ SCENARIO("A fence orders the commands of two threads' contexts", "[gpu][context]
     OffscreenContext shared(Sharing::WithCurrent);
     shared.release();
     const Buffer buffer = make_storage(test->device, kWords * 4, "words");
-    fill_storage(buffer, 1);
+    fill_storage(test->device, buffer, 1);
     std::optional<Fence> ready(std::in_place), filled;
     std::thread worker([&] {
         shared.make_current();
+        const Device device = current_device();
         ready->order();
-        const auto before = read_storage<std::uint32_t>(buffer, kWords);
+        const auto before = read_storage<std::uint32_t>(device, buffer, kWords);
         CHECK(before == std::vector<std::uint32_t>(kWords, 1));
-        for (std::uint32_t word = 2; word <= 50; ++word) fill_storage(buffer, word);
+        for (std::uint32_t word = 2; word <= 50; ++word) fill_storage(device, buffer, word);
         filled.emplace();
         shared.release();
     });
     worker.join();
     filled->order();
-    CHECK(read_storage<std::uint32_t>(buffer, kWords) == std::vector<std::uint32_t>(kWords, 50));
+    CHECK(read_storage<std::uint32_t>(test->device, buffer, kWords) ==
+          std::vector<std::uint32_t>(kWords, 50));
     CHECK(filled->reached());
 }
 

@@ -23,7 +23,7 @@ double largest_difference(const TestDevice& test, const Surface& surface,
                           const std::vector<Surface>& neighbours) {
     const auto wanted = neighbour_distances(surface.points(), neighbours);
     const NeighbourDistances found = find_neighbour_distances(*uploaded(test, surface), neighbours);
-    const auto distances = read_storage<float>(found.distances, wanted.size());
+    const auto distances = read_storage<float>(test.device, found.distances, wanted.size());
     double largest = 0.0;
     for (std::size_t v = 0; v < wanted.size(); ++v)
         largest = std::max(largest, std::abs(distances[v] - wanted[v]));
@@ -85,7 +85,7 @@ SCENARIO("Weights from distances that never left the device are the CPU's", "[gp
         weights.restart();
         weights.multiply_distances(found, {.scaling = scaling});
         const auto wanted = distance_weights(distances, {.scaling = scaling});
-        const auto made = read_storage<float>(weights.weights(), wanted.size());
+        const auto made = read_storage<float>(test->device, weights.weights(), wanted.size());
         for (std::size_t v = 0; v < wanted.size(); ++v)
             CHECK(made[v] == Approx(wanted[v]).margin(1e-5));
     }
@@ -100,7 +100,7 @@ SCENARIO("A failing search for neighbours reports it", "[gpu][neighbours]") {
     const std::vector<Surface> nothing{Surface{}};
     CHECK_THROWS_AS(find_neighbour_distances(*surface, nothing), InvalidInput);
     const std::vector<Surface> neighbours{sphere};
-    Device dying = test->device;
+    Device dying = current_device();
     dying.lost = [] { return true; };
     CHECK_THROWS_AS(find_neighbour_distances(DeviceSurface(dying, sphere), neighbours),
                     GpuUnavailable);

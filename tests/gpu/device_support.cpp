@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <random>
 
+#include <catch2/catch.hpp>
+
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -23,7 +25,10 @@ Surface repaired(const Surface& surface) {
 
 std::optional<TestDevice> test_device() {
     try {
-        return TestDevice{};
+        TestDevice test;
+        test.reports = std::make_unique<DebugOutput>(
+            [](const std::string& text) { FAIL_CHECK("OpenGL reported: " << text); });
+        return test;
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/surface.h"
 #include "gpu/context.h"
+#include "gpu/debug_output.h"
 #include "gpu/device_surface.h"
 
 namespace vesselbench::test {
@@ -15,6 +16,8 @@ namespace vesselbench::test {
 struct TestDevice {
     OffscreenContext context;
     Device device = current_device();
+    /// What the driver reports fails the test; reset it before an error that is provoked.
+    std::unique_ptr<DebugOutput> reports;
 };
 
 /// Empty without usable OpenGL: the scenario counts as skipped.

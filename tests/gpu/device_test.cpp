@@ -52,6 +52,7 @@ SCENARIO("Included texts appear in a shader once, and messages name their lines"
 SCENARIO("A shader that does not compile is reported by file and line", "[gpu][device]") {
     auto test = test_device();
     if (!test) return;
+    test->reports.reset();
     const Texts texts = {{"wrong.comp",
                           "#version 430 core\nlayout(local_size_x = 1) in;\n#include "
                           "\"part.glsl\"\nvoid main() {}\n"},
@@ -69,6 +70,7 @@ SCENARIO("Data that does not fit the device is reported with its size", "[gpu][d
     CHECK_THROWS_WITH(make_storage(test->device, 1001, "positions"),
                       Contains("positions takes 1001 bytes") && Contains("1000"));
     test->device.limits.largest_storage_block = std::size_t{1} << 60;
+    test->reports.reset();
     CHECK_THROWS_WITH(make_storage(test->device, std::size_t{1} << 52, "positions"),
                       Contains("out of memory for positions"));
 }
@@ -81,8 +83,8 @@ SCENARIO("Storage keeps its values, and the device's time is measured", "[gpu][d
     const Buffer copy = make_storage(test->device, 3 * sizeof(float), "copy");
     const DeviceTimer timer;
     timer.start();
-    copy_storage(buffer, copy, 3 * sizeof(float));
+    copy_storage(test->device, buffer, copy, 3 * sizeof(float));
     timer.stop();
-    CHECK(read_storage<float>(copy, 3) == values);
+    CHECK(read_storage<float>(test->device, copy, 3) == values);
     CHECK(timer.milliseconds() >= 0.0);
 }

@@ -102,12 +102,12 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
     const auto test = test_device();
     if (!test) return;
     const Surface surface = of_mask(vessel_in_slices());
-    StaircaseGround staircases{.stack_axis = Vec3(0.0, 0.1, 1.0)};
+    StaircaseGround staircases{.stack_axes = Vec3(0.0, 0.1, 1.0)};
     staircases.caps = cap_vertices(find_caps(surface), surface.vertex_count());
     auto others = std::make_shared<std::vector<double>>(surface.vertex_count(), 1.0);
     for (std::size_t v = 0; v < others->size(); v += 5) (*others)[v] = 0.4;
     const auto change =
-        orientation_change(*surface.topology, surface.points(), staircases.stack_axis);
+        orientation_change(*surface.topology, surface.points(), staircases.stack_axes);
     int asked = 0;
     SharedWeights also;
     const StaircaseWeights on_cpu = [&](double tau_theta, double tau_max, double beta_min) {

@@ -79,8 +79,9 @@ SCENARIO("Normals, curvature and error at each vertex agree with the CPU's", "[g
         smoother.run(10);
         GpuMeter meter(device);
         meter.measure(smoother.shifts());
-        const auto normals = read_storage<Eigen::Vector4f>(meter.normals(), count);
-        const auto errors = read_storage<float>(meter.errors(), count);
+        const auto normals =
+            read_storage<Eigen::Vector4f>(device->device(), meter.normals(), count);
+        const auto errors = read_storage<float>(device->device(), meter.errors(), count);
         const Surface moved = surface.with_positions(smoother.positions());
         const Positions wanted = vertex_normals(moved);
         const auto curvature = mean_curvature(moved).values;
@@ -139,6 +140,30 @@ SCENARIO("Many states are measured before one reading", "[gpu][meter]") {
     }
 }
 
+SCENARIO("Work groups in several rows do the same", "[gpu][meter][smoother]") {
+    auto test = test_device();
+    if (!test) return;
+    const Surface sphere = varied_surfaces().front().surface;
+    const Surface tube = open_tube(2.0, 30.0, 40, 60);
+    const auto found = [&](const Surface& surface) {
+        const auto device = uploaded(*test, surface);
+        GpuSmoother smoother(device, {});
+        smoother.start(LaplaceHcParameters{});
+        smoother.run(10);
+        GpuMeter meter(device, 1, true);
+        meter.measure(smoother.shifts());
+        return std::pair(smoother.positions(), meter.read().front().quality);
+    };
+    for (const Surface& surface : {sphere, tube}) {
+        test->device.limits.largest_group_count = 65535;
+        const auto in_one = found(surface);
+        for (const std::size_t limit : {1, 3, 7}) {
+            test->device.limits.largest_group_count = limit;
+            CHECK(found(surface) == in_one);
+        }
+    }
+}
+
 SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") {
     const auto test = test_device();
     if (!test) return;
@@ -149,13 +174,13 @@ SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") 
     smoother.start(LaplaceParameters{1.0});
     smoother.run(30);
     const Buffer references = meter.make_references();
-    const auto own = read_storage<VertexId>(references, count);
+    const auto own = read_storage<VertexId>(device->device(), references, count);
     CHECK(own == own_references(*device->surface().topology));
     meter.measure(smoother.shifts(), references, false);
     const double unfollowed = meter.read().front().quality.error;
-    CHECK(read_storage<VertexId>(references, count) == own);
+    CHECK(read_storage<VertexId>(device->device(), references, count) == own);
     meter.follow(smoother.shifts(), references);
-    const auto followed = read_storage<VertexId>(references, count);
+    const auto followed = read_storage<VertexId>(device->device(), references, count);
     CHECK(followed != own);
     std::vector<VertexId> wanted = own;
     follow_drift(*device->surface().topology, device->surface().points(), smoother.positions(),

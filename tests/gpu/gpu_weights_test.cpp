@@ -19,8 +19,9 @@ namespace {
 
 const Vec3 kAxis(0.3, -0.2, 2.0);
 
-double largest_difference(const Buffer& weights, const std::vector<double>& wanted) {
-    const auto found = read_storage<float>(weights, wanted.size());
+double largest_difference(const Device& device, const Buffer& weights,
+                          const std::vector<double>& wanted) {
+    const auto found = read_storage<float>(device, weights, wanted.size());
     double largest = 0.0;
     for (std::size_t v = 0; v < wanted.size(); ++v)
         largest = std::max(largest, std::abs(found[v] - wanted[v]));
@@ -79,7 +80,7 @@ SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][
                                                      .caps = some_caps};
                 weights.restart();
                 weights.multiply_staircases(parameters);
-                CHECK(largest_difference(weights.weights(),
+                CHECK(largest_difference(test->device, weights.weights(),
                                          staircase_weights(*surface.topology, surface.points(),
                                                            change, parameters)) <= 1e-6);
             }
@@ -89,20 +90,22 @@ SCENARIO("A failed search leaves the previous weights unchanged", "[gpu][weights
     auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 30.0, 40, 60);
-    bool lost = false;
-    test->device.lost = [&] { return lost; };
+    bool full = false;
+    test->device.fails = [&](DeviceCommand command) {
+        return full && command == DeviceCommand::Allocate;
+    };
     GpuWeights weights(uploaded(*test, tube));
     weights.find_orientation_change(kAxis);
     const StaircaseParameters parameters{.tau_theta = 0.01, .tau_max = 1.0};
     weights.multiply_staircases(parameters);
-    const auto before = read_storage<float>(weights.weights(), tube.vertex_count());
+    const auto before = read_storage<float>(test->device, weights.weights(), tube.vertex_count());
     const std::vector<std::uint8_t> caps(tube.vertex_count(), 1);
-    lost = true;
+    full = true;
     CHECK_THROWS_AS(weights.multiply_staircases({.caps = caps}), GpuUnavailable);
-    lost = false;
+    full = false;
     weights.restart();
     weights.multiply_staircases(parameters);
-    CHECK(read_storage<float>(weights.weights(), tube.vertex_count()) == before);
+    CHECK(read_storage<float>(test->device, weights.weights(), tube.vertex_count()) == before);
     CHECK(std::ranges::max(before) > 0.5F);
 }
 
@@ -123,14 +126,14 @@ SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
             const DistanceParameters parameters{.scaling = scaling, .margin = 4.0, .omega = omega};
             weights.restart();
             weights.multiply_distances(known, parameters);
-            CHECK(largest_difference(weights.weights(), distance_weights(distances, parameters)) <=
-                  1e-5);
+            CHECK(largest_difference(test->device, weights.weights(),
+                                     distance_weights(distances, parameters)) <= 1e-5);
         }
     THEN("a margin that nothing exceeds leaves nothing to move") {
         weights.restart();
         weights.multiply_distances(known, {.scaling = DistanceScaling::Margin, .margin = 500.0});
-        CHECK(largest_difference(weights.weights(), std::vector<double>(distances.size(), 0.0)) ==
-              0.0);
+        CHECK(largest_difference(test->device, weights.weights(),
+                                 std::vector<double>(distances.size(), 0.0)) == 0.0);
     }
     CHECK_THROWS_AS(weights.multiply_distances(known, {.omega = 0.0}), InvalidInput);
     CHECK_THROWS_AS(GpuWeights(uploaded(*test, icosphere(1.0, 2))).multiply_distances(known),

@@ -43,7 +43,8 @@ OnDevice search(const std::shared_ptr<const DeviceSurface>& surface,
     const DeviceDistances found = search_staircases(
         *surface, make_storage(device, std::span<const double>(changes), "changes"),
         make_storage(device, std::span<const float>(ones), "ones"), tau_theta, tau_max);
-    return {read_storage<float>(found.distances, changes.size()), found.farthest, found.open};
+    return {read_storage<float>(device, found.distances, changes.size()), found.farthest,
+            found.open};
 }
 
 /// Vertices whose distances are not the CPU's, rounded to single precision.
@@ -90,7 +91,7 @@ SCENARIO("Numbers are added up on the device", "[gpu][scan]") {
             make_storage(test->device, std::span<const std::uint32_t>(numbers), "numbers");
         add_up(*surface, buffer, count);
         for (std::size_t i = 1; i < count; ++i) numbers[i] += numbers[i - 1];
-        CHECK(read_storage<std::uint32_t>(buffer, count) == numbers);
+        CHECK(read_storage<std::uint32_t>(test->device, buffer, count) == numbers);
     }
 }
 
@@ -168,7 +169,7 @@ SCENARIO("A search for staircases reports a lost context", "[gpu][staircase-sear
     const auto test = test_device();
     if (!test) return;
     const Surface sphere = icosphere(5.0, 3);
-    Device dying = test->device;
+    Device dying = current_device();
     int looks = GENERATE(0, 1, 2);
     dying.lost = [&looks] { return looks-- <= 0; };
     const auto surface = std::make_shared<const DeviceSurface>(dying, sphere);

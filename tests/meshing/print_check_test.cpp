@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/vessel/centerlines/bends.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -48,5 +49,32 @@ SCENARIO("the print check measures size, thinnest place and gap", "[meshing][pri
         THEN("it is not printable") {
             CHECK_FALSE(print_check(test::open_tube(1.0, 5.0, 12, 6)).printable());
         }
+    }
+}
+
+SCENARIO("the strongest bend of a vessel is found", "[meshing][print]") {
+    GIVEN("a line that bends by a circle of twice the vessel's radius") {
+        const double radius = 1.0, bend = 2.0;
+        CenterlineBranch branch;
+        const auto add = [&](const Vec3& p) {
+            branch.points.push_back(p);
+            branch.radii.push_back(radius);
+        };
+        for (int i = -100; i < 0; ++i) add(Vec3(bend, 0.1 * i, 0.0));
+        for (int i = 0; i <= 90; ++i)
+            add(bend * Vec3(std::cos(i * std::numbers::pi / 90.0),
+                            std::sin(i * std::numbers::pi / 90.0), 0.0));
+        for (int i = 1; i <= 100; ++i) add(Vec3(-bend, -0.1 * i, 0.0));
+        const auto found = strongest_bend({.nodes = {}, .branches = {branch}});
+        THEN("it turns by a diameter over the bend's radius, inside the arc") {
+            REQUIRE(found.has_value());
+            CHECK(found->turn_deg == Approx(180.0 / std::numbers::pi).epsilon(0.01));
+            CHECK(found->place.y() > 0.0);
+        }
+    }
+    GIVEN("a line shorter than two diameters") {
+        const CenterlineBranch stub{.points = {Vec3(0, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, 2)},
+                                    .radii = {1.0, 1.0, 1.0}};
+        CHECK_FALSE(strongest_bend({.nodes = {}, .branches = {stub}}).has_value());
     }
 }

@@ -11,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/surface_distance.h"
+#include "meshing/remeshing/feature_regions.h"
 #include "meshing/remeshing/remesher.h"
 #include "meshing/remeshing/surface_walk.h"
 #include "tests/support/shapes.h"
@@ -234,6 +235,20 @@ SCENARIO("Remeshing reports its progress, which never goes back", "[meshing][rem
     CHECK(reports.size() >= 15);
     CHECK(std::ranges::is_sorted(reports));
     CHECK(reports.back() <= 1.0);
+}
+
+SCENARIO("Remeshing keeps the edges around regions of a size", "[meshing][remesh]") {
+    const Surface box = cube(10.0);
+    const FeatureRegions sides = split_at_features(box, 60.0, 0.0);
+    CHECK(sides.edges == 12);
+    const Surface kept =
+        sides.restored(remesh(sides.surface, {.mode = RemeshMode::Uniform, .edge = 1.0}).surface);
+    CHECK(kept.patches == box.patches);
+    CHECK(volume(kept) == Approx(volume(box)).epsilon(1e-9));
+    check_sound(kept, true);
+    CHECK(split_at_features(box, 95.0, 0.0).edges == 0);    // nothing bends so much
+    CHECK(split_at_features(box, 60.0, 101.0).edges == 0);  // all sides are smaller
+    CHECK_THROWS_AS(split_at_features(box, 0.0, 0.0), InvalidInput);
 }
 
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {

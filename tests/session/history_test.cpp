@@ -5,6 +5,7 @@
 #include "geometry/kernel/errors.h"
 
 using namespace vesselbench;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -97,6 +98,7 @@ SCENARIO("Undo and redo by an edit", "[session][history]") {
     CHECK(order(history.entries()) == std::vector<EditId>{1});
     history.redo_to(3);
     CHECK(order(history.entries()) == std::vector<EditId>{1, 2, 3});
+    CHECK_THROWS_WITH(history.undo_before(99), Contains("there is no edit 99 (the newest is "));
     CHECK_THROWS_AS(history.undo_before(4), UsageError);
     CHECK_THROWS_AS(history.redo_to(1), UsageError);
 }

@@ -9,6 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "geometry/kernel/errors.h"
+#include "smoothing/filters/filter.h"
 #include "smoothing/filters/laplace.h"
 #include "smoothing/filters/laplace_hc.h"
 #include "smoothing/filters/taubin.h"
@@ -183,6 +184,17 @@ SCENARIO("Parameter sets that amplify are recognised", "[smoothing]") {
     CHECK(amplifies(LaplaceHcParameters{.lambda = 1.0, .beta = 0.0}));
     CHECK_FALSE(amplifies(TaubinParameters{}));
     CHECK(amplifies(TaubinParameters{.lambda = 1.0}));
+}
+
+SCENARIO("A filter that diverges is ended with a text", "[smoothing][bad-input]") {
+    const Surface sphere = mapped(icosphere(5.0, 4), [](const Vec3& p) {
+        return Vec3(p * (1.0 + 0.02 * std::sin(9.0 * p.x()) * std::cos(7.0 * p.y())));
+    });
+    for (const int iterations : {30, 3000})
+        CHECK_THROWS_WITH(
+            apply_filter(*sphere.topology, sphere.points(),
+                         TaubinParameters{.lambda = 1.0, .mu = -2.0}, {.iterations = iterations}),
+            Catch::Contains("the filter diverges"));
 }
 
 namespace {

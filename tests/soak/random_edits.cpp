@@ -9,13 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/support/scene_bits.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/history.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
-#include "workbench/project/content_hash.h"
-#include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
 
 namespace vesselbench::soak {
@@ -137,7 +136,7 @@ void check_from_nothing(Session& session, const SmallFiles& files, const Session
         }
     }
     for (const std::string variant : {"cfd", "rp"})
-        if (bits_of(session.scene(variant)) != bits_of(again.scene(variant)))
+        if (test::bits_of(session.scene(variant)) != test::bits_of(again.scene(variant)))
             found.push_back("the edits applied again give another scene for " + variant);
 }
 
@@ -279,12 +278,6 @@ std::vector<std::string> unreproduced(Session& session, const SmallFiles& files,
     check_replay(session, found);
     check_from_nothing(session, files, options, found);
     return found;
-}
-
-std::string bits_of(const Scene& scene) {
-    ContentHash hash;
-    hash.add(encode_scene(scene));
-    return hash.hex();
 }
 
 }  // namespace vesselbench::soak

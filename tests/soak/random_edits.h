@@ -68,7 +68,4 @@ private:
 [[nodiscard]] std::vector<std::string> unreproduced(Session& session, const SmallFiles& files,
                                                     const SessionOptions& options);
 
-/// Digest of a scene's bits.
-[[nodiscard]] std::string bits_of(const Scene& scene);
-
 }  // namespace vesselbench::soak

@@ -11,6 +11,7 @@
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
 #include "workbench/window/model/view_choice.h"
+#include "workbench/window/model/worst_places.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -116,6 +117,21 @@ SCENARIO("Staircase weights follow the steps of a stack", "[window][colours]") {
     }
     CHECK(at_step > 0.9);
     CHECK(far == 0.0);
+}
+
+SCENARIO("The worst places of a measure are toured, the worst one first", "[window][colours]") {
+    const Positions points = {{0, 0, 0}, {0.1, 0, 0}, {5, 0, 0}, {9, 0, 0}, {20, 0, 0}};
+    const std::vector<double> values = {-8, -7.9, 3, 0.5, std::numeric_limits<double>::quiet_NaN()};
+    const auto order = [&](WorstEnd end, std::size_t most) {
+        std::vector<double> found;
+        for (const WorstPlace& worst : worst_places(points, values, end, 1.0, most))
+            found.push_back(worst.value);
+        return found;
+    };
+    CHECK(order(WorstEnd::FarthestFromZero, 10) == std::vector<double>{-8, 3, 0.5});
+    CHECK(order(WorstEnd::Largest, 2) == std::vector<double>{3, 0.5});
+    CHECK(order(WorstEnd::Least, 10) == std::vector<double>{-8, 0.5, 3});
+    CHECK(worst_places({}, {}, WorstEnd::Least, 1.0, 3).empty());
 }
 
 SCENARIO("The automatic range leaves out outliers", "[window][colours]") {

@@ -2,7 +2,9 @@
 
 #include "workbench/window/model/document.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <thread>
@@ -242,6 +244,53 @@ SCENARIO("What is shown belongs to the state, whatever is asked meanwhile", "[wi
             }
         }
     }
+}
+
+SCENARIO("What was made at an end is no deviation from the source", "[window][document]") {
+    const fs::path project = fs::path(temporary_folder()) / "tube.vbench";
+    {
+        Session session = Session::create(project, session_options());
+        session.apply("load-surface", {{"file", tube_file()}, {"units", std::string("mm")}});
+        session.apply("clip-opening", {});
+        session.apply("extrude-opening", {{"length", 20.0}});
+    }
+    Document document(options());
+    document.open({.path = project});
+    document.want_deviation(true);
+    REQUIRE(wait_for_rest(document));
+    REQUIRE(document.figures().deviation);
+    CHECK(document.figures().deviation->largest < 0.2);
+    REQUIRE(document.deviation());
+    CHECK(document.deviation()->full < 0.2);
+    const auto& values = document.deviation()->values;
+    CHECK(std::ranges::any_of(values, [](double value) { return std::isnan(value); }));
+    CHECK_FALSE(std::ranges::all_of(values, [](double value) { return std::isnan(value); }));
+}
+
+SCENARIO("Going through the history says where it led", "[window][document]") {
+    const fs::path project = fs::path(temporary_folder()) / "tube.vbench";
+    const std::string small = temporary_folder() + "/small.off";  // in which unit?
+    write_text(small,
+               "OFF\n4 4 0\n0 0 0\n5 0 0\n0 5 0\n0 0 5\n"
+               "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    {
+        Session session = Session::create(project, session_options());
+        session.apply("load-surface", {{"file", small}, {"units", std::string("guess")}});
+        session.apply("subdivide", {});
+    }
+    Document document(options());
+    document.open({.path = project});
+    REQUIRE(wait_for_rest(document));
+    THEN("what the edits warned of is known again, and that it was opened comes last") {
+        CHECK(told(document, "does not state its unit"));
+        CHECK_THAT(document.messages().back().text, Contains("Opened"));
+    }
+    document.undo();
+    REQUIRE(wait_for_rest(document));
+    CHECK(document.messages().back().text == "Undid edit 2, Subdivide");
+    document.redo();
+    REQUIRE(wait_for_rest(document));
+    CHECK(document.messages().back().text == "Redid edit 2, Subdivide");
 }
 
 SCENARIO("A project of a version with more operations is shown", "[window][document]") {

@@ -28,6 +28,7 @@ struct Asking {
         folder = shell->app().place().document.project().parent_path();
         shell->app().place().ask(question);
         shell->frame();
+        REQUIRE(shell->settle(30s));
     }
 
     [[nodiscard]] bool asks() const {
@@ -79,8 +80,10 @@ SCENARIO("A file is opened by Enter or by a double click", "[window][files]") {
     shell.app().place().ask(FileQuestion::None);
     shell.frame();
     shell.app().place().ask(FileQuestion::Open);
+    REQUIRE(shell.settle(30s));
     WHEN("it is a folder that is clicked twice") {
         REQUIRE(shell.click_item("file.entry.inner"));
+        REQUIRE(shell.settle(30s));
         REQUIRE(shell.click_item("file.entry.other.stl"));
         THEN("nothing in it is opened") {
             CHECK(window.asks());
@@ -96,6 +99,7 @@ SCENARIO("A file is opened by Enter or by a double click", "[window][files]") {
     WHEN("it is clicked twice") {
         REQUIRE(shell.fill_item("file.folder", (window.folder / "inner").string()));
         shell.press_key(keys::kEnter);
+        REQUIRE(shell.settle(30s));
         REQUIRE(shell.click_item("file.entry.other.stl"));
         CHECK(window.asks());
         REQUIRE(shell.click_item("file.entry.other.stl"));
@@ -114,6 +118,7 @@ SCENARIO("The slices of a DICOM folder are opened together", "[window][files]") 
     // Not beside the shared data: the project is written next to what is opened.
     fs::copy(series, window.folder / "series");
     REQUIRE(shell.fill_item("file.folder", (window.folder / "series").string()));
+    REQUIRE(shell.settle(30s));
     REQUIRE(shell.click_item("file.dicom"));
     CHECK_FALSE(window.asks());
     REQUIRE(wait_until_idle(shell));

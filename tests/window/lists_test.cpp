@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <catch2/catch.hpp>
+#include <imgui.h>
 
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -281,6 +282,19 @@ SCENARIO("A typed range is of one quantity", "[window][view]") {
         view.choose(ColouringKind::Deviation);
         CHECK_FALSE(view.has_typed_range());
     }
+}
+
+SCENARIO("A text is broken at blanks, not within numbers", "[window]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    shell->frame();
+    const std::string words = "at (12.345,-6.789, 101.112) mm, 3.5 mm wide\nand more";
+    CHECK(broken(words, 1e6F) == words);
+    CHECK(broken(words, 1) == "at\n(12.345,-6.789,\n101.112)\nmm,\n3.5\nmm\nwide\nand\nmore");
+    const std::string lines = broken(words, 120);
+    CHECK(ImGui::CalcTextSize(lines.c_str()).x <= 120);
+    CHECK(broken(lines, 120) == lines);
+    CHECK(broken("", 10).empty());
 }
 
 SCENARIO("A text is shortened to whole characters", "[window]") {

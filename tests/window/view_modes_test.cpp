@@ -5,6 +5,7 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 #include "gpu/render/view_camera.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
@@ -115,6 +116,30 @@ SCENARIO("Colours are chosen in the view's options", "[window][view]") {
         REQUIRE(seen.shell->click_item("view.deviation"));
         CHECK(seen.place().view.colouring == ColouringKind::MeanCurvature);
     }
+}
+
+SCENARIO("A key shows the worst places of the colours in turn", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto newest = [&] { return seen.place().document.messages().back().text; };
+    seen.key('X');
+    CHECK_THAT(newest(), Catch::Contains("Choose colours first"));
+    CHECK_FALSE(seen.place().looked_at());
+    seen.place().view.choose(ColouringKind::TriangleQuality);
+    REQUIRE(seen.shell->settle(60s));
+    seen.key('X');
+    REQUIRE(seen.place().looked_at());
+    const Vec3 worst = *seen.place().looked_at();
+    const auto& values = seen.place().view_data().colours()->values;
+    CHECK_THAT(newest(), Catch::Contains(formatted(std::ranges::min(values))) &&
+                             Catch::Contains("worst place 1 of 10"));
+    seen.key('X');
+    CHECK(*seen.place().looked_at() != worst);
+    CHECK_THAT(newest(), Catch::Contains("worst place 2 of 10"));
+    seen.shell->press_key(keys::letter('X'), {.shift = true});
+    CHECK(*seen.place().looked_at() == worst);
+    seen.shell->press_key(keys::letter('X'), {.shift = true});
+    CHECK_THAT(newest(), Catch::Contains("worst place 10 of 10"));
 }
 
 SCENARIO("A colouring that needs something else says what", "[window][view]") {

@@ -68,6 +68,17 @@ SCENARIO("Without a display, the window says that the command line works",
     CHECK_THAT(result.err, Contains("no display") && Contains("command line works without it"));
 }
 
+SCENARIO("Help is a command, too", "[workbench][command-line]") {
+    const auto output = [](const std::vector<std::string>& arguments) {
+        const ProgramRun run = run_program(program_path(), arguments);
+        CHECK(run.exit_code == 0);
+        return run.out;
+    };
+    CHECK(output({"help"}) == output({"--help"}));
+    CHECK(output({"help", "prepare"}) == output({"prepare", "--help"}));
+    check_usage_error({"help", "prepar"}, {"did you mean 'prepare'"});
+}
+
 SCENARIO("Wrong usage gives exit code 2 and a helpful text", "[workbench][command-line]") {
     check_usage_error({"operation"}, {"no command 'operation'", "did you mean 'operations'"});
     check_usage_error({"view", "x"}, {"no command 'view' in this version"});
@@ -227,6 +238,47 @@ SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
     check_usage_error({"remove", project, "7"}, {"no edit 7"});
     check_usage_error({"change", project, "2", "iteration=5"}, {"did you mean 'iterations'"});
     check_usage_error({"change", project, "two"}, {"EDIT"});
+}
+
+SCENARIO("A picture shows a vertex attribute with a scale", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), file = folder + "/ball.vtp";
+    vesselbench::Surface ball = vesselbench::test::icosphere(5.0, 3);
+    std::vector<double> height;
+    for (const vesselbench::Vec3& p : ball.points()) height.push_back(p.z());
+    ball.attributes["height"] = std::make_shared<const std::vector<double>>(height);
+    vesselbench::write_surface(ball, file);
+    const std::string out = folder + "/ball.png";
+    check_usage_error({"picture", file, out, "--range", "0,1"}, {"--range needs --colour"});
+    check_usage_error({"picture", file, out, "--colour", "height", "--range", "1,0"}, {"--range"});
+    check_usage_error({"picture", file, out, "--colour", "height", "--reference", file},
+                      {"--colour", "--reference"});
+    const ProgramRun unknown = run({"picture", file, out, "--colour", "width"});
+    CHECK(unknown.exit_code == 3);
+    CHECK_THAT(unknown.err, Contains("'width'") && Contains("it has height"));
+    const ProgramRun shown = run({"picture", file, out, "--colour", "height", "--size", "64"});
+    if (shown.exit_code == 1 && shown.err.find("no pictures:") != std::string::npos) {
+        vesselbench::test::skip(shown.err);
+        return;
+    }
+    INFO(shown.err);
+    CHECK_THAT(shown.out, Contains("height from -4.") && Contains(" to 4."));
+    CHECK_THAT(
+        run({"picture", file, out, "--colour", "height", "--size", "64", "--range", "0,2"}).out,
+        Contains("height from 0 to 2"));
+}
+
+SCENARIO("A histogram counts vertices by their distance", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), file = folder + "/ball.vtp";
+    vesselbench::write_surface(vesselbench::test::icosphere(5.0, 3), file);
+    vesselbench::write_surface(vesselbench::test::icosphere(4.5, 3), folder + "/small.vtp");
+    check_usage_error({"measure", file, "--histogram", "0.2"}, {"REFERENCE"});
+    const ProgramRun counted =
+        run({"measure", file, folder + "/small.vtp", "--histogram", "0.2", "--json"});
+    INFO(counted.err);
+    const auto histogram =
+        nlohmann::ordered_json::parse(counted.out).at("reference").at("histogram");
+    CHECK(histogram.at("width") == 0.2);
+    CHECK(histogram.at("vertices") == std::vector<int>{0, 0, 642});
 }
 
 SCENARIO("A picture shows a surface, or its deviation", "[workbench][command-line]") {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include <catch2/catch.hpp>
@@ -86,6 +87,40 @@ SCENARIO("remesh for a print replays too, and gives way to an edge", "[workbench
     CHECK(asked.scene.surface->triangle_count() > usual.scene.surface->triangle_count());
 }
 
+SCENARIO("remesh keeps sharp edges if asked to", "[workbench][remesh]") {
+    const Surface box = cube(10.0);
+    const auto remeshed = [&](const Arguments& more) {
+        Arguments arguments{{"mode", "uniform"}, {"edge", 1.0}, {"radius", "rays"}};
+        for (const auto& [name, value] : more.values()) arguments.set(name, value);
+        return run("remesh", box, arguments);
+    };
+    const Outcome kept = remeshed({{"feature_angle", 60.0}});
+    CHECK(kept.report->at("feature_edges_kept") == 12);
+    CHECK(kept.scene.surface->patches == box.patches);
+    CHECK(volume(*kept.scene.surface) == Approx(volume(box)).epsilon(1e-9));
+    const Outcome rounded = remeshed({});
+    CHECK_FALSE(rounded.report->contains("feature_edges_kept"));
+    CHECK(std::abs(volume(*rounded.scene.surface) - volume(box)) > 1e-4 * volume(box));
+}
+
+SCENARIO("print-check warns of bends too strong for casting", "[workbench][print]") {
+    const double leg = 10.0, bend = 2.5, length = 2.0 * leg + bend * std::numbers::pi;
+    const Surface hairpin = mapped(fine_tube(1.0, length, 24), [&](const Vec3& p) {
+        const double beyond = p.z() - leg, angle = beyond / bend;
+        if (beyond < 0.0) return Vec3(bend + p.x(), p.y(), beyond);
+        if (angle > std::numbers::pi)
+            return Vec3(-bend - p.x(), p.y(), leg + bend * std::numbers::pi - p.z());
+        return Vec3((bend + p.x()) * std::cos(angle), p.y(), (bend + p.x()) * std::sin(angle));
+    });
+    const Outcome tolerated = run("print-check", hairpin, {});
+    const double turn = tolerated.report->at("strongest_bend").at("turn_deg");
+    CHECK(turn == Approx(2.0 / bend * 180.0 / std::numbers::pi).epsilon(0.1));
+    CHECK(tolerated.warnings.empty());
+    const Outcome warned = run("print-check", hairpin, {{"bend", 40.0}});
+    REQUIRE(warned.warnings.size() == 1);
+    CHECK_THAT(warned.warnings[0], Catch::Contains("within two diameters"));
+}
+
 SCENARIO("subdivide splits each triangle into four", "[workbench][subdivide]") {
     const Outcome outcome = run("subdivide", icosphere(5.0, 2), {});
     CHECK(outcome.scene.surface->triangle_count() == 4 * 320);
@@ -145,8 +180,11 @@ SCENARIO("decimate spends its error on staircases", "[workbench][decimate]") {
     const Surface stairs = half_sliced_ball();
     const auto [share, most] =
         GENERATE(table<double, double>({{0.25, 0.0072}, {0.1, 0.023}, {0.05, 0.053}}));
-    const Arguments arguments{
-        {"share", share}, {"staircase", true}, {"tau_theta", 0.5}, {"stack_axis", Vec3(0, 0, 1)}};
+    const Arguments arguments{{"share", share},
+                              {"staircase", true},
+                              {"tau_theta", 0.5},
+                              {"tau_max", 3.0},
+                              {"stack_axis", Vec3(0, 0, 1)}};
     const Outcome outcome = run("decimate", stairs, arguments);
     const auto &report = *outcome.report, &plain = report.at("unweighted");
     CAPTURE(share, report.dump());
@@ -190,7 +228,7 @@ SCENARIO("decimate says why nothing was removed", "[workbench][decimate]") {
     Arguments smooth{
         {"max_error", 0.5}, {"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}, {"beta_min", 0.0}};
     CHECK_THAT(warning(smooth),
-               Catch::Contains("all triangles are kept") && Catch::Contains("tau_theta = 0.7"));
+               Catch::Contains("all triangles are kept") && Catch::Contains("tau_theta = 0.5"));
     smooth.set("beta_min", 0.3);
     CHECK_THAT(warning(smooth), Catch::Contains("there are no staircases"));
 }

@@ -85,6 +85,29 @@ std::map<std::string, std::size_t> patch_sizes(const Surface& surface) {
 
 }  // namespace
 
+SCENARIO("Flat caps of a closed surface stay through repair, smooth and clip-opening",
+         "[workbench][openings]") {
+    const Surface tube = fine_tube(2.0, 20.0, 24);
+    const Surface bare =
+        tube.with_patches(PatchLabels(tube.triangle_count(), 0), {{"wall", PatchKind::Wall}});
+    Scene scene{.surface = bare};
+    const Outcome repaired = run("repair", scene, {});
+    CHECK((*repaired.report)["headline"] == "2 flat caps found");
+    REQUIRE(repaired.scene.surface->patches.size() == 3);
+    const Outcome smooth = run("smooth", repaired.scene, {{"staircase", false}});
+    const Outcome opened = run("clip-opening", smooth.scene, {});
+    CHECK((*opened.report)["openings"][0]["kept"] == true);
+    const auto z = bounds(*opened.scene.surface);
+    CHECK(z.min.z() == Approx(0.0).margin(1e-9));
+    CHECK(z.max.z() == Approx(20.0));
+    check_replay("clip-opening", *smooth.scene.surface, opened);
+    THEN("they are not looked for if the caller says so, or on the surface of an image") {
+        CHECK(run("repair", scene, {{"caps", false}}).scene.surface->patches.size() == 1);
+        scene.image = Image{};
+        CHECK(run("repair", scene, {}).scene.surface->patches.size() == 1);
+    }
+}
+
 SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][openings]") {
     const Surface tube = closed_tube(2.0, 20.0, 48, 60);
     const Outcome outcome = run("extrude-opening", tube, {{"share", 1.0}});
@@ -114,6 +137,24 @@ SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][ope
                           Catch::Contains("outlet_1"));
         CHECK_THROWS_AS(run("extrude-opening", icosphere(1.0, 1), {}), AlgorithmFailure);
     }
+}
+
+SCENARIO("extrude-opening goes on along the vessel if asked to", "[workbench][openings]") {
+    const double lean = std::tan(std::numbers::pi / 6.0);
+    const Surface tube = mapped(closed_tube(2.0, 20.0, 48, 60), [=](const Vec3& p) {
+        return Vec3(p.x() + lean * p.z(), p.y(), p.z());
+    });
+    const auto extruded = [&](const char* direction) {
+        return run("extrude-opening", tube,
+                   {{"length", 8.0}, {"profile", "keep"}, {"direction", direction}});
+    };
+    const Outcome straight = extruded("normal"), along = extruded("centerline");
+    CHECK(bounds(*straight.scene.surface).max.z() == Approx(28.0));
+    CHECK(bounds(*along.scene.surface).max.z() ==
+          Approx(20.0 + 8.0 * std::cos(std::numbers::pi / 6.0)).margin(0.1));
+    CHECK(bounds(*along.scene.surface).max.x() == Approx(bounds(tube).max.x() + 4.0).margin(0.2));
+    CHECK(along.warnings.empty());
+    check_replay("extrude-opening", tube, along);
 }
 
 SCENARIO("fill-hole closes the named hole or all of them", "[workbench][openings]") {

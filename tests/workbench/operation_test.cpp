@@ -63,6 +63,8 @@ SCENARIO("Arguments given as text are read in the parameter's own type", "[workb
     CHECK(checked_value(parameter(operation, "rounds"), "3") == Value(std::int64_t{3}));
     CHECK(checked_value(parameter(operation, "place"), "1,-2.5,3e2") == Value(Vec3(1, -2.5, 300)));
     CHECK(checked_value(parameter(operation, "labels"), "1,2") == Value(std::vector<double>{1, 2}));
+    CHECK(checked_value(parameter(operation, "labels"), to_text(Value(std::vector<double>()))) ==
+          Value(std::vector<double>()));
     CHECK(checked_value(parameter(operation, "flip"), "true") == Value(true));
     CHECK(checked_value(parameter(operation, "name"), "") == Value(std::string()));
 }
@@ -176,7 +178,10 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
             INFO(p.name);
             CHECK(parameters.insert(p.name).second);
             CHECK(p.help.size() > 10);
-            CHECK((p.type == ParameterType::Choice) == !p.choices.empty());
+            // A point may be a word, too: stack_axis=all.
+            const bool chosen = p.type == ParameterType::Choice;
+            CHECK((chosen || p.type == ParameterType::Point || p.choices.empty()));
+            CHECK_FALSE((chosen && p.choices.empty()));
             if (p.default_value) CHECK_NOTHROW(checked_value(p, to_text(*p.default_value)));
         }
     }

@@ -1,14 +1,19 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "tests/support/image_shapes.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -44,6 +49,20 @@ const std::string& tube() {
     return folder;
 }
 
+Surface wavy_sheet(int cells) {
+    Positions points;
+    std::vector<Triangle> triangles;
+    const auto at = [&](int i, int j) { return static_cast<VertexId>(i * (cells + 1) + j); };
+    for (int i = 0; i <= cells; ++i)
+        for (int j = 0; j <= cells; ++j) {
+            points.emplace_back(i, j, 0.1 * std::sin(i));
+            if (i == cells || j == cells) continue;
+            triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+            triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return make_surface(std::move(points), std::move(triangles));
+}
+
 void check_bad_input(const ProgramRun& result) {
     INFO(result.err);
     CHECK(result.exit_code == 3);
@@ -52,6 +71,18 @@ void check_bad_input(const ProgramRun& result) {
 }
 
 }  // namespace
+
+SCENARIO("An organ is printed whole", "[workbench][prepare][data]") {
+    const std::string labels = shared_data("images/totalseg_example_labels_117.nii.gz");
+    if (labels.empty()) return;
+    const fs::path out = fs::path(temporary_folder()) / "liver";
+    const ProgramRun result = run({"prepare", labels, "--for", "rp", "--set",
+                                   "extract-surface.labels=5", "--out", out.string()});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    const double printed = volume(read_surface((out / "print.stl").string()).surface);
+    CHECK(printed == Approx(1.013e6).epsilon(0.02));  // of the mask [mm^3]
+}
 
 SCENARIO("A phantom becomes a model for planning and one for surgery simulation",
          "[workbench][prepare]") {
@@ -77,6 +108,67 @@ SCENARIO("A model that has lost a vessel is an error", "[workbench][prepare]") {
     CHECK_THROWS_WITH(
         check_vessels(tube, closed_tube(2.0, 12.0, 40, 90), {}),
         Contains("lost vessels") && Contains("diameter 4") && Contains("clip-opening"));
+}
+
+SCENARIO("What has no vessel in it is refused", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const auto prepared = [&](const std::string& name, const std::string& purpose) {
+        return run(
+            {"prepare", folder + "/" + name, "--units", "mm", "--for", purpose, "--out", out});
+    };
+    GIVEN("a ball and a box of fine triangles") {
+        write_surface(icosphere(10.0, 4), folder + "/ball.stl");
+        const Vec3 corner = Vec3::Constant(-10.0);
+        const auto flat = [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() - 9.0; };
+        write_surface(iso_surface(flat, {corner, -corner}, 1.0), folder + "/box.stl");
+        for (const char* name : {"ball.stl", "box.stl"}) {
+            CAPTURE(name);
+            const ProgramRun flow = prepared(name, "cfd");
+            CHECK(flow.exit_code == 1);
+            CHECK_THAT(flow.err, Contains("there is no vessel in it"));
+            AND_THEN("a print shows it as it is") {
+                const ProgramRun print = prepared(name, "rp");
+                CHECK(print.exit_code == 0);
+                CHECK_THAT(print.err, Contains("clip-opening was skipped: there is no vessel"));
+            }
+        }
+    }
+    GIVEN("a wavy sheet, and an image of noise") {
+        write_surface(wavy_sheet(40), folder + "/sheet.stl");
+        std::mt19937 random(1);
+        const auto value = [&](const Vec3&) { return static_cast<double>(random() % 200); };
+        write_image(folder + "/noise.nrrd",
+                    image_of({40, 40, 40}, Eigen::Matrix4d::Identity(), value));
+        for (const auto& [name, why] :
+             {std::pair("sheet.stl", "sheet"), std::pair("noise.nrrd", "noise")}) {
+            CAPTURE(name);
+            const ProgramRun result = prepared(name, "cfd");
+            CHECK(result.exit_code == 3);
+            CHECK_THAT(result.err, Contains("no vessel in it") && Contains(why));
+            CHECK_FALSE(fs::exists(out));
+        }
+    }
+}
+
+SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][prepare]") {
+    const std::string folder = temporary_folder();
+    const auto side = [](const Vec3& p) {
+        return std::min(capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 3.0),
+                        capsule(p, Vec3::Zero(), Vec3(16, 0, 0), 0.7));
+    };
+    write_surface(iso_surface(side, {Vec3(-5, -5, -23), Vec3(19, 5, 23)}, 0.4),
+                  folder + "/side.stl");
+    std::ofstream(folder + "/recipe.json") << R"([
+        {"operation": "repair"},
+        {"operation": "clip-opening"},
+        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 2.5}}])";
+    const ProgramRun result = run({"prepare", folder + "/side.stl", "--units", "mm", "--for", "cfd",
+                                   "--recipe", folder + "/recipe.json", "--out", folder + "/out"});
+    INFO(result.err);
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 1.3") &&
+                               Contains("clip-opening tip="));
+    CHECK(names_in(folder + "/out") == Names{"project.vbench"});
 }
 
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
@@ -252,8 +344,9 @@ SCENARIO("A surface too coarse to be smoothed is no model", "[workbench][prepare
     const std::string folder = temporary_folder(), out = folder + "/out";
     write_surface(closed_tube(2.5, 25.0, 6, 3), folder + "/tube.stl");
     for (const std::string purpose : {"cfd", "rp"}) {
-        const ProgramRun result = run({"prepare", folder + "/tube.stl", "--units", "mm", "--for",
-                                       purpose, "--out", out + purpose});
+        const ProgramRun result =
+            run({"prepare", folder + "/tube.stl", "--units", "mm", "--for", purpose, "--out",
+                 out + purpose, "--set", "repair.caps=false"});
         INFO(result.err);
         CHECK(result.exit_code == 1);
         CHECK_THAT(result.err, Contains("too coarse") && Contains("subdivide"));
@@ -323,6 +416,9 @@ SCENARIO("Wrong arguments of prepare are rejected before anything is written",
     refused({tube(), "--for", "rp", "--set", "tetrahedralize.x=1"}, "tetrahedralize");
     refused({tube() + "/exact.vtp", "--for", "cfd", "--mask", tube() + "/mask.nii.gz"}, "--mask");
     refused({tube() + "/exact.vtp", "--for", "cfd", "--units", "inch"}, "units");
+    const std::string trunk = temporary_folder() + "/trunk.off";
+    write_surface(open_tube(1.0, 12.0, 24, 40), trunk);
+    refused({trunk, "--for", "cfd"}, "in cm it is 122 mm long");
 }
 
 SCENARIO("Bad input gives exit code 3 and leaves nothing half-written", "[workbench][bad-input]") {

@@ -37,7 +37,7 @@ Scene tube_beside_ball() {
 Arguments smooth_arguments(const Scene& scene, Arguments given) {
     given.set("distance", std::string("linear"));
     Arguments checked = checked_arguments(find_operation("smooth"), given);
-    resolve_filter(surface_of(scene), checked);
+    resolve_filter(scene, checked);
     return checked;
 }
 

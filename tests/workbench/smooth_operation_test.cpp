@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -6,7 +7,9 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/phantoms/phantom.h"
 #include "smoothing/context/distance_weights.h"
 #include "tests/support/iso_surface.h"
@@ -54,13 +57,17 @@ Positions moved_points(const Scene& scene, const Arguments& arguments) {
 
 SCENARIO("smooth takes the stack axis from the image, or from the user", "[workbench][smooth]") {
     Scene scene = terraced_vessel();
-    const Arguments given{
-        {"staircase", true}, {"stack_axis", Vec3(0, 0, 2)}, {"filter", "laplace"}};
-    const Outcome by_user = smooth(scene, given);
+    const Arguments by_hand{{"staircase", true},
+                            {"stack_axis", Vec3(0, 0, 2)},
+                            {"tau_theta", 0.6},
+                            {"tau_max", 2.0},
+                            {"filter", "laplace"}};
+    const Outcome by_user = smooth(scene, by_hand);
     CHECK(by_user.report->at("stack_axis_from") == "argument");
     CHECK(by_user.report->at("staircase_vertices") > 100);
     scene.sampling = Sampling{.spacing = Vec3(0.4, 0.4, 2.0), .confidence = 1.0};
-    const Outcome by_image = smooth(scene, {{"staircase", true}, {"filter", "laplace"}});
+    const Outcome by_image =
+        smooth(scene, {{"staircase", true}, {"tau_theta", 0.6}, {"filter", "laplace"}});
     CHECK(by_image.report->at("stack_axis_from") == "image");
     CHECK(by_image.resolved.point("stack_axis") == Vec3(0, 0, 1));
     CHECK(by_image.scene.surface->points() == by_user.scene.surface->points());
@@ -158,7 +165,7 @@ SCENARIO("smooth says why nothing moved", "[workbench][smooth]") {
         return outcome.warnings.empty() ? "" : outcome.warnings.front();
     };
     CHECK_THAT(warning({{"staircase", true}, {"stack_axis", Vec3(0, 0, 1)}}),
-               Catch::Contains("tau_theta = 0.7"));
+               Catch::Contains("tau_theta = 0.5"));
     CHECK_THAT(warning({{"distance", "margin"}, {"margin", 50.0}}),
                Catch::Contains("margin of 50 mm"));
     CHECK(warning({{"distance", "margin"}, {"margin", 2.0}}).empty());
@@ -235,6 +242,53 @@ SCENARIO("smooth uses painted weights, and weights multiply", "[workbench][smoot
     painted[3] = 1.5;
     surface.attributes["mine"] = std::make_shared<std::vector<double>>(painted);
     CHECK_THROWS_AS(smooth(scene, {{"painted", "mine"}}), AlgorithmFailure);
+}
+
+SCENARIO("smooth keeps what it found as vertex attributes", "[workbench][smooth]") {
+    const Scene scene = terraced_vessel();
+    Arguments arguments{{"filter", "laplace"}, {"staircase", true}, {"stack_axis", Vec3(0, 0, 1)},
+                        {"tau_theta", 0.5},    {"tau_max", 2.0},    {"beta_min", 0.0},
+                        {"find_caps", false}};
+    CHECK(smooth(scene, arguments).scene.surface->attributes.empty());
+    arguments.set("keep_weights", true);
+    const Outcome outcome = smooth(scene, arguments);
+    const Surface& after = *outcome.scene.surface;
+    const auto& kept = after.attributes;
+    REQUIRE(kept.size() == 6);  // no neighbour is loaded
+    const std::vector<double>& weight = *kept.at("smoothing_weight");
+    const std::vector<double>& staircase = *kept.at("staircase");
+    std::size_t steps = 0, still = 0;
+    for (std::size_t v = 0; v < after.vertex_count(); ++v) {
+        if (staircase[v] == 1.0) {
+            ++steps;
+            CHECK(weight[v] == 1.0);
+        }
+        if (weight[v] == 0.0) {
+            ++still;
+            CHECK(after.points()[v] == scene.surface->points()[v]);
+            CHECK((*kept.at("local_error"))[v] < 1e-9);
+        }
+    }
+    CHECK(steps == outcome.report->at("staircase_vertices").get<std::size_t>());
+    CHECK(still > 0);
+    CHECK(*kept.at("staircase_weight") == weight);
+    CHECK(mean(weight) == Approx(outcome.report->at("mean_weight").get<double>()));
+    CHECK(*kept.at("cap") == std::vector<double>(after.vertex_count(), 0.0));
+    CHECK(*kept.at("mean_curvature") == mean_curvature(after).values);
+}
+
+SCENARIO("smooth keeps the distances to neighbours as a vertex attribute", "[workbench][smooth]") {
+    Scene scene = terraced_vessel();
+    const Surface ball = icosphere(3.0, 2);
+    Positions points = ball.points();
+    for (Vec3& p : points) p += Vec3(0, 12, 0);
+    scene.neighbours["ball"] = ball.with_positions(points);
+    const Outcome outcome =
+        smooth(scene, {{"filter", "laplace"}, {"distance", "linear"}, {"keep_weights", true}});
+    const auto& distances = *outcome.scene.surface->attributes.at("neighbour_distance");
+    CHECK(std::ranges::min(distances) ==
+          outcome.report->at("smallest_neighbour_distance_after_mm").get<double>());
+    CHECK_FALSE(outcome.scene.surface->attributes.contains("staircase"));
 }
 
 SCENARIO("smooth keeps, smooths or rounds caps", "[workbench][smooth]") {

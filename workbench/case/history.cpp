@@ -14,6 +14,15 @@ std::string edit_text(EditId id) {
     return "edit " + std::to_string(id);
 }
 
+void require_known(EditId id, const std::map<EditRef, EditPlace>& edits) {
+    const EditId newest = edits.empty() ? 0 : edits.rbegin()->first.id;
+    if (newest == 0) throw UsageError("there are no edits");
+    for (const auto& [edit, place] : edits)
+        if (edit.id == id) return;
+    throw UsageError("there is no " + edit_text(id) + " (the newest is " + std::to_string(newest) +
+                     ")");
+}
+
 /// Walks along edits: the result before the next one, and whether that is known.
 struct Walk {
     ResultId input = 0;
@@ -210,22 +219,25 @@ void History::redo() {
 }
 
 void History::undo_before(EditId id) {
+    require_known(id, edits_);
     for (StateId at = current_; at != 0; at = state(at).parent)
         if (state(at).edit.id == id && state(at).change != StateChange::Remove) {
             while (current_ != at) undo();
             undo();
             return;
         }
-    throw UsageError("the current state does not come from " + edit_text(id));
+    throw UsageError(edit_text(id) +
+                     " is not among those that led to the current state; see them with log");
 }
 
 void History::redo_to(EditId id) {
+    require_known(id, edits_);
     for (StateId at = state(current_).last_child; at != 0; at = state(at).last_child)
         if (state(at).edit.id == id) {
             while (current_ != at) redo();
             return;
         }
-    throw UsageError("no later state makes " + edit_text(id) + "; jump to one that contains it");
+    throw UsageError("nothing that was undone from the current state is " + edit_text(id));
 }
 
 void History::jump(StateId id) {

@@ -72,7 +72,8 @@ std::string wanted(const Parameter& parameter) {
         case ParameterType::Choice:
             return "one of " + joined(parameter.choices);
         case ParameterType::Point:
-            return "three numbers x,y,z" + in_range;
+            return "three numbers x,y,z" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
         case ParameterType::List:
             return "numbers separated by commas" + in_range;
         case ParameterType::Text:
@@ -125,8 +126,10 @@ std::optional<Value> value_from_text(const Parameter& parameter, const std::stri
         case ParameterType::Real:
             return value_of(number_from<double>(text));
         case ParameterType::List:
+            if (text.empty()) return Value(std::vector<double>());  // as to_text writes it
             return value_of(numbers_from(text));
         case ParameterType::Point: {
+            if (std::ranges::count(parameter.choices, text) > 0) return Value(text);
             const auto numbers = numbers_from(text);
             if (!numbers || numbers->size() != 3) return std::nullopt;
             return Value(Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]));

@@ -51,7 +51,8 @@ std::string range_text(const Parameter& parameter) {
         case ParameterType::Flag:
             return "true|false";
         case ParameterType::Point:
-            return "x,y,z" + bounded;
+            return "x,y,z" + bounded +
+                   (parameter.choices.empty() ? "" : "|" + joined(parameter.choices, "|"));
         case ParameterType::List:
             return "a,b,..." + bounded;
         case ParameterType::Integer:

@@ -1,5 +1,6 @@
 #include "workbench/commands/command_line.h"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <utility>
@@ -74,7 +75,8 @@ constexpr const char* kChangeFooter =
 constexpr const char* kPictureFooter =
     "Patient coordinates are LPS: y points backwards, z to the head. --view 0,1,0 looks from the\n"
     "front, --view=-1,0,0 from the left, --view 0,0,-1 from above.\n\n"
-    "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5";
+    "  vesselbench picture smooth.vtp deviation.png --reference raw.vtp --full-colour 0.5\n"
+    "  vesselbench picture smooth.vtp weights.png --colour smoothing_weight";
 
 std::string suggest_footer() {
     return "Each suggestion balances low curvature (smooth) against distance and volume (accurate) "
@@ -102,7 +104,8 @@ std::string alternatives(const std::vector<std::string>& names) {
     return joined(std::span(names).first(names.size() - 1)) + " or " + names.back();
 }
 
-/// What arguments make of a search: "for smooth, staircase=true searches its thresholds, too".
+/// What arguments make of a search: "for smooth, staircase=true keeps its thresholds, which follow
+/// from the image".
 std::string search_hints() {
     std::string text;
     for (const std::string& name : searched_operations())
@@ -285,8 +288,10 @@ void add_input(CLI::App& command, InputArguments& input) {
     command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
         ->type_name("FILE");
     command
-        .add_option("--units", input.units,
-                    "Unit of the file: mm, cm or m (default: as stated in it, or guessed)")
+        .add_option(
+            "--units", input.units,
+            "Unit of the file: mm, cm or m (default: as stated in it, or the only one in which "
+            "it is a vessel)")
         ->type_name("UNIT");
 }
 
@@ -356,6 +361,10 @@ void add_measure(CommandLine& line) {
     command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
     command.add_option("REFERENCE", options->reference, "Surface file to compare with")
         ->type_name("");
+    command
+        .add_option("--histogram", options->histogram,
+                    "Count the vertices by their distance from the reference, in bins this wide")
+        ->type_name("MM");
     command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
         ->type_name("UNIT");
     add_json(command, options->json);
@@ -372,6 +381,16 @@ void add_picture(CommandLine& line) {
         .add_option("--reference", options->reference,
                     "Surface file to compare with: blue is inside it, red outside")
         ->type_name("FILE");
+    command
+        .add_option("--colour", options->colour,
+                    "Vertex attribute to show with a scale, as smooth keep_weights=true adds it")
+        ->type_name("NAME");
+    command
+        .add_option("--range", options->range,
+                    "Values of the first and the last colour (default: of the attribute)")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("LOW,HIGH");
     command
         .add_option("--full-colour", options->full_colour,
                     "Deviation shown in full colour [mm] (default: 98 % of the vertices are below)")
@@ -569,14 +588,22 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2) return;
-    if (argv[1][0] == '-') return;
+void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments.front().starts_with("-")) return;
     const std::vector<std::string> names = command_names(app);
-    const std::string name = argv[1];
+    const std::string& name = arguments.front();
     if (std::ranges::find(names, name) != names.end()) return;
     throw UsageError("there is no command '" + name + "' in this version" +
                      did_you_mean(name, names) + " (the commands are " + joined(names) + ")");
+}
+
+/// "help" and "help COMMAND" as "--help" and "COMMAND --help".
+std::vector<std::string> arguments_of(int argc, char** argv) {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (arguments.empty() || arguments.front() != "help") return arguments;
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+    return arguments;
 }
 
 /// The command with wrong arguments: the user needs its help.
@@ -591,9 +618,11 @@ std::string help_hint(const CLI::App& app) {
 int run_command_line(int argc, char** argv, const std::stop_token& stop) {
     CommandLine line(stop);
     set_up(line);
-    refuse_unknown_command(line.app, argc, argv);
+    std::vector<std::string> arguments = arguments_of(argc, argv);
+    refuse_unknown_command(line.app, arguments);
+    std::ranges::reverse(arguments);  // as the parser wants them
     try {
-        line.app.parse(argc, argv);
+        line.app.parse(arguments);
     } catch (const CLI::Success& done) {  // --help, --version
         return line.app.exit(done, std::cout, std::cerr);
     } catch (const CLI::ParseError& error) {

@@ -94,8 +94,9 @@ void redo_edit(const StepBackOptions& options);
 
 struct MeasureOptions {
     std::string surface;
-    std::string reference;  ///< empty: none
-    std::string units;      ///< of both files; empty: mm
+    std::string reference;            ///< empty: none
+    std::optional<double> histogram;  ///< bin width of the vertices' distances [mm]; none: no bins
+    std::string units;                ///< of both files; empty: mm
     bool json = false;
 };
 
@@ -104,8 +105,10 @@ void measure_surface(const MeasureOptions& options);
 
 struct PictureArguments {
     std::string surface;
-    std::string out;                       ///< .png
-    std::string reference;                 ///< empty: colours by patch
+    std::string out;            ///< .png
+    std::string reference;      ///< empty: colours by patch
+    std::string colour;         ///< vertex attribute to show; empty: none
+    std::vector<double> range;  ///< its first and last colour, 2 numbers; empty: automatic
     std::vector<double> view = {0, 1, 0};  ///< view direction, 3 numbers (LPS)
     std::optional<double> full_colour;     ///< [mm]; none: 98 % of the vertices are below
     int size = 700;                        ///< width and height [pixels]

@@ -1,10 +1,14 @@
 #include "geometry/kernel/measure.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/reference_comparison.h"
+#include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/commands/commands.h"
@@ -34,6 +38,32 @@ void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& pr
     }
 }
 
+constexpr std::size_t kMostBins = 10000;
+
+/// The vertices by their distance from the reference; the last bin holds the farthest.
+Json histogram_json(const Surface& surface, const Surface& reference, double width) {
+    std::vector<std::size_t> bins;
+    for (const double distance : distance_to(reference).signed_distances(surface.points())) {
+        const double bin = std::floor(std::abs(distance) / width);
+        if (bin >= static_cast<double>(kMostBins))
+            throw UsageError("--histogram: " + formatted(width, "%g") + " mm makes more than " +
+                             std::to_string(kMostBins) + " bins: give more");
+        bins.resize(std::max(bins.size(), static_cast<std::size_t>(bin) + 1));
+        ++bins[static_cast<std::size_t>(bin)];
+    }
+    return {{"width", width}, {"vertices", bins}};
+}
+
+void print_histogram(const Json& histogram) {
+    const double width = histogram["width"];
+    std::vector<std::vector<std::string>> rows = {{"distance from the reference [mm]", "vertices"}};
+    for (std::size_t bin = 0; bin < histogram["vertices"].size(); ++bin)
+        rows.push_back({formatted(static_cast<double>(bin) * width, "%.4g") + " to " +
+                            formatted(static_cast<double>(bin + 1) * width, "%.4g"),
+                        histogram["vertices"][bin].dump()});
+    std::cout << "\n" << as_columns(rows) << "\n";
+}
+
 void print_table(const Json& document, const std::string& units) {
     std::vector<std::vector<std::string>> rows;
     add_rows(rows, "", document);
@@ -53,15 +83,25 @@ void print_table(const Json& document, const std::string& units) {
 }  // namespace
 
 void measure_surface(const MeasureOptions& options) {
+    if (options.histogram && options.reference.empty())
+        throw UsageError("--histogram counts distances from a reference: give REFERENCE");
+    if (options.histogram && !(*options.histogram > 0.0 && std::isfinite(*options.histogram)))
+        throw UsageError("--histogram must be above 0 mm");
     const Surface surface = read_foreign_surface(options.surface, options.units);
     Json document = measure_json(measure(surface));
-    if (!options.reference.empty())
-        document["reference"] = reference_json(compare_with_reference(
-            surface, read_foreign_surface(options.reference, options.units)));
+    if (!options.reference.empty()) {
+        const Surface reference = read_foreign_surface(options.reference, options.units);
+        document["reference"] = reference_json(compare_with_reference(surface, reference));
+        if (options.histogram)
+            document["reference"]["histogram"] =
+                histogram_json(surface, reference, *options.histogram);
+    }
     if (options.json)
         std::cout << document.dump(2) << "\n";
-    else
+    else {
         print_table(document, options.units);
+        if (options.histogram) print_histogram(document["reference"]["histogram"]);
+    }
 }
 
 }  // namespace vesselbench

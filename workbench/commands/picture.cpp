@@ -8,9 +8,11 @@
 #include "geometry/formats/format.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/wording.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/shared/foreign_surface.h"
+#include "workbench/report/colour_scale.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {
@@ -25,6 +27,14 @@ void check(const PictureArguments& arguments) {
     if (arguments.size < 1 || arguments.size > kLargestSide)
         throw UsageError("--size: " + std::to_string(arguments.size) +
                          " pixels are out of the range 1 to " + std::to_string(kLargestSide));
+    if (!arguments.colour.empty() && !arguments.reference.empty())
+        throw UsageError("--colour and --reference are two ways to colour: give one of them");
+    if (!arguments.range.empty()) {
+        if (arguments.colour.empty()) throw UsageError("--range needs --colour");
+        if (!(std::isfinite(arguments.range[0]) && std::isfinite(arguments.range[1]) &&
+              arguments.range[0] < arguments.range[1]))
+            throw UsageError("--range: give two numbers, the smaller one first");
+    }
     if (arguments.full_colour) {
         if (arguments.reference.empty())
             throw UsageError("--full-colour is a deviation and needs --reference");
@@ -39,24 +49,59 @@ Vec3 view_of(const std::vector<double>& numbers) {
     throw UsageError("--view has no direction: give three numbers x,y,z, not all of them 0");
 }
 
+const std::vector<double>& attribute_of(const Surface& surface, const std::string& name) {
+    if (const auto found = surface.attributes.find(name); found != surface.attributes.end())
+        return *found->second;
+    std::vector<std::string> names;
+    for (const auto& [known, values] : surface.attributes) names.push_back(known);
+    throw InvalidInput("--colour: the surface has no vertex attribute '" + name + "'; " +
+                       (names.empty() ? "it has none: smooth keep_weights=true adds some, and VTP "
+                                        "and PLY files keep them"
+                                      : "it has " + joined(names)));
+}
+
+ColourScale scale_of(const PictureArguments& arguments, const std::vector<double>& values) {
+    ColourScale scale = scale_for(values);
+    if (!arguments.range.empty()) {
+        scale.least = arguments.range[0];
+        scale.most = arguments.range[1];
+    }
+    return scale;
+}
+
+struct Drawn {
+    Picture picture;
+    std::string legend;
+};
+
+Drawn coloured(const Surface& surface, PictureOptions options, const PictureArguments& arguments) {
+    if (!arguments.colour.empty()) {
+        const std::vector<double>& values = attribute_of(surface, arguments.colour);
+        const ColourScale scale = scale_of(arguments, values);
+        options.vertex_colours = colours_of(values, scale);
+        return {with_scale(draw(surface, options), scale, arguments.colour),
+                arguments.colour + " from " + formatted(scale.least, "%.3g") + " to " +
+                    formatted(scale.most, "%.3g")};
+    }
+    if (arguments.reference.empty()) return {draw(surface, options), "patches in their colours"};
+    DeviationColours deviation =
+        deviation_colours(surface, read_foreign_surface(arguments.reference, arguments.units), {},
+                          arguments.full_colour.value_or(0.0));
+    options.vertex_colours = std::move(deviation.colours);
+    return {draw(surface, options), "deviation, " + deviation_legend(deviation.full_colour)};
+}
+
 }  // namespace
 
 void draw_picture(const PictureArguments& arguments) {
     check(arguments);
     const Vec3 view = view_of(arguments.view);
-    PictureOptions options{
+    const PictureOptions options{
         .width = arguments.size, .height = arguments.size, .view = view, .up = upward_for(view)};
-    const Surface surface = read_foreign_surface(arguments.surface, arguments.units);
-    std::string legend = "patches in their colours";
-    if (!arguments.reference.empty()) {
-        const Surface reference = read_foreign_surface(arguments.reference, arguments.units);
-        DeviationColours deviation =
-            deviation_colours(surface, reference, {}, arguments.full_colour.value_or(0.0));
-        legend = "deviation, " + deviation_legend(deviation.full_colour);
-        options.vertex_colours = std::move(deviation.colours);
-    }
+    const auto [picture, legend] =
+        coloured(read_foreign_surface(arguments.surface, arguments.units), options, arguments);
     PendingFiles files;
-    files.add_text(arguments.out, png(draw(surface, options)));
+    files.add_text(arguments.out, png(picture));
     files.commit();
     if (arguments.json)
         std::cout << nlohmann::ordered_json({{"file", arguments.out}, {"legend", legend}}).dump(2)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/planned_cut.h"
+#include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/shared/opening_json.h"
@@ -60,11 +62,12 @@ Positions points_of(const Arguments& arguments, const char* name) {
     return points;
 }
 
-OpeningPlanOptions plan_options(const Arguments& arguments) {
+OpeningPlanOptions plan_options(const Arguments& arguments, bool imaged) {
     OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                .distance = arguments.optional_real("distance"),
                                .radii = arguments.optional_real("radii"),
-                               .strict = arguments.flag("strict")};
+                               .strict = arguments.flag("strict"),
+                               .border_cuts = imaged};
     if (!options.tip) options.inlets = points_of(arguments, "inlet");
     options.closed = points_of(arguments, "closed");
     return options;
@@ -87,10 +90,28 @@ InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
     return choice;
 }
 
+/// Ends are small parts of vessels. Centerlines of an organ lead through its lobes, and a cut
+/// across one would leave the rest. \throw AlgorithmFailure if half of a closed surface would go
+void require_most_kept(const Surface& before, const Surface& after) {
+    constexpr double kLeastKept = 0.5;
+    if (!before.topology->boundary_loops().empty()) return;
+    const double kept = std::abs(volume(after) / volume(before));
+    if (kept < kLeastKept)
+        throw AlgorithmFailure("the cuts would take " + formatted(100.0 * (1.0 - kept), "%.0f") +
+                               " % of the model away: it is hardly a vessel; tip=x,y,z opens a "
+                               "single end");
+}
+
 /// Plans and cuts; where a cut fails, plans again without it.
-Clipping decide(const Surface& surface, const Arguments& arguments, const Progress& progress) {
-    OpeningPlanOptions options = plan_options(arguments);
+Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    OpeningPlanOptions options = plan_options(arguments, scene.image.has_value());
     const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.7));
+    if (!options.tip && surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
+        !has_tube(*graph))
+        throw AlgorithmFailure(
+            "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
+            "as it is wide; tip=x,y,z opens it nevertheless");
     for (int plans = 1;; ++plans) {
         Clipping made{.plan = plan_openings(surface, *graph, options), .surface = {}};
         const bool for_flow = !options.tip && arguments.text("check") == "flow";
@@ -101,6 +122,7 @@ Clipping decide(const Surface& surface, const Arguments& arguments, const Progre
                           progress.part(0.7, 1.0));
         if (clipped.failed.empty()) {
             made.surface = std::move(clipped.surface);
+            if (!options.tip) require_most_kept(surface, made.surface);
             return made;
         }
         if (options.strict || options.tip || plans == kMostPlans)
@@ -275,7 +297,7 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
     Clipping made = arguments.has("planes") ? repeat(surface, arguments, progress)
-                                            : decide(surface, arguments, progress);
+                                            : decide(scene, arguments, progress);
     const Resolved resolved = describe(surface, made.surface, made.plan);
     Outcome outcome;
     outcome.resolved = arguments;

@@ -50,6 +50,19 @@ double usual_length(const Arguments& arguments, double diameter, double extent) 
     return std::min(arguments.real("diameters") * diameter, arguments.real("share") * extent);
 }
 
+/// The vessel's own direction at a cap; none, with a warning, if it cannot be used.
+std::optional<Vec3> vessel_direction(const Surface& surface, std::size_t patch,
+                                     std::vector<std::string>& warnings) {
+    constexpr double kMostTilt = 60.0;
+    const auto axis = axis_at_patch(surface, patch);
+    if (axis && axis->tilt_deg <= kMostTilt) return axis->direction;
+    warnings.push_back("the vessel's direction at '" + surface.patches[patch].name + "' " +
+                       (axis ? formatted(axis->tilt_deg, "is %.0f degrees from the cap's normal")
+                             : "cannot be measured") +
+                       ": it is extruded along the normal");
+    return std::nullopt;
+}
+
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Surface surface = surface_of(scene);
     const auto names = chosen_openings(surface, arguments);
@@ -71,6 +84,9 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         ExtrusionParameters parameters{
             .length = arguments.has("length") ? arguments.real("length")
                                               : usual_length(arguments, diameter, extent),
+            .direction = arguments.text("direction") == "centerline"
+                             ? vessel_direction(surface, patch, outcome.warnings)
+                             : std::nullopt,
             .profile = arguments.text("profile") == "keep" ? ExtrusionProfile::Keep
                                                            : ExtrusionProfile::Circle,
             .blend = arguments.real("blend")};
@@ -138,6 +154,12 @@ Operation extrude_opening_operation() {
                   .help = "length, whatever the diameters; default: by diameters",
                   .minimum = 0.0,
                   .above_minimum = true},
+                 {.name = "direction",
+                  .type = Choice,
+                  .default_value = "normal",
+                  .help = "normal: along the cap's normal; centerline: along the vessel's course "
+                          "just before the cap, which stays parallel to itself",
+                  .choices = {"normal", "centerline"}},
                  {.name = "profile",
                   .type = Choice,
                   .default_value = "circle",

@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/bends.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
@@ -49,8 +52,35 @@ void warn_if_below(const std::optional<FacingPlaces>& places, double limit, cons
                                formatted(limit) + " mm, at " + place_text(places->from));
 }
 
+/// The strongest bend of a vessel; none of a body without centerlines.
+std::optional<Bend> bend_of(const Surface& surface, const Progress& progress) {
+    try {
+        return strongest_bend(*centerlines_of(surface, {}, progress));
+    } catch (const AlgorithmFailure&) {
+        return std::nullopt;
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    }
+}
+
+Json bend_json(const std::optional<Bend>& bend) {
+    if (!bend) return nullptr;
+    return {{"turn_deg", bend->turn_deg},
+            {"radius_mm", bend->radius},
+            {"place_mm", point_json(bend->place)}};
+}
+
+void warn_if_bent(const std::optional<Bend>& bend, double limit, Outcome& outcome) {
+    if (!bend || bend->turn_deg <= limit) return;
+    outcome.warnings.push_back(
+        formatted(bend->turn_deg, "the vessel turns by %.0f degrees within two diameters at ") +
+        place_text(bend->place) + formatted(limit, ", above %.0f: a cast may break there") +
+        " when it is taken out of its mold; straighten the branch, or do not cast it");
+}
+
 Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const PrintCheck check = print_check(surface_of(scene), progress);
+    const PrintCheck check = print_check(surface_of(scene), progress.part(0.0, 0.7));
+    const std::optional<Bend> bend = bend_of(surface_of(scene), progress.part(0.7, 1.0));
     Outcome outcome;
     outcome.scene = scene;
     outcome.resolved = arguments;
@@ -60,6 +90,7 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
                   outcome);
     warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
                   outcome);
+    warn_if_bent(bend, arguments.real("bend"), outcome);
     const bool thin = outcome.warnings.size() > check.problems.size();
     Json report = {{"headline", headline_of(check, thin)},
                    {"printable", check.printable()},
@@ -68,6 +99,7 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
     report.update(extent_json(check.volume, check.area));
     report.update({{"smallest_wall_distance", facing_json(check.lumen)},
                    {"smallest_gap", facing_json(check.gap)},
+                   {"strongest_bend", bend_json(bend)},
                    {"problems", problems_json(check)}});
     outcome.report = std::make_shared<Json>(std::move(report));
     return outcome;
@@ -79,7 +111,9 @@ Operation print_check_operation() {
     return {.name = "print-check",
             .usual_step = Step::Product,
             .allowed = {Step::Product},
-            .summary = "check the model for printing: watertight, thin places, narrow gaps",
+            .summary =
+                "check the model for printing: watertight, thin places, narrow gaps, "
+                "strong bends",
             .parameters = {{.name = "thinnest",
                             .unit = "mm",
                             .default_value = 0.8,
@@ -91,7 +125,14 @@ Operation print_check_operation() {
                             .default_value = 0.5,
                             .help = "warn where two branches are closer: they may fuse in print",
                             .minimum = 0.0,
-                            .maximum = 100.0}},
+                            .maximum = 100.0},
+                           {.name = "bend",
+                            .unit = "deg",
+                            .default_value = 75.0,
+                            .help = "warn where a vessel turns by more within two diameters: casts "
+                                    "break there; 57 is a bend of radius two vessel radii",
+                            .minimum = 0.0,
+                            .maximum = 180.0}},
             .run = &run_print_check,
             .thesis = "2.3",
             .recipe = {.report_section = ReportSection{.key = "print",

@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "meshing/remeshing/feature_regions.h"
 #include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/sizing_field.h"
 #include "workbench/case/measure_json.h"
@@ -35,12 +36,13 @@ RemeshParameters parameters_from(const Arguments& arguments) {
             .resolution = arguments.real("print_resolution")};
 }
 
-Report report_from(const RemeshReport& figures) {
-    return std::make_shared<nlohmann::ordered_json>(
-        nlohmann::ordered_json{{"usual_radius_mm", figures.usual_radius},
-                               {"edge_mm", figures.edge},
-                               {"wall", triangle_shape_json(figures.wall)},
-                               {"caps", triangle_shape_json(figures.caps)}});
+Report report_from(const RemeshReport& figures, const std::optional<FeatureRegions>& features) {
+    nlohmann::ordered_json report = {{"usual_radius_mm", figures.usual_radius},
+                                     {"edge_mm", figures.edge},
+                                     {"wall", triangle_shape_json(figures.wall)},
+                                     {"caps", triangle_shape_json(figures.caps)}};
+    if (features) report["feature_edges_kept"] = features->edges;
+    return std::make_shared<nlohmann::ordered_json>(std::move(report));
 }
 
 /// The centerlines, if they are wanted and can be found; the source used is resolved.
@@ -70,8 +72,13 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     // An edge length that was asked for is no subject of the printer's resolution.
     if (arguments.has("edge") || arguments.text("mode") == "uniform")
         outcome.resolved.set("print_resolution", 0.0);
+    std::optional<FeatureRegions> features;
+    if (const auto angle = arguments.optional_real("feature_angle"))
+        features = split_at_features(surface, *angle, arguments.real("feature_size"));
     Remeshed remeshed =
-        remesh(surface, parameters_from(outcome.resolved), lines.get(), progress.part(0.3, 1.0));
+        remesh(features ? features->surface : surface, parameters_from(outcome.resolved),
+               lines.get(), progress.part(0.3, 1.0));
+    if (features) remeshed.surface = features->restored(remeshed.surface);
     const RemeshReport& figures = remeshed.report;
     const bool for_print = outcome.resolved.real("print_resolution") > 0.0;
     if (!for_print) outcome.resolved.set("edge", figures.edge);
@@ -79,7 +86,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         outcome.resolved.set("min_edge", figures.min_edge);
         outcome.resolved.set("max_edge", figures.max_edge);
     }
-    outcome.report = report_from(figures);
+    outcome.report = report_from(figures, features);
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back(
             "walls that almost touch near " + place_text(figures.crossing) +
@@ -115,10 +122,67 @@ std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool 
     return {edge, {.name = "gradation", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
 }
 
+std::vector<Parameter> parameters() {
+    using enum ParameterType;
+    return {{.name = "mode",
+             .type = Choice,
+             .default_value = "graded",
+             .help = "graded: smaller where the vessel is thin, curved, or close to another wall; "
+                     "uniform: one edge length",
+             .choices = {"graded", "uniform"}},
+            {.name = "edge",
+             .unit = "mm",
+             .help = "edge length at the vessel's typical radius (the median over the wall); "
+                     "default: 0.28 of that radius, which is 22 triangles around",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "min_edge",
+             .unit = "mm",
+             .help = "graded: shortest edge; default: a fifth of edge",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "max_edge",
+             .unit = "mm",
+             .help = "graded: longest edge; default: twice edge",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "radius",
+             .type = Choice,
+             .default_value = "centerlines",
+             .help = "source of the vessel's radius: centerlines, or rays across the lumen "
+                     "(faster; also used if no centerlines can be found)",
+             .choices = {"centerlines", "rays"}},
+            {.name = "gradation",
+             .unit = "-",
+             .default_value = 1.5,
+             .help = "graded: largest ratio of neighbouring edge lengths",
+             .minimum = 1.05,
+             .maximum = 3.0},
+            {.name = "feature_angle",
+             .unit = "deg",
+             .help = "also keep sharp edges, which bend by more than this (90: a cube's) and "
+                     "surround a region; default: only the rims of patches",
+             .minimum = 0.0,
+             .maximum = 180.0,
+             .above_minimum = true},
+            {.name = "feature_size",
+             .unit = "mm2",
+             .default_value = 0.0,
+             .help = "area from which on a region's edges are kept",
+             .minimum = 0.0},
+            {.name = "print_resolution",
+             .unit = "mm",
+             .default_value = 0.0,
+             .help = "graded, without edge: a print needs no triangles for less deviation than "
+                     "this: edges are as long as it allows, at most 0.7 of the radius; 0: no "
+                     "print; prepare --for rp uses 0.1",
+             .minimum = 0.0,
+             .maximum = 10.0}};
+}
+
 }  // namespace
 
 Operation remesh_operation() {
-    using enum ParameterType;
     return {
         .name = "remesh",
         .usual_step = Step::Remeshing,
@@ -126,49 +190,7 @@ Operation remesh_operation() {
                     Step::Smoothing, Step::Deformation, Step::Remeshing},
         .summary =
             "remesh the surface with well-shaped triangles; rims, flat caps and patches are kept",
-        .parameters =
-            {{.name = "mode",
-              .type = Choice,
-              .default_value = "graded",
-              .help = "graded: smaller where the vessel is thin, curved, or close to another wall; "
-                      "uniform: one edge length",
-              .choices = {"graded", "uniform"}},
-             {.name = "edge",
-              .unit = "mm",
-              .help = "edge length at the vessel's typical radius (the median over the wall); "
-                      "default: 0.28 of that radius, which is 22 triangles around",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "min_edge",
-              .unit = "mm",
-              .help = "graded: shortest edge; default: a fifth of edge",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "max_edge",
-              .unit = "mm",
-              .help = "graded: longest edge; default: twice edge",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "radius",
-              .type = Choice,
-              .default_value = "centerlines",
-              .help = "source of the vessel's radius: centerlines, or rays across the lumen "
-                      "(faster; also used if no centerlines can be found)",
-              .choices = {"centerlines", "rays"}},
-             {.name = "gradation",
-              .unit = "-",
-              .default_value = 1.5,
-              .help = "graded: largest ratio of neighbouring edge lengths",
-              .minimum = 1.05,
-              .maximum = 3.0},
-             {.name = "print_resolution",
-              .unit = "mm",
-              .default_value = 0.0,
-              .help = "graded, without edge: a print needs no triangles for less deviation than "
-                      "this: edges are as long as it allows, at most 0.7 of the radius; 0: no "
-                      "print; prepare --for rp uses 0.1",
-              .minimum = 0.0,
-              .maximum = 10.0}},
+        .parameters = parameters(),
         .run = &run,
         .thesis = "3.3.2, 4.2.9",
         .search = {.parameters = &searched_parameters,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/flat_caps.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
 
@@ -88,6 +89,15 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
     return warnings;
 }
 
+void add_caps(ordered_json& report, std::size_t caps) {
+    report["flat_caps"] = caps;
+    if (caps == 0) return;
+    std::string headline = report["headline"];
+    if (!headline.empty()) headline += ", ";
+    report["headline"] = headline + counted(caps, "flat cap") + " found";
+}
+
+/// Caps are found on surfaces of files only: an image's surface has its own where the image ends.
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     RepairParameters parameters;
@@ -98,8 +108,14 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     Repaired repaired = repair(surface, parameters, progress);
     Outcome outcome;
     outcome.resolved = arguments;
-    outcome.report = std::make_shared<ordered_json>(report_json(repaired.report));
+    ordered_json report = report_json(repaired.report);
     outcome.warnings = warnings_of(repaired.report, surface);
+    if (arguments.flag("caps") && !scene.image) {
+        const std::size_t before = repaired.surface.patches.size();
+        repaired.surface = label_flat_caps(repaired.surface);
+        add_caps(report, repaired.surface.patches.size() - before);
+    }
+    outcome.report = std::make_shared<ordered_json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(repaired.surface));
     return outcome;
 }
@@ -139,7 +155,12 @@ Operation repair_operation() {
               .help =
                   "remove edges and triangle heights below this fraction of the mean edge length",
               .minimum = 0.0,
-              .maximum = 0.1}},
+              .maximum = 0.1},
+             {.name = "caps",
+              .type = Flag,
+              .default_value = true,
+              .help = "of a closed surface from a file, find the flat caps that close its vessels: "
+                      "clip-opening keeps them as openings"}},
         .run = &run,
         .isolated = true,
         .thesis = "3.2",

@@ -15,6 +15,7 @@
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/operations/smooth/kept_attributes.h"
 #include "workbench/operations/smooth/search.h"
 #include "workbench/operations/table.h"
 
@@ -24,16 +25,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds the figures of the change beside those that every edit has.
-void add_changes(Json& report, const Surface& before, const Surface& after) {
+/// Adds the figures of the change beside those that every edit has. \return the local error
+LocalError add_changes(Json& report, const Surface& before, const Surface& after) {
     const double volume_before = volume(before), volume_after = volume(after);
     report["volume_change_percent"] =
         volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
     report["vertices"] = before.vertex_count();
-    const LocalError error = local_error(*before.topology, before.points(), after.points());
+    LocalError error = local_error(*before.topology, before.points(), after.points());
     report["local_error"] = distance_json(error.mean, error.largest);
     report["normal_curvature_before_deg"] = mean(normal_curvature(before));
     report["normal_curvature_after_deg"] = mean(normal_curvature(after));
+    return error;
 }
 
 bool any_moved(const Positions& before, const Positions& after) {
@@ -93,11 +95,15 @@ public:
         if (outcome.resolved.text("distance") != "none")
             report["smallest_neighbour_distance_after_mm"] =
                 smallest_neighbour_distance(before_, outcome.resolved, "smooth", after.points());
-        add_changes(report, before, after);
+        LocalError error = add_changes(report, before, after);
         if (const std::string reason = why_little_moved(figures_.weights, outcome.resolved,
                                                         any_moved(before.points(), after.points()));
             !reason.empty())
             outcome.warnings.push_back(reason);
+        if (outcome.resolved.flag("keep_weights"))
+            outcome.scene = with_surface(
+                outcome.scene,
+                with_kept_attributes(before_, after, outcome.resolved, std::move(error.values)));
         outcome.report = std::make_shared<Json>(std::move(report));
         return outcome;
     }
@@ -107,7 +113,7 @@ private:
         const Surface& surface = surface_of(before_);
         Outcome bare;
         bare.resolved = arguments;
-        resolve_filter(surface, bare.resolved);
+        resolve_filter(before_, bare.resolved);
         if (const auto warning = filter_warning(filter_from(bare.resolved)); !warning.empty())
             bare.warnings.push_back(warning);
         auto [moved, resolved, figures, reason, device] =
@@ -140,6 +146,13 @@ std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
     for (Parameter& parameter : context_parameter_table()) table.push_back(std::move(parameter));
     table.push_back(
+        {.name = "keep_weights",
+         .type = ParameterType::Flag,
+         .default_value = false,
+         .help = "add vertex attributes to the surface: smoothing_weight, staircase_weight, "
+                 "staircase, cap, neighbour_distance, local_error, mean_curvature; export writes "
+                 "them to VTP and PLY, picture --colour shows them"});
+    table.push_back(
         {.name = "device",
          .type = ParameterType::Choice,
          .default_value = std::string("auto"),
@@ -165,7 +178,7 @@ Operation smooth_operation() {
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
             .search = {.smoothing = &smoothing_subject,
                        .filter_parameter = "filter",
-                       .hint = "staircase=true searches its thresholds, too"}};
+                       .hint = "staircase=true keeps its thresholds, which follow from the image"}};
 }
 
 }  // namespace vesselbench

@@ -21,10 +21,10 @@ struct SmoothingSubject {
     DeviceChoice device = DeviceChoice::Auto;  ///< of the search
     FilterGround ground;
     std::shared_ptr<const std::vector<double>> weights;  ///< at the given arguments; null: all 1
-    StaircaseWeights staircase;                          ///< null: its thresholds are not searched
-    std::optional<StaircaseGround> staircase_ground;     ///< the GPU's inputs for the same
-    bool mu_stays = false;                               ///< of Taubin's filter: the user gave it
-    double slice = 1.0;                                  ///< distance of the image's slices [mm]
+    StaircaseWeights staircase;  ///< of other thresholds; null: they do not count
+    std::optional<StaircaseGround> staircase_ground;  ///< the GPU's inputs for the same
+    bool mu_stays = false;                            ///< of Taubin's filter: the user gave it
+    double slice = 1.0;                               ///< about the distance of slices [mm]
     /// Arguments that follow the searched ones, because they are not given.
     std::vector<std::string> followers;
     std::function<void(Arguments&)> decide;  ///< fills in absent followers; null without any

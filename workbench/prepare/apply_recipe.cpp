@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/surface_change.h"
@@ -40,6 +41,15 @@ void require_volume(Session& session, const LogEntry& entry) {
         "subdivide");
 }
 
+/// \throw UnusableSource if there is nothing that a model could be made of
+void require_vessel(Session& session, const std::string& variant) {
+    try {
+        require_lumen(surface_of(session.scene(variant)));
+    } catch (const InvalidInput& error) {
+        throw UnusableSource(error.what());
+    }
+}
+
 /// What a user should know of an edit beside its own warnings; else empty.
 std::string noticed(const LogEntry& entry) {
     const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
@@ -59,6 +69,7 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
             session.apply(entry.given, {.step = entry.step, .variant = variant}, progress);
         require_volume(session, done);
         tell(entry_text(done));
+        if (operation.recipe.proves_source) require_vessel(session, variant);
         if (done.result)
             for (const std::string& warning : done.result->warnings)
                 tell("warning: " + operation.name + ": " + warning);

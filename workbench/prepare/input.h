@@ -18,7 +18,7 @@ struct InputOptions {
     std::string
         input;  ///< a surface, an image, a folder of DICOM slices, or a folder with case.json
     std::string mask;   ///< image file on the same grid; empty: none, or the case's own
-    std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or guessed
+    std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
 };
 
 /// The INPUT after inspection.

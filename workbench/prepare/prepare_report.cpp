@@ -14,53 +14,13 @@
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
+#include "workbench/session/source_counterpart.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A cut end: the surface beyond and just before it was made by clipping, blending and extruding,
-/// and has no counterpart in the source.
-struct CutEnd {
-    Vec3 centre;
-    Vec3 outward;
-    double diameter = 0.0;
-};
-
-/// How far inward of a cut the surface may intentionally differ from the source [diameters].
-constexpr double kInward = 0.5;
-/// How far to the side the end's own vessel extends [diameters].
-constexpr double kSideward = 1.5;
-
-std::vector<CutEnd> cut_ends(const Surface& surface) {
-    std::vector<CutEnd> ends;
-    for (const PatchMeasures& patch : measure_patches(surface))
-        if (patch.kind != PatchKind::Wall)
-            ends.push_back({patch.centroid, patch.normal, diameter_of_area(patch.area)});
-    return ends;
-}
-
-bool near_an_end(const Vec3& p, const std::vector<CutEnd>& ends) {
-    return std::ranges::any_of(ends, [&](const CutEnd& end) {
-        const double along = (p - end.centre).dot(end.outward);
-        const double aside = ((p - end.centre) - along * end.outward).norm();
-        return along > -kInward * end.diameter && aside < kSideward * end.diameter;
-    });
-}
-
-/// 1 at the wall's vertices that have a counterpart in the source, #V.
-std::vector<std::uint8_t> comparable_vertices(const Surface& surface,
-                                              const std::vector<CutEnd>& ends) {
-    std::vector<std::uint8_t> flags(surface.vertex_count(), 0);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (surface.patch_of(t).kind == PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
-    for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (flags[v] && near_an_end(surface.points()[v], ends)) flags[v] = 0;
-    return flags;
-}
 
 Json distances_json(const Positions& points, const Surface& reference) {
     if (points.empty()) return nullptr;
@@ -76,15 +36,6 @@ Json distances_json(const Positions& points, const Surface& reference) {
                               distances[count - 1 - count / 20]);
     json["points"] = count;
     return json;
-}
-
-/// From the comparable vertices to the reference.
-Json distance_to_json(const Surface& surface, const Surface& reference,
-                      const std::vector<std::uint8_t>& comparable) {
-    Positions points;
-    for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (comparable[v]) points.push_back(surface.points()[v]);
-    return distances_json(points, reference);
 }
 
 /// The edits that make the shown variant, in order.
@@ -226,16 +177,16 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
     add_quality(report, source, surface);
-    const auto clip = last_edit(edits, &RecipePart::cuts_ends);
-    const std::vector<std::uint8_t> comparable = comparable_vertices(
-        surface, cut_ends(clip ? surface_of(session.scene_after(*clip)) : surface));
+    const std::vector<std::uint8_t> comparable =
+        comparable_vertices(surface, made_ends(session, prepared.purpose));
+    const Positions compared = comparable_points(surface, comparable);
     if (source.surface) {
-        report["distance_to_source"] = distance_to_json(surface, *source.surface, comparable);
+        report["distance_to_source"] = distances_json(compared, *source.surface);
         report["distance_to_source"]["source_mean_edge_mm"] = mean_edge_length(*source.surface);
         report["distance_from_source"] = distances_json(source.surface->points(), surface);
     }
     if (prepared.input.exact)
-        report["distance_to_exact"] = distance_to_json(surface, *prepared.input.exact, comparable);
+        report["distance_to_exact"] = distances_json(compared, *prepared.input.exact);
     if (find_purpose(prepared.purpose).simulates_flow)
         for (const std::string& warning : add_flow(report, prepared, edits))
             made.warnings.push_back(warning);

@@ -26,11 +26,38 @@ margin:1rem 0}.tile{background:#f2f5f8;border-radius:6px;padding:.6rem 1rem}.til
 border:1px solid #e6ebf0}figcaption{color:#5a6875;font-size:.9rem}.good{color:#1a7f37}.bad{color:#b42318}
 )";
 
+/// Below this, a number is a rounding error of lengths and angles.
+constexpr double kNothing = 1e-9;
+
 std::string number_text(double number) {
     const double size = std::abs(number);
+    if (size < kNothing) return "0";
     const char* format = size == 0 || (size >= 0.001 && size < 1e6) ? "%.4g" : "%.3g";
     if (size >= 1000 && size < 1e9) format = "%.0f";
     return formatted(number, format);
+}
+
+/// A key of the document in words, its unit in brackets: "mean_velocity_m_s" is "mean velocity
+/// [m/s]".
+std::string words_of(std::string key) {
+    static const std::vector<std::pair<std::string, std::string>> units = {
+        {"_kg_m3", "kg/m&sup3;"}, {"_cm3_s", "cm&sup3;/s"}, {"_m_s", "m/s"}, {"_pa_s", "Pa s"},
+        {"_mm3", "mm&sup3;"},     {"_mm2", "mm&sup2;"},     {"_mm", "mm"},   {"_deg", "deg"}};
+    std::string unit;
+    for (const auto& [ending, name] : units)
+        if (unit.empty() && key.ends_with(ending)) {
+            key.resize(key.size() - ending.size());
+            unit = " [" + name + "]";
+        }
+    std::ranges::replace(key, '_', ' ');
+    return xml_escaped(key) + unit;
+}
+
+/// Longer lists, such as the planes of many cuts, are left to report.json.
+constexpr std::size_t kMostNumbers = 9;
+
+bool is_long_list(const Json& value) {
+    return value.is_array() && value.size() > kMostNumbers && value.front().is_number();
 }
 
 /// One value in readable form.
@@ -40,6 +67,7 @@ std::string shown(const Json& value) {
     if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
     if (value.is_number()) return number_text(value.get<double>());
     if (value.is_string()) return xml_escaped(value.get<std::string>());
+    if (is_long_list(value)) return std::to_string(value.size()) + " numbers";
     if (value.is_array()) {
         std::string text;
         for (const Json& part : value) text += (text.empty() ? "" : ", ") + shown(part);
@@ -47,7 +75,7 @@ std::string shown(const Json& value) {
     }
     std::string text;
     for (const auto& [key, part] : value.items())
-        text += (text.empty() ? "" : ", ") + xml_escaped(key) + " " + shown(part);
+        text += (text.empty() ? "" : ", ") + words_of(key) + " " + shown(part);
     return text;
 }
 
@@ -113,6 +141,10 @@ std::string gallery(std::span<const ReportPicture> pictures) {
     return html + "</div>\n";
 }
 
+std::string seconds_text(const Json& value) {
+    return value.is_number() ? formatted(value.get<double>(), "%.1f") : shown(value);
+}
+
 std::string step_row(const Json& step) {
     const Json& change = part_of(step, "change");
     const Json &before = part_of(change, "volume_before_mm3"),
@@ -125,9 +157,9 @@ std::string step_row(const Json& step) {
         arguments += (arguments.empty() ? "" : ", ") + xml_escaped(name) + "=" + shown(value);
     return "<tr><td>" + shown(part_of(step, "step")) + "</td><td><b>" +
            shown(part_of(step, "operation")) + "</b><br><span class=about>" + arguments +
-           "</span></td><td class=n>" + shown(part_of(step, "duration_s")) + "</td><td class=n>" +
-           shown(part_of(change, "triangles_after")) + "</td><td class=n>" + volume +
-           "</td><td class=n>" + shown(part_of(change, "mean_deviation_mm")) + " / " +
+           "</span></td><td class=n>" + seconds_text(part_of(step, "duration_s")) +
+           "</td><td class=n>" + shown(part_of(change, "triangles_after")) + "</td><td class=n>" +
+           volume + "</td><td class=n>" + shown(part_of(change, "mean_deviation_mm")) + " / " +
            shown(part_of(change, "largest_deviation_mm")) + "</td></tr>\n";
 }
 
@@ -173,13 +205,15 @@ std::string openings(const Json& report) {
         "<h2>Openings</h2>\n<table><tr><th>name</th><th class=n>kind</th>"
         "<th class=n>diameter [mm]</th><th class=n>area [mm&sup2;]</th><th class=n>centroid "
         "[mm]</th><th class=n>outward normal</th><th class=n>flatness [mm]</th><th class=n>tilt "
-        "[deg]</th></tr>\n";
+        "against the vessel there [deg]</th></tr>\n";
     for (const Json& patch : part_of(report, "openings"))
         html += row({shown(part_of(patch, "name")), shown(part_of(patch, "kind")),
                      shown(part_of(patch, "diameter")), shown(part_of(patch, "area")),
                      shown(part_of(patch, "centroid")), shown(part_of(patch, "normal")),
                      shown(part_of(patch, "flatness")), shown(part_of(patch, "tilt_deg"))});
-    return html + "</table>\n";
+    return html +
+           "</table>\n<p class=about>As the model has them, at the ends of its extensions. A flat "
+           "end that was kept although it was tilted is named under the vessel ends.</p>\n";
 }
 
 /// What became of every vessel end, worst first.
@@ -205,9 +239,7 @@ std::string plain_table(const Json& report, const ReportSection& section) {
     std::string html =
         "<h2>" + section.title + "</h2>\n<p class=about>" + section.about + "</p>\n<table>";
     for (const auto& [name, value] : part.items()) {
-        std::string words = xml_escaped(name);
-        for (char& letter : words) letter = letter == '_' ? ' ' : letter;
-        html += row({words, shown(value)});
+        html += row({words_of(name), shown(value)});
     }
     return html + "</table>\n";
 }

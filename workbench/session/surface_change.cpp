@@ -133,6 +133,12 @@ SurfaceChange surface_change(const Scene& before, const Scene& after, const Prog
     return change;
 }
 
+PointDeviation deviation_from(const Positions& points, const Surface& other,
+                              const Progress& progress) {
+    const Deviations found = deviations_from(points, other, progress);
+    return {found.count > 0.0 ? found.sum / found.count : 0.0, found.largest};
+}
+
 std::optional<double> volume_change(const SurfaceChange& change) {
     if (!change.volume_before || !change.volume_after || !(*change.volume_before > 0.0))
         return std::nullopt;

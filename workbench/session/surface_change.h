@@ -19,6 +19,16 @@ namespace vesselbench {
 [[nodiscard]] SurfaceChange surface_change(const Scene& before, const Scene& after,
                                            const Progress& progress = {});
 
+/// How far points are from a surface.
+struct PointDeviation {
+    double mean = 0.0, largest = 0.0;  ///< [mm]; 0 if there are no points
+};
+
+/// Of more than 50,000 points that coincide with no vertex of the surface, every n-th is measured.
+/// \throw Cancelled
+[[nodiscard]] PointDeviation deviation_from(const Positions& points, const Surface& other,
+                                            const Progress& progress = {});
+
 /// Change of the volume, relative to that before [-]; none: one is unknown, or was 0.
 [[nodiscard]] std::optional<double> volume_change(const SurfaceChange& change);
 

@@ -54,6 +54,7 @@ struct App::Impl {
         : place(document_options(options), Settings(or_else(options.settings, settings_folder))),
           viewport(options.wake),
           thumbnails(options.wake, cache_of(options)),
+          files(options.wake),
           device(options.device),
           display_scale(options.display_scale) {}
 
@@ -168,7 +169,7 @@ bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
            impl_->place.slices().pending() || impl_->place.is_comparing() ||
            impl_->place.view_data().pending() || impl_->viewport.pending() ||
-           impl_->place.wants_picture() || impl_->thumbnails.pending();
+           impl_->place.wants_picture() || impl_->thumbnails.pending() || impl_->files.pending();
 }
 
 std::optional<double> App::next_change() const {

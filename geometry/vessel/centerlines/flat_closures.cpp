@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "geometry/kernel/surface_distance.h"
 
@@ -12,6 +14,10 @@ namespace vesselbench {
 namespace {
 
 constexpr double kPlane = 0.9994;     ///< cosine of 2 degrees: normals of one plane
+constexpr double kUneven = 0.866;     ///< cosine of 30 degrees: normals of an uneven disc
+constexpr double kFlatRim = 0.0524;   ///< tangent of 3 degrees: height over radius of a flat rim
+constexpr double kFlatDisc = 0.1405;  ///< tangent of 8 degrees: the same inside an uneven disc
+constexpr int kGrowths = 6;           ///< rounds after which a disc has found its size
 constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns away by more
 constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be sharp
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
@@ -57,7 +63,10 @@ std::vector<std::array<TriangleId, 3>> neighbours_of(std::span<const Triangle> t
 class Search {
 public:
     Search(const Positions& points, std::span<const Triangle> triangles)
-        : points_(points), triangles_(triangles), near_(neighbours_of(triangles)) {
+        : points_(points),
+          triangles_(triangles),
+          near_(neighbours_of(triangles)),
+          visited_(triangles.size(), 0) {
         for (const Triangle& t : triangles) {
             const Vec3 a = 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
             areas_.push_back(a.norm());
@@ -81,18 +90,22 @@ public:
         return region;
     }
 
+    /// The region grown over what lies in the same plane as a whole: a disc may be uneven, such as
+    /// one filled with a fan of long triangles.
+    std::vector<TriangleId> settled(std::vector<TriangleId> region) {
+        for (int round = 0; round < kGrowths; ++round) {
+            const Disc disc = disc_of(region);
+            std::vector<TriangleId> grown = within(disc, region);
+            const bool same = grown.size() == region.size();
+            region = std::move(grown);
+            if (same) break;
+        }
+        return region;
+    }
+
     bool closes_vessel(const std::vector<TriangleId>& region,
                        const SurfaceDistance& surface) const {
-        double area = 0.0;
-        Vec3 normal = Vec3::Zero();
-        Vec3 centre = Vec3::Zero();
-        for (const TriangleId t : region) {
-            area += areas_[t];
-            normal += areas_[t] * normals_[t];
-            for (const VertexId v : triangles_[t]) centre += areas_[t] / 3.0 * points_[v];
-        }
-        centre /= area;
-        normal.normalize();
+        const auto [centre, normal, area] = disc_of(region);
         double rim = 0.0;
         double sharp = 0.0;
         for (const TriangleId t : region) {
@@ -114,6 +127,19 @@ public:
         return behind < kWidestLumen * radius && surface.inside(centre - radius * normal);
     }
 
+    /// True if the rim lies in its plane.
+    bool has_flat_rim(const std::vector<TriangleId>& region) const {
+        const Disc disc = disc_of(region);
+        std::vector<double> heights;
+        for (const TriangleId t : region)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (!std::ranges::binary_search(region, near_[t][k]))
+                    for (const VertexId v : {triangles_[t][k], triangles_[t][(k + 1) % 3]})
+                        heights.push_back((points_[v] - disc.centre).dot(disc.normal));
+        const auto [low, high] = std::ranges::minmax(heights);
+        return high - low <= 2.0 * kFlatRim * std::sqrt(disc.area / std::numbers::pi);
+    }
+
     double area(const std::vector<TriangleId>& region) const {
         double sum = 0.0;
         for (const TriangleId t : region) sum += areas_[t];
@@ -127,11 +153,51 @@ public:
     }
 
 private:
+    struct Disc {
+        Vec3 centre, normal;
+        double area = 0.0;
+    };
+
+    Disc disc_of(const std::vector<TriangleId>& region) const {
+        Disc disc{Vec3::Zero(), Vec3::Zero()};
+        for (const TriangleId t : region) {
+            disc.area += areas_[t];
+            disc.normal += areas_[t] * normals_[t];
+            for (const VertexId v : triangles_[t]) disc.centre += areas_[t] / 3.0 * points_[v];
+        }
+        disc.centre /= disc.area;
+        disc.normal.normalize();
+        return disc;
+    }
+
+    /// What is connected with a region in a disc's plane.
+    std::vector<TriangleId> within(const Disc& disc, std::vector<TriangleId> region) {
+        const double height = kFlatDisc * std::sqrt(disc.area / std::numbers::pi);
+        const auto lies_in = [&](TriangleId t) {
+            if (areas_[t] > 0.0 && normals_[t].dot(disc.normal) < kUneven) return false;
+            return std::ranges::all_of(triangles_[t], [&](VertexId v) {
+                return std::abs((points_[v] - disc.centre).dot(disc.normal)) <= height;
+            });
+        };
+        ++visit_;
+        for (const TriangleId t : region) visited_[t] = visit_;
+        for (std::size_t i = 0; i < region.size(); ++i)
+            for (const TriangleId t : near_[region[i]])
+                if (t != kNone && visited_[t] != visit_ && lies_in(t)) {
+                    visited_[t] = visit_;
+                    region.push_back(t);
+                }
+        std::ranges::sort(region);
+        return region;
+    }
+
     const Positions& points_;
     std::span<const Triangle> triangles_;
     std::vector<std::array<TriangleId, 3>> near_;
     std::vector<double> areas_;
     Positions normals_;
+    std::vector<std::uint32_t> visited_;  ///< number of the last visit
+    std::uint32_t visit_ = 0;
 };
 
 }  // namespace
@@ -139,17 +205,31 @@ private:
 std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
                                                         std::span<const Triangle> triangles,
                                                         const SurfaceDistance& surface) {
-    const Search search(points, triangles);
+    Search search(points, triangles);
     const double whole = search.whole_area();
     std::vector<bool> taken(triangles.size(), false);
+    std::vector<bool> found(triangles.size(), false);  ///< in a disc
+    // Area of the largest planar region that was grown over a triangle in vain: on a large smooth
+    // wall, thousands of smaller ones would grow over the same patches.
+    std::vector<double> tried(triangles.size(), 0.0);
     std::vector<std::vector<TriangleId>> discs;
     double flat = 0.0;
     for (TriangleId t = 0; t < triangles.size(); ++t) {
         if (taken[t]) continue;
         auto region = search.grow(t, taken);
+        const double planar = search.area(region);
         // A disc has at least as many triangles as a hexagon, and is not tiny.
-        if (region.size() < 4 || search.area(region) < 1e-5 * whole) continue;
-        if (!search.closes_vessel(region, surface)) continue;
+        if (region.size() < 4 || planar < 1e-5 * whole) continue;
+        if (!search.closes_vessel(region, surface)) {
+            if (tried[t] >= planar) continue;
+            region = search.settled(std::move(region));
+            const bool known = std::ranges::any_of(region, [&](TriangleId r) { return found[r]; });
+            if (known || !search.closes_vessel(region, surface) || !search.has_flat_rim(region)) {
+                for (const TriangleId r : region) tried[r] = std::max(tried[r], planar);
+                continue;
+            }
+        }
+        for (const TriangleId r : region) taken[r] = found[r] = true;
         flat += search.area(region);
         discs.push_back(std::move(region));
     }

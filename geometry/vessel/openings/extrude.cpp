@@ -26,9 +26,21 @@ constexpr double kFreeAtSides = 0.1;
 constexpr double kLeastDiameters = 0.5;
 constexpr double kLargestFlatness = 0.01;  // of the diameter
 constexpr std::size_t kFewestCorners = 12;
+constexpr double kSteepest = 0.5;                             // cosine between direction and normal
 constexpr double kLayersPerEdge = 2.0 / std::numbers::sqrt3;  // near-equilateral triangles
 
+/// The way of a cap's centre for 1 mm of height above the cap.
+Vec3 rise_of(const Plane& plane, const ExtrusionParameters& parameters) {
+    const Vec3 direction = parameters.direction.value_or(plane.normal).stableNormalized();
+    const double share = direction.dot(plane.normal);
+    if (!(share >= kSteepest))
+        throw InvalidInput(
+            "an extrusion's direction must be at most 60 degrees from the cap's normal");
+    return direction / share;
+}
+
 /// The tube to be added: rings with equal numbers of points, each ring turned by half a step.
+/// Heights are above the cap; the parameters' length is a height, too.
 class Tube {
 public:
     Tube(const ClosedProfile& profile, const Plane& plane, const ExtrusionParameters& parameters)
@@ -37,6 +49,7 @@ public:
           parameters_(parameters),
           area_(profile.area()),
           centre_(profile.centroid()),
+          rise_(rise_of(plane, parameters)),
           edge_(profile.perimeter() / static_cast<double>(profile.shares().size())),
           corners_(std::max(kFewestCorners, profile.shares().size())) {}
 
@@ -44,7 +57,7 @@ public:
 
     double diameter() const { return 2.0 * std::sqrt(area_ / std::numbers::pi); }
 
-    Vec3 centre(double z) const { return centre_ + z * plane_.normal; }
+    Vec3 centre(double z) const { return centre_ + z * rise_; }
 
     int layers(double length) const {
         return std::max(1, static_cast<int>(std::lround(length / edge_ * kLayersPerEdge)));
@@ -72,7 +85,7 @@ public:
         }
         const auto [area, centroid] = polygon_area(points, plane_.normal);
         const double scale = std::sqrt(area_factor * area_ / area);
-        for (Vec3& p : points) p = centre_ + scale * (p - centroid) + z * plane_.normal;
+        for (Vec3& p : points) p = centre(z) + scale * (p - centroid);
         return points;
     }
 
@@ -88,6 +101,7 @@ private:
     ExtrusionParameters parameters_;
     double area_;
     Vec3 centre_;
+    Vec3 rise_;
     double edge_;
     std::size_t corners_;
 };
@@ -203,21 +217,23 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     for (const VertexId v : rim.loop) corners.push_back(shape.plane.projected(surface.points()[v]));
     const ClosedProfile profile(corners, shape.plane);
     Extruder extruder(surface, patch, rim);
-    const Tube wanted(profile, shape.plane, parameters);
-    const Surface rest = extruder.without_cap();
+    const double way = rise_of(shape.plane, parameters).norm(), height = parameters.length / way;
     ExtrusionParameters used = parameters;
+    used.length = height;
+    const Tube wanted(profile, shape.plane, used);
+    const Surface rest = extruder.without_cap();
     if (parameters.may_shorten)
-        used.length =
-            std::min(parameters.length, free_length(rest, wanted, parameters.length, 1.0));
+        used.length = std::min(height, free_length(rest, wanted, height, 1.0));
     const Tube tube(profile, shape.plane, used);
-    if (used.length < std::min(parameters.length, kLeastDiameters * shape.diameter()) ||
+    if (used.length < std::min(height, kLeastDiameters * shape.diameter()) ||
         free_length(rest, tube, used.length, 0.0) < used.length)
         throw AlgorithmFailure("the opening '" + surface.patches[patch].name + "' at " +
                                place_text(shape.plane.point) +
                                " cannot be extruded: another part of the surface is in its way; "
                                "clip it elsewhere, or leave it out");
-    return {extruder.with_tube(tube, profile, shape.plane, used.length), used.length,
-            used.length < parameters.length};
+    const bool shortened = used.length < height;
+    return {extruder.with_tube(tube, profile, shape.plane, used.length),
+            shortened ? used.length * way : parameters.length, shortened};
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "geometry/kernel/surface.h"
 
@@ -9,7 +10,10 @@ namespace vesselbench {
 enum class ExtrusionProfile { Keep, Circle };
 
 struct ExtrusionParameters {
-    double length = 0.0;  ///< [mm], > 0
+    double length = 0.0;  ///< [mm], > 0, along the direction
+    /// Out of the vessel, at most 60 degrees from the cap's normal, any length but 0; none: the
+    /// normal. Sections stay parallel to the cap.
+    std::optional<Vec3> direction = {};
     ExtrusionProfile profile = ExtrusionProfile::Circle;
     double blend = 0.5;  ///< fraction of the length over which the profile becomes a circle, (0, 1]
     bool may_shorten = true;  ///< false: exactly this length, or failure
@@ -21,12 +25,12 @@ struct Extrusion {
     bool shortened = false;  ///< the requested length would have hit the surface
 };
 
-/// Lengthens a vessel straight along the normal of its flat cap. The new wall has the label of the
-/// wall at the rim and triangles of the rim's edge length; every section has the cap's area; the
-/// cap moves to the end and keeps its patch. If the extrusion would come closer to the rest of the
-/// surface than a quarter of its diameter at the front or a tenth of its radius at the sides, it
-/// ends earlier; with a length that must not be shortened, it only has to be free of contact.
-/// \throw InvalidInput if there is no such patch, or a parameter is out of its range
+/// Lengthens a vessel straight along the normal of its flat cap, or obliquely. The new wall has the
+/// label of the wall at the rim and triangles of the rim's edge length; every section has the cap's
+/// area; the cap moves to the end and keeps its patch. If the extrusion would come closer to the
+/// rest of the surface than a quarter of its diameter at the front or a tenth of its radius at the
+/// sides, it ends earlier; with a length that must not be shortened, it only has to be free of
+/// contact. \throw InvalidInput if there is no such patch, or a parameter is out of its range
 /// \throw AlgorithmFailure if the cap is not flat or not a single disc, or less than half a
 /// diameter is free, or the length must not be shortened and the extrusion would meet the surface
 [[nodiscard]] Extrusion extrude_opening(const Surface& surface, std::size_t patch,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "geometry/kernel/errors.h"
@@ -39,6 +41,9 @@ constexpr double kCostPerRadius = 5.0;
 /// A direction in doubt counts like a bend of so many times the doubt: deeper in, the vessel on
 /// both sides of the cut shows it.
 constexpr double kDoubtWeight = 4.0;
+/// A place deeper in has to be better by more than this [deg]: less says nothing, and gives up
+/// vessel.
+constexpr double kWorthMoving = 1.0;
 /// A section is whole if it is hardly larger half a radius farther inward.
 constexpr double kWholeShare = 0.85;
 /// Where none is, this much of it has to be there.
@@ -215,8 +220,8 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const double outermost = outermost_whole(branch, blind, whole);
     const double deepest = outermost + kGivenUp * (branch.own_length() - outermost);
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
-    std::optional<OpeningPlace> best;
-    double least = 0.0;
+    std::vector<std::pair<double, OpeningPlace>> found;  // by cost, from the tip inward
+    double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kCandidates; ++k) {
         const double s =
             std::min(first + k * kCandidateStep * branch.radius, std::max(first, deepest));
@@ -225,17 +230,16 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
             const double bent = place->measured ? place->bend_deg + place->tilt_deg +
                                                       kDoubtWeight * place->doubt_deg
                                                 : kUnmeasuredCost;
-            const double cost = bent + kCostPerRadius * (s - first) / branch.radius;
-            if (!best || cost < least) {
-                best = place;
-                least = cost;
-            }
+            found.emplace_back(bent + kCostPerRadius * (s - first) / branch.radius, *place);
+            least = std::min(least, found.back().first);
         }
         if (s >= deepest) break;
     }
-    if (!best) fail(tip, "has no closed section: give the distance from its tip");
-    best->share = best->distance / branch.length;
-    return *best;
+    const auto best = std::ranges::find_if(
+        found, [&](const auto& at) { return at.first <= least + kWorthMoving; });
+    if (best == found.end()) fail(tip, "has no closed section: give the distance from its tip");
+    best->second.share = best->second.distance / branch.length;
+    return best->second;
 }
 
 /// Places from the end inward, up to a distance from it; the first one that is accepted.

@@ -175,13 +175,13 @@ private:
         return !options_.strict && blind && !blind->is_short() && !blind->bulges;
     }
 
-    /// An aneurysm stays closed, as does a branch too short to be opened. If cuts already provide
-    /// inflow and outflow, a short blind stub is not an opening either.
+    /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border
+    /// already provides inflow and outflow, a short blind stub is not an opening either.
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         if (!blind || !blind->is_short()) return false;
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        if (!blind->bulges && visible < 2) return false;
+        if (!blind->bulges && (visible < 2 || !options_.border_cuts)) return false;
         records_[e].sac = blind->bulges;
         close(e, std::string(blind->bulges ? "it looks like an aneurysm" : "its branch is short") +
                      "; tip=x,y,z opens it");
@@ -251,11 +251,12 @@ private:
         const PatchShape shape = patch_shape(surface_, *end.patch);
         const auto axis = axis_at_patch(surface_, *end.patch);
         const double tilt = axis ? axis->tilt_deg : 90.0;
-        const bool named = surface_.patches[*end.patch].kind != PatchKind::Cut;
+        const bool meant =
+            !options_.border_cuts || surface_.patches[*end.patch].kind != PatchKind::Cut;
         const bool good = options_.strict
                               ? end.tip && shape.flatness <= kStrictFlatness * shape.diameter() &&
                                     tilt <= kStrictTiltDeg
-                              : is_flat(shape) && (named || tilt <= kKeptTiltDeg);
+                              : is_flat(shape) && (meant || tilt <= kKeptTiltDeg);
         if (!good) return std::nullopt;
         return place_on(shape.plane, shape.diameter(), tip_place(end), axis);
     }

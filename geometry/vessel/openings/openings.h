@@ -74,6 +74,9 @@ struct OpeningPlanOptions {
     /// Every end is cut perpendicular to its vessel at its chosen place; the first one that cannot
     /// be ends the plan with its failure.
     bool strict = false;
+    /// Patches of kind Cut are where an image ends, which nobody meant to be an opening's plane:
+    /// only perpendicular ones are kept.
+    bool border_cuts = false;
     Positions inlets;               ///< near the ends that are inlets: they have to be opened [mm]
     Positions closed;               ///< near the ends that stay closed [mm]
     std::vector<FailedCut> failed;  ///< places to be avoided
@@ -90,8 +93,8 @@ inline constexpr double kEndReach = 1.5;
 
 /// Decides what becomes of the vessel ends. All ends: the open borders and known caps; if there are
 /// fewer than two of these, or only cuts at an image's border, every other tip as well, except an
-/// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a named flat
-/// cap is kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
+/// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a flat cap is
+/// kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
 /// the nearest place with a whole section; else its branch is removed if it is a stub, shorter than
 /// its parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no
 /// branch has its tip near `tip`, the end at `tip` or one of `inlets` cannot be opened

@@ -17,60 +17,53 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Multiplies by one more kind of weights. \return its mean
-double weigh(std::vector<double>& weights, std::vector<double> by) {
+/// Adds one more kind of weights. \return its mean
+double weigh(std::vector<double>& weights, std::vector<double> by, Combination how) {
     const double its_mean = mean(by);
     if (weights.empty())
         weights = std::move(by);
     else
-        for (std::size_t v = 0; v < by.size(); ++v) weights[v] *= by[v];
+        for (std::size_t v = 0; v < by.size(); ++v)
+            weights[v] = combined_weight(weights[v], by[v], how);
     return its_mean;
 }
 
-/// The stack axis given by the user; it must make sense even if it is not used.
-std::optional<Vec3> given_stack_axis(const Arguments& arguments, const std::string& operation) {
-    const auto axis = arguments.optional_point("stack_axis");
-    if (!axis) return std::nullopt;
-    const Vec3 direction = axis->stableNormalized();
-    if (direction.allFinite() && direction.norm() > 0.5) return direction;
-    throw UsageError(operation + ": stack_axis = " + to_text(*axis) +
-                     " has no direction: give three numbers, not all of them 0");
-}
-
-/// Source of the stack axis: the user, the image, or the surface itself.
-Vec3 stack_axis(const Scene& scene, const std::string& operation, ContextFinder& finder,
-                Arguments& arguments, ContextFigures& figures) {
-    if (const auto given = given_stack_axis(arguments, operation)) {
-        figures.stack_axis_from = "argument";
-        return *given;
-    }
-    const auto found = stack_axis_of(scene, finder);
-    if (!found)
+/// The axes and thresholds, filled in.
+StaircaseChoice decided_staircases(const Scene& scene, const std::string& operation,
+                                   ContextFinder& finder, Arguments& arguments) {
+    auto choice = staircase_choice(scene, finder, arguments);
+    if (!choice)
         throw AlgorithmFailure(
-            "the direction of the image stack is uncertain: the surface has no image and too few "
+            operation +
+            ": the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases; give stack_axis=x,y,z, or staircase=false");
-    figures.stack_axis_confidence = found->confidence;
-    figures.stack_axis_from = found->confidence ? "estimate" : "image";
-    arguments.set("stack_axis", found->direction);
-    return found->direction;
+    if (choice->axes_from != "argument") arguments.set("stack_axis", choice->axis_value());
+    arguments.set("tau_theta", choice->tau_theta);
+    arguments.set("tau_max", choice->tau_max);
+    return std::move(*choice);
 }
 
 std::vector<double> staircase_part(const Scene& scene, const WeightSettings& settings,
                                    ContextFinder& finder, Arguments& arguments,
-                                   ContextFigures& figures) {
-    const Vec3 axis = stack_axis(scene, settings.operation, finder, arguments, figures);
+                                   ContextWeights& into) {
+    ContextFigures& figures = into.figures;
+    StaircaseChoice choice = decided_staircases(scene, settings.operation, finder, arguments);
     const std::vector<std::uint8_t>& caps = settings.caps;
     const StaircaseParameters parameters{
-        .tau_theta = arguments.real("tau_theta"),
-        .tau_max = arguments.real("tau_max"),
+        .tau_theta = choice.tau_theta,
+        .tau_max = choice.tau_max,
         .beta_min = settings.beta_min,
         .scaling = settings.thesis_scaling ? StaircaseScaling::Thesis : StaircaseScaling::TauMax,
         .caps = caps};
-    StaircaseContext found = finder.staircases(axis, parameters);
+    StaircaseContext found = finder.staircases(choice.axes, parameters);
     for (std::size_t v = 0; v < caps.size(); ++v)
         if (caps[v] != 0) found.weights[v] = settings.cap_weight;
-    figures.stack_axis = axis;
+    figures.stack_axis_confidence = choice.confidence;
+    figures.stack_axis_from = choice.axes_from;
+    if (choice.axes.size() == 1) figures.stack_axis = *choice.axes.begin();
+    figures.decisions = std::move(choice.reasons);
     figures.staircase_vertices = found.vertices;
+    into.stack_axes = std::move(choice.axes);
     return std::move(found.weights);
 }
 
@@ -149,7 +142,11 @@ Json context_json(const ContextFigures& figures) {
     };
     put("stack_axis_confidence", figures.stack_axis_confidence);
     if (!figures.stack_axis_from.empty()) json["stack_axis_from"] = figures.stack_axis_from;
-    if (figures.stack_axis) json["stack_axis"] = point_json(*figures.stack_axis);
+    if (figures.stack_axis)
+        json["stack_axis"] = point_json(*figures.stack_axis);
+    else if (!figures.stack_axis_from.empty())
+        json["stack_axis"] = "all";
+    for (const auto& [argument, reason] : figures.decisions) json[argument + "_decided"] = reason;
     put("staircase_vertices", figures.staircase_vertices);
     put("mean_weight_staircase", figures.mean_weight_staircase);
     put("smallest_neighbour_distance_mm", figures.smallest_neighbour_distance);
@@ -174,6 +171,10 @@ std::string why_all_is_kept(const ContextFigures& figures, const Arguments& reso
     return text.str();
 }
 
+Combination combination_from(const Arguments& arguments) {
+    return arguments.text("combine") == "average" ? Combination::Average : Combination::Multiply;
+}
+
 double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
                                    const std::string& operation, const Positions& positions) {
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
@@ -187,22 +188,23 @@ std::vector<Parameter> staircase_parameter_table(const WeighedAction& action) {
         {.name = "staircase", .type = Flag, .default_value = false, .help = action.staircase_help},
         {.name = "stack_axis",
          .type = Point,
-         .help = "direction across the image's slices, in patient coordinates; default: from the "
-                 "image, or estimated from the surface",
+         .help = "direction across the image's slices, in patient coordinates; all: the three axes "
+                 "of the voxels; default: from the image or the surface's triangles, all for masks "
+                 "whose voxels are nearly cubes",
+         .choices = {"all"},
          .only_with = when_staircase},
         {.name = "tau_theta",
          .unit = "-",
-         .default_value = 0.7,
          .help = "how sharply a surface must bend across the slices to count as a staircase: 1 is "
-                 "a right angle; smaller values find smoother staircases",
+                 "a right angle; smaller values find smoother staircases; default: a little below "
+                 "the step of one slice in the image's voxels",
          .minimum = 0.0,
          .maximum = 1.0,
          .only_with = when_staircase},
         {.name = "tau_max",
          .unit = "mm",
-         .default_value = 3.0,
          .help = "how far around staircases the " + action.doing +
-                 " fades out; about one slice distance",
+                 " fades out; default: the distance of the slices",
          .minimum = 0.0,
          .above_minimum = true,
          .only_with = when_staircase}};
@@ -220,6 +222,13 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
                  ", the farthest vertex all of it; in between it grows linearly (linear), linearly "
                  "from a margin on (margin), or late and fast (exponential)",
          .choices = {"none", "linear", "margin", "exponential"}},
+        {.name = "combine",
+         .type = Choice,
+         .default_value = std::string("multiply"),
+         .help = "how the weights of staircases and distances are combined: multiply keeps what "
+                 "either of them keeps; average also reduces staircases near neighbours",
+         .choices = {"multiply", "average"},
+         .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
         {.name = "neighbours",
          .type = Text,
          .help = "names of the neighbours to consider, a,b,...; default: all that are loaded",
@@ -249,10 +258,6 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .meaning = Meaning::Name}};
 }
 
-void check_stack_axis(const Arguments& arguments, const std::string& operation) {
-    static_cast<void>(given_stack_axis(arguments, operation));
-}
-
 ContextWeights context_weights(const Scene& scene, const WeightSettings& settings,
                                ContextFinder& finder, Arguments& arguments) {
     const std::string& operation = settings.operation;
@@ -261,13 +266,19 @@ ContextWeights context_weights(const Scene& scene, const WeightSettings& setting
     ContextFigures& figures = found.figures;
     if (arguments.flag("staircase"))
         figures.mean_weight_staircase =
-            weigh(found.weights, staircase_part(scene, settings, finder, arguments, figures));
+            weigh(found.weights, staircase_part(scene, settings, finder, arguments, found),
+                  Combination::Multiply);
     if (arguments.text("distance") != "none")
         figures.mean_weight_distance =
-            weigh(found.weights, distance_part(scene, operation, finder, arguments, figures));
+            weigh(found.weights, distance_part(scene, operation, finder, arguments, figures),
+                  combination_from(arguments));
+    if (found.stack_axes && combination_from(arguments) == Combination::Average)
+        for (std::size_t v = 0; v < settings.caps.size(); ++v)
+            if (settings.caps[v] != 0) found.weights[v] = settings.cap_weight;
     if (const auto painted = arguments.optional_text("painted"))
         figures.mean_weight_painted =
-            weigh(found.weights, painted_part(surface_of(scene), *painted, operation));
+            weigh(found.weights, painted_part(surface_of(scene), *painted, operation),
+                  Combination::Multiply);
     if (!found.weights.empty()) figures.mean_weight = mean(found.weights);
     return found;
 }

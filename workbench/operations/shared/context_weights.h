@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct WeighedAction {
 /// staircase, stack_axis, tau_theta, tau_max
 [[nodiscard]] std::vector<Parameter> staircase_parameter_table(const WeighedAction& action);
 
-/// distance, neighbours, margin, omega, painted
+/// distance, combine, neighbours, margin, omega, painted
 [[nodiscard]] std::vector<Parameter> distance_parameter_table(const WeighedAction& action);
 
 /// Settings not covered by the arguments above.
@@ -42,15 +43,16 @@ struct WeightSettings {
 /// Findings on the context; none: not asked for.
 struct ContextFigures {
     std::optional<double> stack_axis_confidence;  ///< of an estimate, in [0, 1] [-]
-    std::string stack_axis_from;  ///< "argument", "image" or "estimate"; may be empty
-    std::optional<Vec3> stack_axis;
+    std::string stack_axis_from;     ///< "argument", "image" or "estimate"; may be empty
+    std::optional<Vec3> stack_axis;  ///< none although it comes from somewhere: all three
+    std::map<std::string, std::string> decisions;  ///< on staircases: by argument, with the reason
     std::optional<std::size_t> staircase_vertices;
     std::optional<double> mean_weight_staircase;        ///< [-]
     std::optional<double> smallest_neighbour_distance;  ///< [mm]
     std::optional<double> largest_neighbour_distance;   ///< [mm]
     std::optional<double> mean_weight_distance;         ///< [-]
     std::optional<double> mean_weight_painted;          ///< [-]
-    std::optional<double> mean_weight;                  ///< of their product [-]
+    std::optional<double> mean_weight;                  ///< of all together [-]
 
     bool operator==(const ContextFigures&) const = default;
 };
@@ -60,16 +62,22 @@ struct ContextFigures {
 
 /// Weights and what was found on the way.
 struct ContextWeights {
-    std::vector<double> weights;  ///< #V; empty: 1 everywhere
-    ContextFigures figures;
+    std::vector<double> weights;                         ///< #V; empty: 1 everywhere
+    std::optional<StackAxes> stack_axes = std::nullopt;  ///< of the staircases, if they count
+    ContextFigures figures = {};
 };
 
-/// Checks the stack axis, even if it has no effect.
-/// \throw UsageError if it has no direction
-void check_stack_axis(const Arguments& arguments, const std::string& operation);
+/// How the weights of staircases and of distances to neighbours are combined (thesis 5.6).
+enum class Combination { Multiply, Average };
 
-/// The product of all weights that the arguments request; fills in its decisions (stack_axis,
-/// neighbours).
+[[nodiscard]] Combination combination_from(const Arguments& arguments);
+
+[[nodiscard]] inline double combined_weight(double a, double b, Combination how) {
+    return how == Combination::Average ? 0.5 * (a + b) : a * b;
+}
+
+/// All weights that the arguments request, combined, times the painted ones; fills in its decisions
+/// (stack_axis, tau_theta, tau_max, neighbours).
 /// \param finder of the scene's surface
 /// \throw UsageError if arguments make no sense; InvalidInput if the scene lacks something they
 /// name; AlgorithmFailure if the stack orientation is uncertain

@@ -7,6 +7,7 @@
 #include "geometry/kernel/statistics.h"
 #include "smoothing/context/cap_rounding.h"
 #include "workbench/operations/shared/context_weights.h"
+#include "workbench/operations/shared/stack_axis.h"
 
 namespace vesselbench {
 
@@ -83,6 +84,10 @@ std::vector<Parameter> context_parameter_table() {
           .choices = {"tau-max", "thesis"},
           .only_with = when_staircase}});
     add(distance_parameter_table(action));
+    Parameter& distance =
+        *std::ranges::find_if(table, [](const Parameter& p) { return p.name == "distance"; });
+    distance.default_value.reset();
+    distance.help += "; default: none, with preset=planning linear where neighbours are loaded";
     add({{.name = "caps",
           .type = Choice,
           .default_value = std::string("keep"),
@@ -121,6 +126,7 @@ SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
                                             .caps = on_caps},
                                            finder, arguments);
     context.weights = std::move(found.weights);
+    context.stack_axes = std::move(found.stack_axes);
     context.figures = {caps.size(), round ? 0 : on_cap, std::move(found.figures)};
     if (round && !context.weights.empty()) {
         for (std::size_t v = 0; v < on_caps.size(); ++v)

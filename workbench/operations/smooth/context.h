@@ -27,12 +27,13 @@ struct SmoothingFigures {
 /// The context of a surface before it is smoothed.
 struct SmoothingContext {
     std::shared_ptr<const Positions> start;  ///< the surface's, or with domed caps (caps=round)
-    std::vector<double> weights;             ///< product of all weights, #V; empty: 1 everywhere
+    std::vector<double> weights;             ///< all of them combined, #V; empty: 1 everywhere
     std::vector<std::uint8_t> caps;          ///< 1 at their vertices, #V
     std::vector<std::uint8_t> fixed;         ///< caps that are kept, #V
     std::optional<PositionConstraint> constraint;
-    bool caps_rounded = false;    ///< they become domes, and are smoothed in full
-    bool thesis_scaling = false;  ///< of staircase weights: Eq. 5.5 as printed
+    bool caps_rounded = false;            ///< they become domes, and are smoothed in full
+    bool thesis_scaling = false;          ///< of staircase weights: Eq. 5.5 as printed
+    std::optional<StackAxes> stack_axes;  ///< of the staircases; none: they do not count
     SmoothingFigures figures;
 
     /// Weight of the caps' vertices, whatever else weighs on them.
@@ -40,7 +41,7 @@ struct SmoothingContext {
 };
 
 /// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,
-/// cell).
+/// tau_theta, tau_max, neighbours, cell).
 /// \param finder of the scene's surface
 /// \throw UsageError if arguments cannot be combined; InvalidInput if the scene lacks something
 /// they name; AlgorithmFailure if the stack orientation is uncertain

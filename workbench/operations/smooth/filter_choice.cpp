@@ -17,17 +17,22 @@ struct Preset {
     const char* filter;
     std::int64_t iterations;
     double lambda;
-    double beta_min;  ///< with staircase awareness
+    double beta_min;               ///< with staircase awareness
+    bool keeps_distances = false;  ///< to neighbours, where they are loaded (Table 2.1)
 };
 
 /// Laplace+HC and LowPass (Taubin) suit anatomy according to Bade et al., depending on shape
 /// (thesis 3.3.4); the strength follows from Table 2.1: little where small features and spatial
 /// relations matter, much where only smoothness does.
 constexpr std::array kPresets = {
-    Preset{"none", "laplace-hc", 20, 0.5, 0.0},     Preset{"compact", "laplace-hc", 30, 0.5, 0.1},
-    Preset{"flat", "laplace-hc", 10, 0.5, 0.1},     Preset{"elongated", "taubin", 20, 0.5, 0.1},
-    Preset{"planning", "laplace-hc", 20, 0.5, 0.1}, Preset{"simulation", "taubin", 40, 0.5, 0.5},
-    Preset{"cfd", "laplace-hc", 20, 0.5, 0.2},      Preset{"rp", "laplace-hc", 20, 0.5, 0.2},
+    Preset{"none", "laplace-hc", 20, 0.5, 0.0},
+    Preset{"compact", "laplace-hc", 30, 0.5, 0.1},
+    Preset{"flat", "laplace-hc", 10, 0.5, 0.1},
+    Preset{"elongated", "taubin", 20, 0.5, 0.1},
+    Preset{"planning", "laplace-hc", 20, 0.5, 0.1, true},
+    Preset{"simulation", "taubin", 40, 0.5, 0.5},
+    Preset{"cfd", "laplace-hc", 20, 0.5, 0.2},
+    Preset{"rp", "laplace-hc", 20, 0.5, 0.2},
 };
 
 const Preset& preset_of(const Arguments& arguments) {
@@ -138,12 +143,15 @@ std::vector<Parameter> filter_parameter_table() {
     return table;
 }
 
-void resolve_filter(const Surface& surface, Arguments& arguments) {
+void resolve_filter(const Scene& scene, Arguments& arguments) {
+    const Surface& surface = surface_of(scene);
     const Preset& preset = preset_of(arguments);
     set_default(arguments, "filter", std::string(preset.filter));
     set_default(arguments, "iterations", preset.iterations);
     set_default(arguments, "lambda", preset.lambda);
     set_default(arguments, "beta_min", preset.beta_min);
+    const bool aware = preset.keeps_distances && !scene.neighbours.empty();
+    set_default(arguments, "distance", std::string(aware ? "linear" : "none"));
     const std::string& filter = arguments.text("filter");
     if (filter == "taubin") {
         set_default(arguments, "mu",

@@ -8,10 +8,10 @@ namespace vesselbench {
 /// Parameters of `smooth` that select and configure the filter.
 [[nodiscard]] std::vector<Parameter> filter_parameter_table();
 
-/// Fills in the filter's arguments decided by the preset and the surface, so that a replay repeats
-/// them.
+/// Fills in the arguments decided by the preset, the surface and its neighbours, so that a replay
+/// repeats them: those of the filter, beta_min and distance.
 /// \throw UsageError if two arguments cannot be combined
-void resolve_filter(const Surface& surface, Arguments& arguments);
+void resolve_filter(const Scene& scene, Arguments& arguments);
 
 /// The filter of resolved arguments.
 [[nodiscard]] FilterParameters filter_from(const Arguments& resolved);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "smoothing/context/staircases.h"
+#include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/filter_choice.h"
 
@@ -20,29 +21,48 @@ SharedWeights shared_weights(std::vector<double> weights) {
     return std::make_shared<const std::vector<double>>(std::move(weights));
 }
 
-StaircaseGround staircase_ground_of(const Scene& scene, ContextFinder& finder,
-                                    const Arguments& arguments, const SmoothingContext& context) {
-    StaircaseGround ground{
-        .stack_axis = arguments.point("stack_axis"),
-        .caps = context.caps,
-        .scaling = context.thesis_scaling ? StaircaseScaling::Thesis : StaircaseScaling::TauMax};
-    if (arguments.text("distance") == "none" && !arguments.has("painted")) return ground;
-    Arguments others = arguments;
-    others.set("staircase", false);
-    ground.others = shared_weights(smoothing_context(scene, finder, others).weights);
-    return ground;
+/// What the thresholds of staircases do not change.
+struct OtherWeights {
+    StaircaseGround ground;
+    SharedWeights averaged;  ///< distances, if they are averaged with the staircases; null: none
+    double cap_weight = 0.0;
+};
+
+/// The weights of `smooth` without staircases.
+SharedWeights without_staircases(const Scene& scene, ContextFinder& finder, Arguments arguments) {
+    arguments.set("staircase", false);
+    return shared_weights(smoothing_context(scene, finder, arguments).weights);
+}
+
+OtherWeights other_weights(const Scene& scene, ContextFinder& finder, const Arguments& arguments,
+                           const SmoothingContext& context) {
+    OtherWeights others{.ground = {.stack_axes = *context.stack_axes,
+                                   .caps = context.caps,
+                                   .scaling = context.thesis_scaling ? StaircaseScaling::Thesis
+                                                                     : StaircaseScaling::TauMax},
+                        .cap_weight = context.cap_weight()};
+    Arguments multiplied = arguments;
+    if (arguments.text("distance") != "none" &&
+        combination_from(arguments) == Combination::Average) {
+        multiplied.set("distance", std::string("none"));
+        Arguments averaged = arguments;
+        averaged.remove("painted");
+        others.averaged = without_staircases(scene, finder, averaged);
+    }
+    if (multiplied.text("distance") != "none" || multiplied.has("painted"))
+        others.ground.others = without_staircases(scene, finder, multiplied);
+    return others;
 }
 
 /// Weights of `smooth` for other thresholds. Everything independent of them is computed once; the
 /// last distances and weights are kept.
 class WeightsOfThresholds {
 public:
-    /// \param cap_weight of the caps' vertices, whatever their other weights
-    WeightsOfThresholds(const Surface& surface, StaircaseGround ground, double cap_weight)
+    WeightsOfThresholds(const Surface& surface, OtherWeights others)
         : surface_(surface),
-          ground_(std::move(ground)),
-          cap_weight_(cap_weight),
-          change_(orientation_change(*surface.topology, surface.points(), ground_.stack_axis)) {}
+          others_(std::move(others)),
+          change_(
+              orientation_change(*surface.topology, surface.points(), others_.ground.stack_axes)) {}
 
     [[nodiscard]] SharedWeights operator()(double tau_theta, double tau_max, double beta_min) {
         const std::lock_guard lock(mutex_);
@@ -52,18 +72,20 @@ public:
         return weights_[key] = shared_weights(made({.tau_theta = tau_theta,
                                                     .tau_max = tau_max,
                                                     .beta_min = beta_min,
-                                                    .scaling = ground_.scaling,
-                                                    .caps = ground_.caps}));
+                                                    .scaling = others_.ground.scaling,
+                                                    .caps = others_.ground.caps}));
     }
 
 private:
     std::vector<double> made(const StaircaseParameters& parameters) {
         std::vector<double> weights = weights_of_distances(distances(parameters), parameters);
-        for (std::size_t v = 0; v < weights.size(); ++v)
-            if (ground_.caps[v] != 0)
-                weights[v] = cap_weight_;
-            else if (ground_.others)
-                weights[v] *= (*ground_.others)[v];
+        const auto& [ground, averaged, cap_weight] = others_;
+        for (std::size_t v = 0; v < weights.size(); ++v) {
+            if (averaged)
+                weights[v] = combined_weight(weights[v], (*averaged)[v], Combination::Average);
+            if (ground.others) weights[v] *= (*ground.others)[v];
+            if (ground.caps[v] != 0) weights[v] = cap_weight;  // whatever the others are
+        }
         return weights;
     }
 
@@ -77,23 +99,22 @@ private:
 
     std::mutex mutex_;
     Surface surface_;
-    StaircaseGround ground_;
-    double cap_weight_ = 0.0;
+    OtherWeights others_;
     std::vector<double> change_;  ///< of orientation, #V
     std::map<std::array<double, 2>, std::vector<double>> distances_;
     std::map<std::array<double, 3>, SharedWeights> weights_;
 };
 
 /// The filter's part of the subject.
-SmoothingSubject filter_of(const Surface& surface, const Arguments& given, Arguments& arguments) {
-    resolve_filter(surface, arguments);
+SmoothingSubject filter_of(const Scene& scene, const Arguments& given, Arguments& arguments) {
+    resolve_filter(scene, arguments);
     SmoothingSubject subject{.filter = filter_from(arguments),
                              .iterations = static_cast<int>(arguments.integer("iterations")),
                              .device = device_choice_from(arguments.text("device")),
                              .mu_stays = given.has("mu")};
     if (std::holds_alternative<TaubinParameters>(subject.filter) && !subject.mu_stays) {
         subject.followers = {"mu"};
-        subject.decide = [surface](Arguments& changed) { resolve_filter(surface, changed); };
+        subject.decide = [scene](Arguments& changed) { resolve_filter(scene, changed); };
     }
     return subject;
 }
@@ -102,26 +123,25 @@ SmoothingSubject filter_of(const Surface& surface, const Arguments& given, Argum
 
 SmoothingSubject smoothing_subject(const Scene& scene, const Arguments& given,
                                    Arguments& arguments) {
-    SmoothingSubject subject = filter_of(surface_of(scene), given, arguments);
+    SmoothingSubject subject = filter_of(scene, given, arguments);
     const Surface& surface = surface_of(scene);
     const auto finder = make_cpu_finder(surface);
     SmoothingContext context = smoothing_context(scene, *finder, arguments);
-    subject.thresholds = {.tau_theta = arguments.real("tau_theta"),
-                          .tau_max = arguments.real("tau_max"),
-                          .beta_min = arguments.real("beta_min")};
     subject.weights = shared_weights(std::move(context.weights));
     subject.ground = {.topology = surface.topology,
                       .start = context.start,
                       .fixed = std::move(context.fixed),
                       .constraint = context.constraint,
                       .rings = static_cast<int>(arguments.integer("rings"))};
-    if (scene.sampling) subject.slice = scene.sampling->spacing.z();
     if (arguments.flag("staircase")) {
-        StaircaseGround ground = staircase_ground_of(scene, *finder, arguments, context);
-        // A GPU would find the staircases of the rounded surface.
-        if (!context.caps_rounded) subject.staircase_ground = ground;
-        const auto weights =
-            std::make_shared<WeightsOfThresholds>(surface, std::move(ground), context.cap_weight());
+        subject.thresholds = {.tau_theta = arguments.real("tau_theta"),
+                              .tau_max = arguments.real("tau_max"),
+                              .beta_min = arguments.real("beta_min")};
+        subject.slice = subject.thresholds.tau_max;
+        OtherWeights others = other_weights(scene, *finder, arguments, context);
+        // A GPU would find the staircases of the rounded surface, and it averages nothing.
+        if (!context.caps_rounded && !others.averaged) subject.staircase_ground = others.ground;
+        const auto weights = std::make_shared<WeightsOfThresholds>(surface, std::move(others));
         subject.staircase = [weights](double tau_theta, double tau_max, double beta_min) {
             return (*weights)(tau_theta, tau_max, beta_min);
         };

@@ -25,33 +25,40 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
     {{Patches, "patches", "Patches", "", "Wall, inlet and outlets in colours of their own"},
      {Deviation, "deviation", "Deviation", "mm",
       "Distance from the source, or of a preview from the surface before it: blue inside, red "
-      "outside"},
+      "outside",
+      WorstEnd::FarthestFromZero},
      {MeanCurvature, "mean-curvature", "Mean curvature", "1/mm",
-      "1/r on a sphere of radius r, 1/(2r) on a tube; negative in hollows"},
+      "1/r on a sphere of radius r, 1/(2r) on a tube; negative in hollows",
+      WorstEnd::FarthestFromZero},
      {StaircaseWeight, "staircase-weight", "Staircase weight", "-",
       "Where Smooth with staircase awareness acts: 1 at steps between image slices, with its "
       "default thresholds"},
      {NeighbourDistance, "neighbour-distance", "Distance to neighbours", "mm",
-      "Distance to the nearest of the loaded neighbour structures"},
+      "Distance to the nearest of the loaded neighbour structures", WorstEnd::Least},
      {TriangleQuality, "triangle-quality", "Triangle quality", "-",
-      "2 r_in / r_out of the worst triangle at each vertex: 1 is equilateral, 0 degenerate"},
+      "2 r_in / r_out of the worst triangle at each vertex: 1 is equilateral, 0 degenerate",
+      WorstEnd::Least},
      {LocalRadius, "local-radius", "Local radius", "mm",
-      "Radius of the largest sphere inside the vessel, along its centerline"},
+      "Radius of the largest sphere inside the vessel, along its centerline", WorstEnd::Least},
      {TetrahedraQuality, "tetrahedra-quality", "Tetrahedron quality", "deg",
-      "Smallest dihedral angle of the tetrahedra that the section plane cuts: 70.5 is the best"}}};
+      "Smallest dihedral angle of the tetrahedra that the section plane cuts: 70.5 is the best",
+      WorstEnd::Least}}};
 
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]
 constexpr double kLeastSpread = 0.02;              ///< of a range, relative to its values [-]
 
 std::vector<double> staircase_values(const Scene& scene) {
     const auto finder = make_cpu_finder(*scene.surface);
-    const auto axis = stack_axis_of(scene, *finder);
-    if (!axis)
+    const auto choice = staircase_choice(scene, *finder, {});
+    if (!choice)
         throw AlgorithmFailure(
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases");
     const auto caps = cap_vertices(finder->caps(), scene.surface->vertex_count());
-    return finder->staircases(axis->direction, {.caps = caps}).weights;
+    return finder
+        ->staircases(choice->axes,
+                     {.tau_theta = choice->tau_theta, .tau_max = choice->tau_max, .caps = caps})
+        .weights;
 }
 
 std::vector<double> neighbour_values(const Scene& scene) {

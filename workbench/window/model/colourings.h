@@ -21,6 +21,9 @@ enum class ColouringKind {
     TetrahedraQuality
 };
 
+/// Which values of a measure are its worst.
+enum class WorstEnd { Largest, Least, FarthestFromZero };
+
 /// A colouring as the window offers it.
 struct ColouringInfo {
     ColouringKind kind = ColouringKind::Patches;
@@ -28,6 +31,7 @@ struct ColouringInfo {
     const char* label = "";  ///< "Mean curvature"
     const char* unit = "";   ///< "1/mm"; empty for patches
     const char* help = "";
+    WorstEnd worst = WorstEnd::Largest;
 };
 
 [[nodiscard]] std::span<const ColouringInfo> colourings();

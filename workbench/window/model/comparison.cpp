@@ -19,7 +19,7 @@ SceneDifference difference_of(const Scene& reference, const Scene& shown,
     progress.check_cancelled();
     if (has_triangles(reference) && has_triangles(shown))
         difference.map = std::make_shared<const DeviationMap>(
-            deviation_map(*shown.surface, *reference.surface, progress));
+            deviation_map(*shown.surface, *reference.surface, {}, progress));
     return difference;
 }
 

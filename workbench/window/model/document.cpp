@@ -54,6 +54,27 @@ std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
     return run;
 }
 
+/// "edit 7, Smooth", or of several, "edit 7, Smooth, and 2 more": the edits that only one of two
+/// states contains, or contains otherwise.
+std::string edits_between(const Snapshot& a, const Snapshot& b) {
+    std::vector<EditRecord> differing;
+    const auto add_those_missing = [&](const Snapshot& from, const Snapshot& in) {
+        for (const LogEntry& entry : from.log) {
+            const auto same = [&](const LogEntry& other) { return other.edit == entry.edit; };
+            const auto known = [&](const EditRecord& e) { return e.edit.id == entry.edit.edit.id; };
+            if (std::ranges::none_of(in.log, same) && std::ranges::none_of(differing, known))
+                differing.push_back(entry.edit);
+        }
+    };
+    add_those_missing(a, b);
+    add_those_missing(b, a);
+    if (differing.empty()) return "an edit";
+    const EditRecord& first = differing.front();
+    const std::string more =
+        differing.size() == 1 ? "" : ", and " + std::to_string(differing.size() - 1) + " more";
+    return "edit " + std::to_string(first.edit.id) + ", " + readable(first.operation) + more;
+}
+
 /// A case on its way out: strokes that were painted to their end are entered first.
 class ClosedCase {
 public:
@@ -178,11 +199,13 @@ void Document::take_opened() {
         project_ = opened.project;
         input_ = std::move(opened.input);
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
+        variant_ = newest_variant(*runner_->snapshot());
+        take_snapshot();
+        for (const LogEntry& entry : snapshot_->log)
+            if (entry.result) tell_warnings(entry.edit, *entry.result);
         const std::string what = opened.is_new ? "New project " : "Opened ";
         tell(make_message(MessageKind::Success, what + project_.string()));
         for (const std::string& remark : opened.remarks) tell(message_from(remark));
-        variant_ = newest_variant(*runner_->snapshot());
-        take_snapshot();
     } catch (const Cancelled&) {
         tell(make_message(MessageKind::Remark, "Cancelled"));
     } catch (const std::exception& error) {
@@ -302,19 +325,28 @@ void Document::remove(EditId edit) {
 void Document::undo() {
     if (!begin_request(RequestKind::History)) return;
     drop_preview();
-    watch(runner_->undo(), history_label("Undo"), [](const Nothing&) {});
+    watch(runner_->undo(), history_label("Undo"), [this, before = snapshot_](const Nothing&) {
+        tell_move("Undid ", edits_between(*before, *snapshot_));
+    });
 }
 
 void Document::redo() {
     if (!begin_request(RequestKind::History)) return;
     drop_preview();
-    watch(runner_->redo(), history_label("Redo"), [](const Nothing&) {});
+    watch(runner_->redo(), history_label("Redo"), [this, before = snapshot_](const Nothing&) {
+        tell_move("Redid ", edits_between(*before, *snapshot_));
+    });
 }
 
 void Document::jump(StateId state) {
     if (!begin_request(RequestKind::History)) return;
     drop_preview();
-    watch(runner_->jump(state), history_label("Switching state"), [](const Nothing&) {});
+    watch(runner_->jump(state), history_label("Switching state"),
+          [this](const Nothing&) { tell_move("Switched to another state", ""); });
+}
+
+void Document::tell_move(const std::string& verb, const std::string& edits) {
+    tell(make_message(MessageKind::Remark, verb + edits));
 }
 
 void Document::run_pending() {

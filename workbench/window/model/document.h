@@ -199,6 +199,7 @@ private:
     void tell_entered(const LogEntry& entry);
     void tell_warnings(const EditRecord& edit, const ResultRecord& result);
     void tell_run(const Snapshot& before);
+    void tell_move(const std::string& verb, const std::string& edits);
     void show(const Preview& preview);
     void cancel_preview();
     [[nodiscard]] Step stroke_step(const std::string& operation) const;

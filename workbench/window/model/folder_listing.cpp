@@ -72,12 +72,14 @@ std::vector<std::string> openable_suffixes() {
     return suffixes;
 }
 
-FolderListing list_folder(const fs::path& folder, const std::vector<std::string>& suffixes) {
+FolderListing list_folder(const fs::path& folder, const std::vector<std::string>& suffixes,
+                          const Progress& progress) {
     FolderListing listing{.folder = folder};
     std::error_code error;
     fs::directory_iterator files(folder, fs::directory_options::skip_permission_denied, error);
     int looked_at = 0;
     for (const fs::directory_iterator end; !error && files != end; files.increment(error)) {
+        progress.check_cancelled();
         FolderEntry entry = entry_of(*files);
         if (entry.name.starts_with(".")) continue;
         // Neither a link that leads nowhere nor one into a closed folder is an error here.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
+
 namespace vesselbench {
 
 struct FolderEntry {
@@ -24,8 +26,10 @@ struct FolderListing {
 };
 
 /// \param suffixes of the files to list, lower case, with the dot; empty: all files
+/// \throw Cancelled
 [[nodiscard]] FolderListing list_folder(const std::filesystem::path& folder,
-                                        const std::vector<std::string>& suffixes);
+                                        const std::vector<std::string>& suffixes,
+                                        const Progress& progress = {});
 
 /// Suffixes of what the window opens: projects, surfaces and images.
 [[nodiscard]] std::vector<std::string> openable_suffixes();

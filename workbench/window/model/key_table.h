@@ -43,6 +43,8 @@ enum class KeyCommand {
     OpeningNames,
     EditLocations,
     Picture,
+    NextWorst,
+    PreviousWorst,
     SwitchComparison,
     // the flight through a vessel
     Flight,

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "workbench/session/surface_change.h"
+#include "geometry/kernel/measure.h"
+#include "workbench/session/source_counterpart.h"
 #include "workbench/window/model/rail.h"
 
 namespace vesselbench {
@@ -26,6 +27,15 @@ const Scene* scene_at_hand(const Snapshot& snapshot, const std::string& variant)
     const bool own = std::ranges::count(variants, variant) > 0;
     const auto found = snapshot.scenes.find(own ? variant : "");
     return found == snapshot.scenes.end() ? nullptr : &found->second;
+}
+
+std::optional<PointDeviation> from_source(Session& session, EditId source,
+                                          const std::string& variant, const Surface& surface,
+                                          const Progress& progress) {
+    const Scene from = session.scene_after(source, progress);
+    if (!from.surface || from.surface->empty()) return std::nullopt;
+    const auto comparable = comparable_vertices(surface, made_ends(session, variant, progress));
+    return deviation_from(comparable_points(surface, comparable), *from.surface, progress);
 }
 
 }  // namespace
@@ -157,21 +167,29 @@ void ShownScene::request_state(SessionRunner& runner) {
 }
 
 void ShownScene::request_figures(SessionRunner& runner) {
-    figures_.start(runner.submit(
-        [source = source_edit(), scene = *current_](Session& session, const Progress& progress) {
-            const Scene from = source ? session.scene_after(*source, progress) : scene;
-            return surface_change(from, scene, progress);
-        }));
+    figures_.start(runner.submit([source = source_edit(), variant = variant_, scene = *current_](
+                                     Session& session, const Progress& progress) {
+        ShownFigures figures;
+        if (!scene.surface || scene.surface->empty()) return figures;
+        figures.volume = volume(*scene.surface);
+        if (source)
+            figures.deviation = from_source(session, *source, variant, *scene.surface, progress);
+        return figures;
+    }));
 }
 
 void ShownScene::request_deviation(SessionRunner& runner) {
     const std::optional<Scene> before = preview_ ? current_ : std::nullopt;
-    deviation_.start(runner.submit([source = source_edit(), before, scene = *scene()](
-                                       Session& session, const Progress& progress) {
-        const Scene from = before ? *before : session.scene_after(*source, progress);
-        progress.check_cancelled();
+    deviation_.start(runner.submit([source = source_edit(), before, variant = variant_,
+                                    scene = *scene()](Session& session, const Progress& progress) {
+        const Surface& surface = surface_of(scene);
+        if (before)
+            return std::make_shared<const DeviationMap>(
+                deviation_map(surface, surface_of(*before), {}, progress));
+        const Scene from = session.scene_after(*source, progress);
+        const auto compared = comparable_vertices(surface, made_ends(session, variant, progress));
         return std::make_shared<const DeviationMap>(
-            deviation_map(surface_of(scene), surface_of(from), progress));
+            deviation_map(surface, surface_of(from), compared, progress));
     }));
 }
 
@@ -208,14 +226,9 @@ bool ShownScene::poll_state() {
 }
 
 bool ShownScene::poll_figures() {
-    const auto change = taken(figures_, "The model cannot be measured");
-    if (!change) return false;
-    known_figures_.volume = change->volume_after;
-    if (source_edit()) {
-        known_figures_.largest_deviation = change->largest_deviation;
-        known_figures_.mean_deviation = change->mean_deviation;
-    }
-    return true;
+    const auto figures = taken(figures_, "The model cannot be measured");
+    if (figures) known_figures_ = *figures;
+    return figures.has_value();
 }
 
 bool ShownScene::poll_deviation() {

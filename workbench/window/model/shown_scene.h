@@ -7,15 +7,16 @@
 
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
+#include "workbench/session/surface_change.h"
 #include "workbench/window/model/session_answer.h"
 
 namespace vesselbench {
 
 /// Figures of the shown scene.
 struct ShownFigures {
-    std::optional<double> volume;             ///< [mm^3]
-    std::optional<double> largest_deviation;  ///< [mm] from the source; none: it is the source
-    std::optional<double> mean_deviation;     ///< [mm] as above
+    std::optional<double> volume;  ///< [mm^3]
+    /// From the source, of the wall without what was made at its ends; none: it is the source.
+    std::optional<PointDeviation> deviation;
 };
 
 /// The scene of a case's current state, or of a preview in its place, and what is derived from it.
@@ -114,7 +115,7 @@ private:
     std::optional<Surface> known_source_;
     bool wants_deviation_ = false, wants_source_ = false;
     SessionAnswer<Scene> state_;
-    SessionAnswer<SurfaceChange> figures_;
+    SessionAnswer<ShownFigures> figures_;
     SessionAnswer<std::shared_ptr<const DeviationMap>> deviation_;
     SessionAnswer<Scene> source_;
     int changes_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/opening_roles.h"
 #include "workbench/window/model/rail.h"
@@ -146,6 +147,21 @@ void Workplace::look_at(const Vec3& place) {
     slices_.set_cross(place);
     looked_at_ = place;
     ++looks_;
+}
+
+void Workplace::look_at_worst(int steps) {
+    const ColouringInfo& info = colouring_info(view.colouring);
+    const auto found = worst_.go(document, view_data_, view.colouring, steps);
+    if (!found)
+        return document.tell(make_message(
+            MessageKind::Remark, view.colouring == ColouringKind::Patches
+                                     ? "Choose colours first: their worst places are shown in turn"
+                                     : "The colours are not known yet"));
+    look_at(found->place);
+    const std::string unit = std::string(info.unit) == "-" ? "" : std::string(" ") + info.unit;
+    document.tell(make_message(MessageKind::Remark, std::string(info.label) + " " +
+                                                        formatted(found->value) + unit +
+                                                        ": worst place " + worst_.position()));
 }
 
 void Workplace::choose_edit(EditId edit) {

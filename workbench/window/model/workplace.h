@@ -19,6 +19,7 @@
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/view_data.h"
+#include "workbench/window/model/worst_places.h"
 
 namespace vesselbench {
 
@@ -85,6 +86,9 @@ public:
 
     /// Moves the slices and the view to a place [mm].
     void look_at(const Vec3& place);
+
+    /// Looks at the next worst place of what the colours show; back with -1. Says why if it cannot.
+    void look_at_worst(int steps);
 
     /// The place of the last look_at(), which is marked until a form or a case is left.
     [[nodiscard]] const std::optional<Vec3>& looked_at() const { return looked_at_; }
@@ -251,6 +255,7 @@ private:
     CompareMode compare_mode_ = CompareMode::SideBySide;
     std::optional<EditId> pointed_, next_pointed_;
     std::optional<Vec3> looked_at_;
+    WorstTour worst_;
     int looks_ = 0;
     std::optional<OperationForm> before_drag_;
     std::optional<PatchMeasures> opening_;  ///< whose role is asked for

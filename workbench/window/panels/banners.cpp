@@ -42,7 +42,7 @@ Answer draw_banner(PanelContext& c, const std::string& name, const Banner& banne
     const float close = banner.can_close ? ImGui::GetFrameHeight() + ui.grid(1) : 0;
     const float end = rect.width - ui.grid(1) - action - close;
     ImGui::PushTextWrapPos(end);
-    text(ui, banner.text, ui.theme.text);
+    text(ui, broken(banner.text, end - ImGui::GetCursorPosX()), ui.theme.text);
     ImGui::PopTextWrapPos();
     Answer answer = Answer::None;
     ImGui::SetCursorPos({end + ui.grid(1), ui.grid(1)});
@@ -58,7 +58,8 @@ Answer draw_banner(PanelContext& c, const std::string& name, const Banner& banne
 /// Tall enough for its text.
 float height_of(const Ui& ui, const Banner& banner, float width) {
     const float room = width - ui.em * (banner.action.empty() ? 6 : 16);
-    const float text = ImGui::CalcTextSize(banner.text.c_str(), nullptr, false, room).y;
+    const std::string lines = broken(banner.text, room);
+    const float text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, room).y;
     return std::max(text + ui.em * 0.8F, ImGui::GetFrameHeight()) + ui.grid(2);
 }
 

@@ -108,9 +108,25 @@ bool FileDialog::writes() const {
 }
 
 void FileDialog::enter(const fs::path& folder) {
-    listing_ = list_folder(folder, suffixes_for(question_));
+    listing_ = {.folder = folder};
     typed_folder_ = folder.string();
-    error_ = listing_.error;
+    error_.clear();
+    reading_.begin([folder, suffixes = suffixes_for(question_)](const Progress& progress) {
+        return list_folder(folder, suffixes, progress);
+    });
+}
+
+void FileDialog::take_listing() {
+    auto listing = reading_.take();
+    if (const std::string problem = reading_.take_problem(); !problem.empty()) error_ = problem;
+    if (!listing || listing->folder != listing_.folder) return;
+    listing_ = std::move(*listing);
+    if (!listing_.error.empty()) error_ = listing_.error;
+}
+
+const char* FileDialog::empty_text() const {
+    if (reading_.pending()) return "Reading the folder ...";
+    return writes() ? "No files of this type here." : "Nothing to open here.";
 }
 
 void FileDialog::begin(PanelContext& c) {
@@ -200,8 +216,7 @@ void FileDialog::draw_entries(PanelContext& c, float height) {
         }
     if (listing_.entries.empty()) {
         ImGui::SetCursorPos({c.ui.grid(1.5F), c.ui.grid(1)});
-        text(c.ui, writes() ? "No files of this type here." : "Nothing to open here.",
-             c.ui.theme.muted);
+        text(c.ui, empty_text(), c.ui.theme.muted);
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();
@@ -311,6 +326,7 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
         return;
     }
     if (question_ != c.place.question()) begin(c);
+    take_listing();
     const Ui& ui = c.ui;
     begin_dialog(ui, "file dialog", window, ui.em * 56, ui.em * 36);
     heading(ui, title_of(question_));

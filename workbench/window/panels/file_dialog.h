@@ -1,21 +1,33 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "workbench/window/model/folder_listing.h"
+#include "workbench/window/model/latest_task.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
 
 /// The window's own dialog for a file to open or to write, shown while the workplace asks for one.
+/// Folders are read by a thread of its own: one on a network may take its time.
 class FileDialog {
 public:
+    /// \param wake called by that thread when there is something new to draw
+    explicit FileDialog(std::function<void()> wake) : reading_(std::move(wake)) {}
+
     void draw(PanelContext& context, const ScreenRect& window);
+
+    /// True while a folder is being read.
+    [[nodiscard]] bool pending() const { return reading_.pending(); }
 
 private:
     void begin(PanelContext& context);
     void enter(const std::filesystem::path& folder);
+    void take_listing();
+    [[nodiscard]] const char* empty_text() const;
     void draw_folder_line(PanelContext& context);
     void draw_dicom_line(PanelContext& context);
     void accept_folder(PanelContext& context);
@@ -32,7 +44,8 @@ private:
     [[nodiscard]] bool may_write(const std::filesystem::path& file);
 
     FileQuestion question_ = FileQuestion::None;
-    FolderListing listing_;
+    FolderListing listing_;  ///< without entries while they are read
+    LatestTask<FolderListing> reading_;
     std::string typed_folder_;
     bool folder_entered_ = false;  ///< by Enter, in this frame
     std::string name_;

@@ -119,10 +119,13 @@ void draw_help(PanelContext& c, const HistoryRow& state) {
     if (const unsigned texture = c.thumbnails.of_state(state.state); texture != 0)
         ImGui::Image(image_of(texture), {wide, wide * kThumbnailHeight / kThumbnailWidth});
     ImGui::PushTextWrapPos(c.ui.em * 24);
-    text(c.ui, readable(state.title) + " " + state.arguments, c.ui.theme.text);
-    if (!state.note.empty()) text(c.ui, "\u201C" + state.note + "\u201D", c.ui.theme.text);
-    if (!state.change.empty()) text(c.ui, state.change, c.ui.theme.muted);
-    if (!state.current) text(c.ui, "Click to go to this state; nothing is lost.", c.ui.theme.muted);
+    const auto line = [&](const std::string& words, Paint colour) {
+        text(c.ui, broken(words, c.ui.em * 24 - ImGui::GetCursorPosX()), colour);
+    };
+    line(readable(state.title) + " " + state.arguments, c.ui.theme.text);
+    if (!state.note.empty()) line("\u201C" + state.note + "\u201D", c.ui.theme.text);
+    if (!state.change.empty()) line(state.change, c.ui.theme.muted);
+    if (!state.current) line("Click to go to this state; nothing is lost.", c.ui.theme.muted);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();

@@ -53,9 +53,15 @@ float right_of(const Ui& ui, const Message& message) {
     return label_of(message).empty() && !message.place ? ui.grid(2) : ui.em * 14;
 }
 
+/// Of a message's text [pixels].
+float width_of(const Ui& ui, const Message& message) {
+    return ImGui::GetWindowWidth() - right_of(ui, message) - ui.em * kTextLeft;
+}
+
 float height_of(const Ui& ui, const Message& message) {
-    const float width = ImGui::GetWindowWidth() - right_of(ui, message) - ui.em * kTextLeft;
-    const float text = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, width).y;
+    const float width = width_of(ui, message);
+    const std::string lines = broken(message.text, width);
+    const float text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, width).y;
     return text + 2 * ImGui::GetStyle().FramePadding.y;
 }
 
@@ -85,7 +91,7 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
     text(ui, icon_of(message.kind), colour_of(ui.theme, message.kind));
     ImGui::SameLine(ui.em * kTextLeft);
     ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - right_of(ui, message));
-    text(ui, message.text, ui.theme.text);
+    text(ui, broken(message.text, width_of(ui, message)), ui.theme.text);
     ImGui::PopTextWrapPos();
     draw_remedy(c, message, index);
 }

@@ -46,10 +46,10 @@ void draw_figures(const PanelContext& c) {
     if (volume) figure(c.ui, "Volume", formatted(*volume, "%.1f mm\u00B3"));
     if (change != nullptr && change->largest_deviation)
         figure(c.ui, "Preview differs by up to", formatted(*change->largest_deviation, "%.3f mm"));
-    else if (figures.largest_deviation)
+    else if (figures.deviation)
         figure(c.ui, "Deviation from source",
-               formatted(figures.mean_deviation.value_or(0.0), "mean %.3f, ") +
-                   formatted(*figures.largest_deviation, "largest %.3f mm"));
+               formatted(figures.deviation->mean, "mean %.3f, ") +
+                   formatted(figures.deviation->largest, "largest %.3f mm"));
 }
 
 void draw_progress(PanelContext& c, const Activity& activity, float width) {

@@ -84,6 +84,12 @@ void draw_colours(PanelContext& c) {
     draw_colour_choice(c);
     if (c.place.view.colouring != ColouringKind::Patches) draw_range(c);
     draw_colour_remark(c);
+    if (c.place.view.colouring != ColouringKind::Patches &&
+        button(c.ui, "view.worst", "Next worst place",
+               {.icon = icons::kTarget,
+                .width = ImGui::GetContentRegionAvail().x,
+                .help = "Shows the worst places of these colours in turn  X, back Shift+X"}))
+        c.place.look_at_worst(1);
 }
 
 void draw_key(const Ui& ui, KeyCommand command, float row) {
@@ -182,6 +188,8 @@ void handle_view_keys(PanelContext& c) {
     if (keys.has(KeyCommand::Flight)) view.flies = !view.flies;
     if (keys.has(KeyCommand::Distance)) toggle(view.tool, MeasureTool::Distance);
     if (keys.has(KeyCommand::Diameter)) toggle(view.tool, MeasureTool::Diameter);
+    if (keys.has(KeyCommand::NextWorst)) c.place.look_at_worst(1);
+    if (keys.has(KeyCommand::PreviousWorst)) c.place.look_at_worst(-1);
     if (keys.has(KeyCommand::Picture)) c.place.ask(FileQuestion::Picture);
 }
 

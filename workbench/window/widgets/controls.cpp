@@ -140,7 +140,7 @@ void small_text(const Ui& ui, const std::string& words, Paint colour) {
 void wrapped(const Ui& ui, const std::string& words, Paint colour, bool small) {
     ImGui::PushFont(small ? ui.fonts.small : ui.fonts.regular);
     ImGui::PushTextWrapPos(0.0F);
-    text(ui, words, colour);
+    text(ui, broken(words, ImGui::GetContentRegionAvail().x), colour);
     ImGui::PopTextWrapPos();
     ImGui::PopFont();
 }
@@ -158,6 +158,25 @@ void group_heading(const Ui& ui, const std::string& words) {
     ImGui::PushFont(ui.fonts.small);
     text(ui, capitals, ui.theme.muted);
     ImGui::PopFont();
+}
+
+std::string broken(const std::string& words, float width) {
+    const float blank = ImGui::CalcTextSize(" ").x;
+    std::string lines;
+    float used = 0;
+    for (std::size_t at = 0; at < words.size();) {
+        const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
+        const float wide = ImGui::CalcTextSize(words.data() + at, words.data() + end).x;
+        if (used > 0 && used + wide > width && lines.ends_with(' ')) {
+            lines.back() = '\n';
+            used = 0;
+        }
+        lines.append(words, at, std::min(end + 1, words.size()) - at);
+        const bool ends_line = end < words.size() && words[end] == '\n';
+        used = ends_line ? 0 : used + wide + blank;
+        at = end + 1;
+    }
+    return lines;
 }
 
 std::string fitted(const std::string& words, float width) {
@@ -185,7 +204,7 @@ void tooltip(const Ui& ui, const std::string& words) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.grid(1.25F), ui.grid(1)});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(ui.em * 24);
-    text(ui, words, ui.theme.text);
+    text(ui, broken(words, ui.em * 24 - ImGui::GetCursorPosX()), ui.theme.text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();

@@ -64,6 +64,10 @@ void space(const Ui& ui, float count);
 
 void separator(const Ui& ui);
 
+/// A text in lines of at most this width, broken at blanks. ImGui would break at points and commas
+/// as well: within numbers. A word that is wider is left whole.
+[[nodiscard]] std::string broken(const std::string& words, float width);
+
 /// A text that fits a width, ended by an ellipsis if needed.
 [[nodiscard]] std::string fitted(const std::string& words, float width);
 

@@ -1,0 +1,83 @@
+#include "geometry/vessel/openings/vessel_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "geometry/editing/hole_filling.h"
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Extent over typical radius (twice the volume over the area): a lung's arteries have about 300.
+constexpr double kSlimmest = 1000.0;
+/// Noise has a loop for every 40 triangles; a tree with loops has one for thousands.
+constexpr std::size_t kMostLoops = 100;
+constexpr std::size_t kTrianglesPerLoop = 500;
+constexpr double kShortestTube = 1.5;  // diameters
+
+/// With its open borders closed [mm^3].
+double closed_volume(const Surface& surface) {
+    const Positions& x = surface.points();
+    const Vec3 origin = x[surface.triangles()[0][0]];
+    const auto under = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        return (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
+    };
+    double volume = 0.0;
+    for (const auto& [a, b, c] : surface.triangles()) volume += under(x[a], x[b], x[c]);
+    for (const auto& loop : surface.topology->boundary_loops()) {
+        const Vec3 centre = loop_centre(surface, loop);
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            volume += under(centre, x[loop[(i + 1) % loop.size()]], x[loop[i]]);
+    }
+    return std::abs(volume);
+}
+
+/// True if a branch is a tube without the furcations at its ends.
+bool is_tube(const CenterlineGraph& graph, std::size_t index) {
+    const CenterlineBranch& branch = graph.branches[index];
+    const auto zone = [&](std::size_t node) {
+        return graph.nodes[node].is_tip() ? 0.0 : furcation_zone_end(graph, index, node);
+    };
+    const double from = zone(branch.start_node);
+    const double to = branch_length(branch) - zone(branch.end_node);
+    const std::vector<double> s = abscissas(branch);
+    double widest = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s[i] >= from && s[i] <= to) widest = std::max(widest, branch.radii[i]);
+    return widest > 0.0 && to - from > kShortestTube * 2.0 * widest;
+}
+
+}  // namespace
+
+void require_lumen(const Surface& surface) {
+    if (surface.empty()) return;
+    const double extent = bounds(surface).diagonal();
+    const double radius = 2.0 * closed_volume(surface) / area(surface);
+    if (!(extent < kSlimmest * radius))
+        throw InvalidInput("there is no vessel in it: the surface is a sheet, " +
+                           formatted(extent) + " mm wide and " + formatted(radius) +
+                           " mm thick on average, and encloses no lumen");
+    const auto loops = connectivity(*surface.topology).genus.value_or(0);
+    if (loops > static_cast<int>(kMostLoops) &&
+        static_cast<std::size_t>(loops) * kTrianglesPerLoop > surface.triangle_count())
+        throw InvalidInput(
+            "there is no vessel in it that could be told from noise: the surface "
+            "has " +
+            std::to_string(loops) + " loops; choose another threshold, or give a mask");
+}
+
+bool has_tube(const CenterlineGraph& graph) {
+    for (std::size_t b = 0; b < graph.branches.size(); ++b)
+        if (is_tube(graph, b)) return true;
+    return false;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "geometry/kernel/surface.h"
+#include "geometry/vessel/centerlines/centerline_graph.h"
+
+namespace vesselbench {
+
+/// Refuses what has no lumen before anything long is tried on it: a sheet, whose thickness is
+/// nothing beside its extent, and noise, a sponge of loops.
+/// \throw InvalidInput; the text says which it is, with its figures
+void require_lumen(const Surface& surface);
+
+/// True if a branch is a tube: longer than 1.5 of its widest diameters, without its furcations. An
+/// organ or a box has centerlines, too, but none that long.
+[[nodiscard]] bool has_tube(const CenterlineGraph& graph);
+
+}  // namespace vesselbench

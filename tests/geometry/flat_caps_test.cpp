@@ -1,0 +1,110 @@
+#include "geometry/vessel/openings/flat_caps.h"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/repair/repair.h"
+#include "tests/support/iso_surface.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+Surface unlabelled(const Surface& surface) {
+    return surface.with_patches(PatchLabels(surface.triangle_count(), 0),
+                                {{"wall", PatchKind::Wall}});
+}
+
+/// A closed tube without labels, oblique by `slope` at its upper end; the middles of its caps are
+/// moved inward [mm].
+Surface capped_tube(double slope, double dent) {
+    const Surface tube = mapped(closed_tube(2.0, 30.0, 40, 90), [&](const Vec3& p) {
+        const bool middle = p.head<2>().norm() < 1e-9;
+        const double inward = middle ? (p.z() > 15.0 ? -dent : dent) : 0.0;
+        return Vec3(p.x(), p.y(),
+                    p.z() + std::max(0.0, (p.z() - 15.0) / 15.0) * slope * p.x() + inward);
+    });
+    return unlabelled(tube);
+}
+
+/// The surface of a shape's voxel mask.
+Surface masked(const ImplicitShape& shape, const Eigen::AlignedBox3d& box, double voxel) {
+    const auto mask = [&](const Vec3& p) { return shape(p) < 0.0 ? -1.0 : 1.0; };
+    return unlabelled(iso_surface(mask, box, voxel));
+}
+
+}  // namespace
+
+SCENARIO("Flat caps of a closed surface without labels are kept as its openings",
+         "[geometry][openings]") {
+    for (const double slope : {0.0, 0.5})
+        for (const double dent : {0.0, 0.2}) {
+            CAPTURE(slope, dent);
+            const Surface tube = capped_tube(slope, dent);
+            const Surface found = label_flat_caps(tube);
+            REQUIRE(found.patches.size() == 3);
+            for (const std::size_t p : {1, 2}) {
+                CHECK(found.patches[p].kind == PatchKind::Cut);
+                CHECK(patch_shape(found, p).flatness < 1e-9);
+            }
+            for (VertexId v = 0; v + 2 < tube.vertex_count(); ++v)
+                CHECK(found.points()[v] == tube.points()[v]);
+            const auto graph = centerlines_of(found, {}, {});
+            const OpeningPlan plan = plan_openings(found, *graph);
+            REQUIRE(plan.openings.size() == 2);
+            for (const PlannedOpening& opening : plan.openings)
+                CHECK(opening.way == OpeningWay::KeepCap);
+            const Surface opened = clip_openings(found, plan).surface;
+            CHECK(enclosed_volume(opened) == Approx(enclosed_volume(found)).epsilon(1e-9));
+            AND_THEN("an image's border is kept only across its vessel") {
+                const OpeningPlan border = plan_openings(found, *graph, {.border_cuts = true});
+                const auto kept =
+                    std::ranges::count(border.openings, OpeningWay::KeepCap, &PlannedOpening::way);
+                CHECK(kept == (slope == 0.0 ? 2 : 1));
+            }
+        }
+}
+
+SCENARIO("What closes no vessel is no cap", "[geometry][openings]") {
+    const auto caps_of = [](const Surface& surface) {
+        return label_flat_caps(unlabelled(surface)).patches.size() - 1;
+    };
+    CHECK(caps_of(icosphere(5.0, 4)) == 0);
+    CHECK(caps_of(cube(5.0)) == 0);
+    CHECK(caps_of(open_tube(2.0, 30.0, 40, 90)) == 0);
+    CHECK(caps_of(capped_tube(0.0, 0.6)) == 0);  // 17 degrees
+}
+
+SCENARIO("A step of a voxel mask is no cap", "[geometry][openings]") {
+    const Eigen::AlignedBox3d box(Vec3(-7, -7, -15), Vec3(7, 7, 15));
+    for (const Vec3& way : {Vec3(0, 0, 10), Vec3(0, 3, 9), Vec3(3, 2, 9)}) {
+        CAPTURE(way.transpose());
+        const Surface mask =
+            masked([&](const Vec3& p) { return capsule(p, -way, way, 2.2); }, box, 0.5);
+        REQUIRE(is_closed_manifold(mask));
+        CHECK(label_flat_caps(mask).patches.size() == 1);
+    }
+}
+
+SCENARIO("Capped models without labels keep their ends", "[geometry][openings][data]") {
+    for (const auto& [name, caps] :
+         {std::pair("surfaces/jk_carotid_left_lumen_capped.stl", 3),
+          std::pair("surfaces/vasp_small_aneurysm_fluidboundary.vtp", 2)}) {
+        CAPTURE(name);
+        const std::string file = shared_data(name);
+        if (file.empty()) return;
+        const Surface found = label_flat_caps(repair(read_surface(file).surface).surface);
+        REQUIRE(found.patches.size() == static_cast<std::size_t>(caps) + 1);
+        const OpeningPlan plan = plan_openings(found, *centerlines_of(found, {}, {}));
+        CHECK(std::ranges::count(plan.openings, OpeningWay::KeepCap, &PlannedOpening::way) == caps);
+    }
+}
