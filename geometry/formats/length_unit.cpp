@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "geometry/kernel/errors.h"
@@ -87,11 +86,10 @@ double implausibility(const Figures& figures, double factor) {
            too_large(factor * figures.extent, kLargestExtent);
 }
 
-std::string reason_text(const Figures& figures, LengthUnit unit) {
+std::string reading_text(const Figures& figures, LengthUnit unit) {
     const double factor = millimetres_per(unit);
-    return "guessed from the size: in " + to_string(unit) + " it is " +
-           formatted(factor * figures.extent) + " mm long with a typical radius of " +
-           formatted(factor * figures.radius) + " mm";
+    return "in " + to_string(unit) + " it is " + formatted(factor * figures.extent) +
+           " mm long with a typical radius of " + formatted(factor * figures.radius) + " mm";
 }
 
 }  // namespace
@@ -125,10 +123,13 @@ UnitGuess guess_length_unit(const Surface& surface, LengthUnit usual) {
                  (kUnits[i] == usual ? 0.0 : kInFavourOfUsual);
     const auto best =
         static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin());
-    double next = std::numeric_limits<double>::infinity();
+    std::size_t next = best == 0 ? 1 : 0;
     for (std::size_t i = 0; i < off.size(); ++i)
-        if (i != best) next = std::min(next, off[i]);
-    return {kUnits[best], reason_text(figures, kUnits[best]), next - off[best] >= kCertain};
+        if (i != best && off[i] < off[next]) next = i;
+    const std::string reading = reading_text(figures, kUnits[best]);
+    const bool near = off[next] - off[best] < kCertain;
+    return {kUnits[best], "guessed from the size: " + reading,
+            near ? reading + ", " + reading_text(figures, kUnits[next]) : ""};
 }
 
 }  // namespace vesselbench

@@ -19,8 +19,10 @@ enum class LengthUnit { Millimetre, Centimetre, Metre };
 /// A decision about a file's unit and why it was made.
 struct UnitGuess {
     LengthUnit unit = LengthUnit::Millimetre;
-    std::string reason;   ///< one sentence with figures
-    bool certain = true;  ///< false: another unit would be nearly as plausible
+    std::string reason;  ///< one sentence with figures
+    /// The readings, if another unit is nearly as plausible: "in mm it is 98 mm long ..., in cm
+    /// ...". Else empty.
+    std::string doubt;
 };
 
 /// The unit in which the coordinates describe a vessel: compares the typical radius (twice the

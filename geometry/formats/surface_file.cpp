@@ -51,7 +51,7 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
         const UnitGuess guess = guess_length_unit(file.surface, usual);
         file.unit = guess.unit;
         file.unit_reason = guess.reason;
-        file.unit_certain = guess.certain;
+        file.unit_doubt = guess.doubt;
     }
     scale(file.surface, millimetres_per(file.unit));
     return file;

@@ -13,8 +13,8 @@ namespace vesselbench {
 struct SurfaceFile {
     Surface surface;                           ///< [mm]; not repaired: use repair
     LengthUnit unit = LengthUnit::Millimetre;  ///< of the file
-    std::string unit_reason;  ///< "stated in the file", "given", or the guess's reason
-    bool unit_certain = true;
+    std::string unit_reason;         ///< "stated in the file", "given", or the guess's reason
+    std::string unit_doubt;          ///< two readings that are nearly as plausible, or empty
     std::vector<std::string> notes;  ///< ignored data and decisions
 };
 

@@ -16,9 +16,9 @@ struct SurfaceArgument {
     std::vector<std::string> notes;
 };
 
-/// Reads the file; the unit goes into the outcome's resolved arguments, doubts about it into the
-/// warnings.
-/// \throw as read_surface
+/// Reads the file; the unit goes into the outcome's resolved arguments, doubts about a guessed one
+/// into the warnings.
+/// \throw UsageError for units=auto if two units are nearly as plausible; as read_surface
 [[nodiscard]] SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome);
 
 }  // namespace vesselbench

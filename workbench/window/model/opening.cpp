@@ -81,7 +81,9 @@ Opened open_project(const OpenRequest& request, const SessionOptions& options) {
 
 Opened open_input(const fs::path& path, const fs::path& project, const SessionOptions& options,
                   const Progress& progress) {
-    const Input input = resolve_input({.input = path.string()}, progress.part(0.0, 0.4));
+    Input input = resolve_input({.input = path.string()}, progress.part(0.0, 0.4));
+    // The window shows the doubt, and the edit's units can be changed there.
+    if (!input.is_image && input.units.empty()) input.units = "guess";
     try {
         check_recipes(input);
     } catch (const std::exception& error) {
