@@ -6,10 +6,22 @@
 
 namespace vesselbench {
 
-std::string coordinates_text(const Vec3& point) {
+namespace {
+
+std::string coordinates(const char* format, const Vec3& point) {
     char text[80];
-    std::snprintf(text, sizeof text, "(%.5g, %.5g, %.5g)", point.x(), point.y(), point.z());
+    std::snprintf(text, sizeof text, format, point.x(), point.y(), point.z());
     return text;
+}
+
+}  // namespace
+
+std::string coordinates_text(const Vec3& point) {
+    return coordinates("(%.5g, %.5g, %.5g)", point);
+}
+
+std::string coordinates_argument(const Vec3& point) {
+    return coordinates("%.5g,%.5g,%.5g", point);
 }
 
 std::string place_text(const Vec3& point) {

@@ -16,6 +16,9 @@ namespace vesselbench {
 /// The same without the unit, for lists of places: "(12.346, -5.1, 1234.5)".
 [[nodiscard]] std::string coordinates_text(const Vec3& point);
 
+/// The same as an argument that can be typed: "12.346,-5.1,1234.5".
+[[nodiscard]] std::string coordinates_argument(const Vec3& point);
+
 /// A number with its noun: "1 place", "3 places".
 /// \param plural if it is not the noun with an s
 [[nodiscard]] std::string counted(std::size_t count, const std::string& noun,

@@ -4,10 +4,16 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/phantoms/exact_surface.h"
+#include "geometry/phantoms/field.h"
+#include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/openings/surface_ends.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -35,6 +41,27 @@ Surface ragged_tube() {
         const double share = std::max(0.0, (p.z() - 28.0) / 2.0);
         return Vec3(p.x(), p.y(), p.z() + share * std::sin(4.0 * p.x()));
     });
+}
+
+/// A vessel of radius 1.2 mm along z whose ends an image's border cuts, and a blind one of radius
+/// 2 mm from its middle to (`reach`, 0, 0).
+Surface blind_trunk(double reach) {
+    const auto vessel = [](const Vec3& from, const Vec3& to, double radius, bool flat) {
+        return VesselShape{.points = {from, to}, .radii = {radius, radius}, .flat_ends = flat};
+    };
+    const std::vector<PhantomPart> parts = {
+        {.name = "vessel", .shape = vessel(Vec3(0, 0, -15), Vec3(0, 0, 15), 1.2, true)},
+        {.name = "trunk",
+         .shape = vessel(Vec3(0, 0, 0), Vec3(reach, 0, 0), 2.0, false),
+         .blend = 0.5}};
+    const PhantomField field(parts);
+    const Surface closed = exact_surface(field, field.bounds(), 0.3);
+    Surface made = clip_openings(closed, plan_openings(closed, *centerlines_of(closed),
+                                                       {.closed = {Vec3(reach + 2.0, 0, 0)}}))
+                       .surface;
+    for (Patch& patch : made.patches)
+        if (patch.kind != PatchKind::Wall) patch.kind = PatchKind::Cut;
+    return made;
 }
 
 const PlannedOpening& upper(const OpeningPlan& plan) {
@@ -82,13 +109,35 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
     }
 }
 
+SCENARIO("The widest vessel of an image is opened, though it is short", "[geometry][openings]") {
+    const auto end_of_trunk = [](double reach) {
+        const Surface surface = blind_trunk(reach);
+        const auto graph = centerlines_of(surface);
+        const OpeningPlan plan = plan_openings(surface, *graph, {.border_cuts = true});
+        const auto end = std::ranges::max_element(
+            plan.ends, {}, [](const EndRecord& record) { return record.place.x(); });
+        const auto tip = nearest_tip(*graph, Vec3(reach + 2.0, 0, 0));
+        const auto blind = blind_branch(*graph, tip.value());
+        REQUIRE(blind);
+        CHECK_FALSE(blind->bulges);
+        CHECK(blind->is_short());
+        CAPTURE(blind->length, blind->widest);
+        return end->fate;
+    };
+    CHECK(end_of_trunk(6.0) == EndFate::Opened);
+    CHECK(end_of_trunk(2.5) != EndFate::Opened);
+}
+
 SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     const EndRecord inlet{.diameter = 3.0, .fate = EndFate::Opened, .opening = 0};
     const EndRecord outlet{.diameter = 2.0, .fate = EndFate::Kept, .opening = 1};
     EndRecord aorta{.place = {1, 2, 3}, .diameter = 20.0, .why = "the vessels form a loop there"};
     OpeningPlan plan{.openings = {{}, {}}, .ends = {aorta, inlet, outlet}};
     CHECK_THROWS_WITH(check_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop") &&
-                                            Contains("closed=x,y,z"));
+                                            Contains("open=1,2,3 opens it") &&
+                                            Contains("closed=1,2,3"));
+    plan.ends[0].tried = true;
+    CHECK_THROWS_WITH(check_flow(plan), Contains("tip=1,2,3 distance="));
     plan.ends[0].sac = true;
     CHECK_NOTHROW(check_flow(plan));
     plan.ends[0] = {.diameter = 3.2};

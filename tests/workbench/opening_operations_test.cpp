@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <regex>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -18,6 +22,7 @@
 
 using namespace vesselbench;
 using namespace vesselbench::test;
+using Catch::Contains;
 
 namespace {
 
@@ -74,6 +79,13 @@ TubeError tube_error(const Surface& surface) {
             std::max(error.tilt_deg, std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi);
     }
     return error;
+}
+
+/// The numbers of "1,2,3".
+std::vector<double> list_from(std::string text) {
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream numbers(text);
+    return {std::istream_iterator<double>(numbers), {}};
 }
 
 /// Triangles of every patch by its name.
@@ -207,6 +219,26 @@ SCENARIO("clip-opening opens every end, and replays what it decided", "[workbenc
                             {{"planes", std::vector<double>{1, 2}}, {"names", std::string("x")}}),
                         UsageError);
     }
+}
+
+SCENARIO("A closed end is opened by the argument that its reason names", "[workbench][openings]") {
+    const Surface surface = side_branched();
+    const Outcome outcome = run("clip-opening", surface, {});
+    REQUIRE(outcome.scene.surface->patches.size() == 3);
+    std::string why;
+    for (const auto& end : outcome.report->at("ends"))
+        if (end["fate"] == "closed") why = end["why"];
+    CAPTURE(why);
+    std::smatch argument;
+    REQUIRE(std::regex_search(why, argument, std::regex("open=([^ ]+) opens it")));
+    const Outcome opened = run("clip-opening", surface, {{"open", list_from(argument[1].str())}});
+    CHECK(opened.scene.surface->patches.size() == 4);
+    CHECK(is_closed_manifold(*opened.scene.surface));
+    check_replay("clip-opening", surface, opened);
+    CHECK_THROWS_WITH(run("clip-opening", surface, {{"open", std::vector<double>{90, 0, 0}}}),
+                      Contains("no vessel ends near open=90,0,0"));
+    CHECK_THROWS_AS(run("clip-opening", surface, {{"open", std::vector<double>{16, 0}}}),
+                    UsageError);
 }
 
 SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {

@@ -40,7 +40,7 @@ void check_arguments(const Arguments& arguments) {
         throw UsageError("clip-opening: give distance or radii, not both");
     if (arguments.has("planes") != arguments.has("names"))
         throw UsageError("clip-opening: give planes and names together");
-    for (const char* name : {"closed", "inlet"})
+    for (const char* name : {"open", "closed", "inlet"})
         if (arguments.has(name) && arguments.list(name).size() % 3 != 0)
             throw UsageError("clip-opening: " + std::string(name) +
                              " needs three numbers for each end");
@@ -69,6 +69,7 @@ OpeningPlanOptions plan_options(const Arguments& arguments, bool imaged) {
                                .strict = arguments.flag("strict"),
                                .border_cuts = imaged};
     if (!options.tip) options.inlets = points_of(arguments, "inlet");
+    options.open = points_of(arguments, "open");
     options.closed = points_of(arguments, "closed");
     return options;
 }
@@ -373,6 +374,11 @@ std::vector<Parameter> chosen_parameters() {
              .type = Choice,
              .help = "role of the opening at tip for the solver; default: by size",
              .choices = {"inlet", "outlet"}},
+            {.name = "open",
+             .type = List,
+             .unit = "mm",
+             .help = "ends that are opened although they look closed, such as short ones: x,y,z of "
+                     "each"},
             {.name = "closed",
              .type = List,
              .unit = "mm",

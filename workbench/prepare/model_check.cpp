@@ -44,7 +44,8 @@ void check_openings(const Surface& before, const Surface& after) {
         throw AlgorithmFailure(
             "the opening '" + after.patches[p].name + "' at " +
             place_text(patch_shape(after, p).plane.point) +
-            " lies in a vessel's side: leave that end closed with clip-opening closed=x,y,z");
+            " lies in a vessel's side: leave that end closed with --set clip-opening.closed=" +
+            coordinates_argument(patch_shape(after, p).plane.point));
 }
 
 }  // namespace vesselbench

@@ -1,12 +1,14 @@
 #include "workbench/prepare/prepare_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
+#include "geometry/vessel/openings/openings.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
@@ -142,6 +144,18 @@ void add_ends(Json& document, const ResultRecord& result) {
     if (!document.contains("ends") || report["ends"].size() > 1) document["ends"] = report["ends"];
 }
 
+/// Of the list that add_ends() made.
+std::vector<ClosedEnd> closed_ends(const Json& document) {
+    std::vector<ClosedEnd> closed;
+    if (!document.contains("ends")) return closed;
+    for (const Json& end : document["ends"]) {
+        const auto place = end["place_mm"].get<std::array<double, 3>>();
+        if (end["fate"] == to_string(EndFate::Closed))
+            closed.push_back({{place[0], place[1], place[2]}, end["diameter_mm"]});
+    }
+    return closed;
+}
+
 void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
     report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
@@ -193,8 +207,10 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     report["warnings"] = made.warnings;
     report["products"] = prepared.products;
     progress.report(0.5, "drawing");
-    made.pictures =
-        report_pictures(surface, source.surface ? &*source.surface : nullptr, comparable);
+    made.pictures = source.surface
+                        ? report_pictures(surface, PictureSource{*source.surface, comparable,
+                                                                 closed_ends(made.document)})
+                        : report_pictures(surface, std::nullopt);
     return made;
 }
 

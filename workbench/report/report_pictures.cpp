@@ -36,29 +36,59 @@ PictureOptions options_for(const View& view, std::vector<Colour> colours) {
             .vertex_colours = std::move(colours)};
 }
 
-}  // namespace
-
-std::vector<ReportPicture> report_pictures(const Surface& surface, const Surface* source,
-                                           const std::vector<std::uint8_t>& comparable) {
+/// Pictures of one surface and their titles.
+struct Series {
     std::vector<std::string> titles;
     std::vector<PictureOptions> views;
-    for (const View& view : kViews) {
-        titles.push_back(std::string("Patches, ") + view.name);
-        views.push_back(options_for(view, {}));
-    }
-    if (source != nullptr) {
-        const auto [colours, full] = deviation_colours(surface, *source, comparable);
+
+    void add(const std::string& what, const std::vector<Colour>& colours,
+             const std::string& legend = "") {
         for (const View& view : kViews) {
-            titles.push_back(std::string("Deviation from the source, ") + view.name + ": " +
-                             deviation_legend(full));
+            titles.push_back(what + ", " + view.name + legend);
             views.push_back(options_for(view, colours));
         }
     }
-    try {
+
+    void draw_into(std::vector<ReportPicture>& pictures, const Surface& surface) const {
+        if (views.empty()) return;
         const std::vector<Picture> drawn = draw_views(surface, views);
-        std::vector<ReportPicture> pictures;
         for (std::size_t i = 0; i < drawn.size(); ++i)
             pictures.push_back({titles[i], png(drawn[i])});
+    }
+};
+
+Series series_of_model(const Surface& surface, const std::optional<PictureSource>& source) {
+    Series series;
+    series.add("Patches", {});
+    if (!source) return series;
+    const auto [colours, full] = deviation_colours(surface, source->surface, source->comparable);
+    series.add("Deviation from the source", colours, ": " + deviation_legend(full));
+    return series;
+}
+
+/// Empty if nothing of the source was lost or left closed.
+Series series_of_source(const PictureSource& source, const Surface& model) {
+    const auto fates = source_fates(source.surface, model, source.closed);
+    const bool lost = std::ranges::count(fates, SourceFate::Lost) > 0;
+    const bool closed = std::ranges::count(fates, SourceFate::Closed) > 0;
+    Series series;
+    if (!lost && !closed) return series;
+    std::vector<Colour> colours;
+    for (const SourceFate fate : fates) colours.push_back(fate_colour(fate));
+    series.add("The source", colours,
+               std::string(": ") + (lost ? "blue is not in the model" : "") +
+                   (lost && closed ? ", " : "") + (closed ? "violet ends are closed" : ""));
+    return series;
+}
+
+}  // namespace
+
+std::vector<ReportPicture> report_pictures(const Surface& surface,
+                                           const std::optional<PictureSource>& source) {
+    try {
+        std::vector<ReportPicture> pictures;
+        series_of_model(surface, source).draw_into(pictures, surface);
+        if (source) series_of_source(*source, surface).draw_into(pictures, source->surface);
         return pictures;
     } catch (const GpuUnavailable&) {
         return {};

@@ -1,23 +1,31 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/kernel/surface.h"
 #include "gpu/picture.h"
 #include "workbench/report/report_html.h"
+#include "workbench/report/source_parts.h"
 
 namespace vesselbench {
 
-/// The surface from three sides, and coloured by its deviation from the
-/// source (blue inside, red outside of it). Empty without usable
-/// OpenGL.
-/// \param source may be null
-/// \param comparable 1 at the vertices that have a counterpart in the
-/// source, #V; the others (clipped and extruded ends) are white
+/// What the model is compared with in pictures.
+struct PictureSource {
+    const Surface& surface;
+    /// 1 at the model's vertices that have a counterpart in the source, #V; the others (clipped and
+    /// extruded ends) are white.
+    std::vector<std::uint8_t> comparable;
+    std::vector<ClosedEnd> closed;  ///< ends that were left closed
+};
+
+/// The surface from three sides, and coloured by its deviation from the source (blue inside, red
+/// outside of it); the source with its closed ends and lost parts in colours of their own, if there
+/// are any. Empty without usable OpenGL.
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
-    const Surface& surface, const Surface* source, const std::vector<std::uint8_t>& comparable);
+    const Surface& surface, const std::optional<PictureSource>& source);
 
 /// The deviation shown in full colour [mm]: 98 % are below it; 1 if there is none.
 [[nodiscard]] double deviation_of_full_colour(std::vector<double> deviations);
@@ -32,7 +40,7 @@ struct DeviationColours {
     double full_colour = 0.0;     ///< the deviation shown in full colour [mm]
 };
 
-/// \param comparable as for report_pictures; empty: all vertices
+/// \param comparable as for PictureSource; empty: all vertices
 /// \param full_colour [mm]; 0: 98 % of the comparable vertices are below
 /// \throw InvalidInput if the source has no triangle
 [[nodiscard]] DeviationColours deviation_colours(const Surface& surface, const Surface& source,

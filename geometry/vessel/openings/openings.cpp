@@ -28,6 +28,8 @@ constexpr double kLeastRiseAtTip = 30.0;
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
 constexpr double kNoticedTiltDeg = 2.0;
+/// Ends at least this wide beside the largest opening count as large [-].
+constexpr double kAsLarge = 1.1;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
 
@@ -87,6 +89,7 @@ private:
 
     void plan_all() {
         name_inlets();
+        for (const Vec3& point : options_.open) wanted_.push_back(end_meant(point, "open"));
         leave_closed();
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (!decided_[e] && ends_[e].is_visible()) static_cast<void>(keep(e));
@@ -98,16 +101,17 @@ private:
         for (const bool visible : {true, false})
             for (const std::size_t e : order)
                 if (!decided_[e] && ends_[e].is_visible() == visible)
-                    plan_end(e, blind_too || is_inlet(e));
-        for (const std::size_t inlet : inlets_)
-            if (!made_[inlet])
-                throw AlgorithmFailure("the inlet at " + place_text(ends_[inlet].centre) +
-                                       " cannot be opened: " + records_[inlet].why);
+                    plan_end(e, blind_too || is_wanted(e));
+        for (std::size_t e = 0; e < ends_.size(); ++e)
+            if (is_wanted(e) && !made_[e])
+                throw AlgorithmFailure(std::string("the ") + (is_inlet(e) ? "inlet" : "end") +
+                                       " at " + place_text(ends_[e].centre) +
+                                       " cannot be opened: " + records_[e].why);
     }
 
     void name_inlets() {
         for (const Vec3& point : options_.inlets) {
-            const std::size_t end = end_meant(point);
+            const std::size_t end = end_meant(point, "inlet");
             if (is_inlet(end))
                 throw AlgorithmFailure("two inlets mean the same end, at " +
                                        place_text(ends_[end].centre));
@@ -115,21 +119,27 @@ private:
         }
     }
 
-    std::size_t end_meant(const Vec3& point) const {
+    std::size_t end_meant(const Vec3& point, const std::string& parameter) const {
         if (const auto end = end_near(ends_, point)) return *end;
         const auto nearest = std::ranges::min_element(
             ends_, {}, [&](const SurfaceEnd& e) { return (e.centre - point).norm(); });
-        throw AlgorithmFailure("no vessel ends near inlet=" + coordinates_text(point) +
-                               "; the nearest end is at " + place_text(nearest->centre));
+        throw AlgorithmFailure("no vessel ends near " + parameter + "=" +
+                               coordinates_argument(point) + "; the nearest end is at " +
+                               place_text(nearest->centre));
     }
 
     bool is_inlet(std::size_t e) const { return std::ranges::count(inlets_, e) > 0; }
+
+    /// Named by the caller: it has to be opened.
+    bool is_wanted(std::size_t e) const {
+        return is_inlet(e) || std::ranges::count(wanted_, e) > 0;
+    }
 
     void leave_closed() {
         for (const Vec3& point : options_.closed) {
             const auto end = end_near(ends_, point);
             if (!end)
-                throw AlgorithmFailure("no vessel ends near closed=" + coordinates_text(point));
+                throw AlgorithmFailure("no vessel ends near closed=" + coordinates_argument(point));
             records_[*end].asked = true;
             close(*end, "left closed as asked");
         }
@@ -155,13 +165,13 @@ private:
             const auto blind = blind_branch(graph_, *end.tip);
             records_[e].sac = blind && (blind->bulges || blind->is_short());
             return close(e,
-                         "a closed end: the surface's own rims are its openings; tip=x,y,z "
-                         "opens it");
+                         "a closed end: the surface's own rims are its openings" + opening_text(e));
         }
-        if (!end.is_visible() && !is_inlet(e) && looks_closed(e)) return;
+        if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
         if (cut(e)) return;
         if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
         if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
+        records_[e].tried = true;
         close(e, records_[e].why);
     }
 
@@ -175,17 +185,31 @@ private:
         return !options_.strict && blind && !blind->is_short() && !blind->bulges;
     }
 
+    /// As long as it is wide, and wider than every visible end: it is where the blood enters, and
+    /// the image, or its mask, ends there.
+    bool is_trunk(std::size_t e, const BlindBranch& blind) const {
+        const bool widest = std::ranges::none_of(ends_, [&](const SurfaceEnd& other) {
+            return other.is_visible() && kAsLarge * other.diameter >= ends_[e].diameter;
+        });
+        return widest && blind.length >= 2.0 * blind.widest;
+    }
+
     /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border
     /// already provides inflow and outflow, a short blind stub is not an opening either.
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         if (!blind || !blind->is_short()) return false;
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        if (!blind->bulges && (visible < 2 || !options_.border_cuts)) return false;
+        if (!blind->bulges && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind)))
+            return false;
         records_[e].sac = blind->bulges;
         close(e, std::string(blind->bulges ? "it looks like an aneurysm" : "its branch is short") +
-                     "; tip=x,y,z opens it");
+                     opening_text(e));
         return true;
+    }
+
+    std::string opening_text(std::size_t e) const {
+        return "; open=" + coordinates_argument(ends_[e].centre) + " opens it";
     }
 
     bool is_stub(std::size_t e) const {
@@ -409,11 +433,9 @@ private:
     std::vector<bool> decided_;                        ///< by end
     CutTrials trials_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
+    std::vector<std::size_t> wanted_;  ///< ends that shall be opened
     OpeningPlan plan_;
 };
-
-/// Ends at least this wide beside the largest opening count as large [-].
-constexpr double kAsLarge = 1.1;
 
 std::string ends_text(const OpeningPlan& plan) {
     std::string text;
@@ -421,6 +443,34 @@ std::string ends_text(const OpeningPlan& plan) {
         text += "\n  " + to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
                 formatted(end.diameter) + " mm" + (end.why.empty() ? "" : ": " + end.why);
     return text;
+}
+
+/// Closed ends that nobody wanted closed, the widest first, at most `count`.
+std::vector<EndRecord> largest_closed(const OpeningPlan& plan, std::size_t count) {
+    std::vector<EndRecord> closed;
+    for (const EndRecord& end : plan.ends)
+        if (end.fate == EndFate::Closed && !end.asked) closed.push_back(end);
+    std::ranges::stable_sort(closed, std::greater{}, &EndRecord::diameter);
+    closed.resize(std::min(closed.size(), count));
+    return closed;
+}
+
+/// What to do about ends that should not be closed.
+std::string remedy(const std::vector<EndRecord>& ends) {
+    std::vector<std::string> open, by_hand, closed;
+    for (const EndRecord& end : ends) {
+        const std::string place = coordinates_argument(end.place);
+        (end.tried ? by_hand : open).push_back(place);
+        closed.push_back(place);
+    }
+    std::vector<std::string> ways;
+    if (!open.empty()) ways.push_back("clip-opening open=" + joined(open, ",") + " opens it");
+    if (!by_hand.empty())
+        ways.push_back("clip-opening tip=" + by_hand.front() + " distance=MM cuts it by hand");
+    if (!closed.empty())
+        ways.push_back("closed=" + joined(closed, ",") + " leaves it closed on purpose");
+    ways.emplace_back("check=none makes a model that is not for flow");
+    return "\n" + joined(ways, "; ") + " (with prepare: --set clip-opening.NAME=VALUE)";
 }
 
 }  // namespace
@@ -455,13 +505,11 @@ OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
 }
 
 void check_flow(const OpeningPlan& plan) {
-    const std::string remedy =
-        "; open an end by hand with clip-opening tip=x,y,z distance=..., or leave it closed on "
-        "purpose with closed=x,y,z; check=none makes a model that is not for flow";
     if (plan.openings.size() < 2)
         throw AlgorithmFailure("a flow needs two openings, and there " +
                                std::string(plan.openings.empty() ? "is none" : "is one only") +
-                               ". The ends found:" + ends_text(plan) + remedy);
+                               ". The ends found:" + ends_text(plan) +
+                               remedy(largest_closed(plan, 2 - plan.openings.size())));
     double largest = 0.0;
     for (const EndRecord& end : plan.ends)
         if (end.opening) largest = std::max(largest, end.diameter);
@@ -471,7 +519,8 @@ void check_flow(const OpeningPlan& plan) {
             throw AlgorithmFailure(
                 "the largest end, at " + place_text(end.place) + " with a diameter of " +
                 formatted(end.diameter) + " mm, is closed (" + end.why +
-                "): blood would enter elsewhere. The ends found:" + ends_text(plan) + remedy);
+                "): blood would enter elsewhere. The ends found:" + ends_text(plan) +
+                remedy({end}));
 }
 
 }  // namespace vesselbench

@@ -49,6 +49,7 @@ struct EndRecord {
     bool plain = false;  ///< kept, or opened at the chosen place
     bool sac = false;    ///< closed since it looks like an aneurysm
     bool asked = false;  ///< closed since the caller wants it so
+    bool tried = false;  ///< closed since it could not be cut
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 
@@ -77,8 +78,9 @@ struct OpeningPlanOptions {
     /// Patches of kind Cut are where an image ends, which nobody meant to be an opening's plane:
     /// only perpendicular ones are kept.
     bool border_cuts = false;
-    Positions inlets;               ///< near the ends that are inlets: they have to be opened [mm]
-    Positions closed;               ///< near the ends that stay closed [mm]
+    Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]
+    Positions open;    ///< near ends that have to be opened, though they may look closed [mm]
+    Positions closed;  ///< near the ends that stay closed [mm]
     std::vector<FailedCut> failed;  ///< places to be avoided
 };
 
@@ -97,7 +99,8 @@ inline constexpr double kEndReach = 1.5;
 /// kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
 /// the nearest place with a whole section; else its branch is removed if it is a stub, shorter than
 /// its parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no
-/// branch has its tip near `tip`, the end at `tip` or one of `inlets` cannot be opened
+/// branch has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be
+/// opened
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {});
 
