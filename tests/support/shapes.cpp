@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <numbers>
 
@@ -225,6 +226,14 @@ std::string temporary_folder() {
     if (made == nullptr) throw std::runtime_error("cannot make a temporary folder");
     guard.folders.emplace_back(made);
     return made;
+}
+
+void write_unitless(const Surface& surface, const std::string& path) {
+    std::ofstream file(path);
+    file << "OFF\n" << surface.vertex_count() << ' ' << surface.triangle_count() << " 0\n";
+    for (const Vec3& p : surface.points()) file << p.transpose() << '\n';
+    for (const auto& [a, b, c] : surface.triangles())
+        file << "3 " << a << ' ' << b << ' ' << c << '\n';
 }
 
 }  // namespace vesselbench::test

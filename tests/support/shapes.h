@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "geometry/kernel/surface.h"
 
@@ -39,5 +40,8 @@ namespace vesselbench::test {
 
 /// A new empty folder for one test, removed when the program ends.
 [[nodiscard]] std::string temporary_folder();
+
+/// Writes an OFF file that does not state its unit.
+void write_unitless(const Surface& surface, const std::string& path);
 
 }  // namespace vesselbench::test

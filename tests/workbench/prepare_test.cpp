@@ -417,8 +417,8 @@ SCENARIO("Wrong arguments of prepare are rejected before anything is written",
     refused({tube() + "/exact.vtp", "--for", "cfd", "--mask", tube() + "/mask.nii.gz"}, "--mask");
     refused({tube() + "/exact.vtp", "--for", "cfd", "--units", "inch"}, "units");
     const std::string trunk = temporary_folder() + "/trunk.off";
-    write_surface(open_tube(1.0, 12.0, 24, 40), trunk);
-    refused({trunk, "--for", "cfd"}, "in cm it is 122 mm long");
+    write_unitless(open_tube(1.0, 12.0, 24, 40), trunk);
+    refused({trunk, "--for", "cfd"}, "in cm it is 123 mm long");
 }
 
 SCENARIO("Bad input gives exit code 3 and leaves nothing half-written", "[workbench][bad-input]") {

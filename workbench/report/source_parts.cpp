@@ -16,9 +16,9 @@ constexpr double kFarthestMove = 2.0;
 
 std::vector<SourceFate> source_fates(const Surface& source, const Surface& model,
                                      const std::vector<ClosedEnd>& closed) {
+    const auto nearest = distance_to(model).closest_points(source.points());
     const double farthest =
         kFarthestMove * std::max(mean_edge_length(source), mean_edge_length(model));
-    const auto nearest = distance_to(model).closest_points(source.points());
     std::vector<SourceFate> fates;
     for (std::size_t v = 0; v < source.vertex_count(); ++v) {
         const auto ends_here = [&](const ClosedEnd& end) {
