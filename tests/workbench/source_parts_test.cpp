@@ -1,10 +1,11 @@
+#include "workbench/report/source_parts.h"
+
 #include <algorithm>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
-#include "workbench/report/source_parts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
