@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
@@ -155,6 +155,10 @@ void refine(const Surface& source, const Positions& places, double gradation,
                            "; use a smaller edge, or separate the walls that touch there");
 }
 
+/// Cutting crossings out may leave crumbs, which are dropped; a vessel would be larger than this
+/// fraction of the area.
+constexpr double kCrumb = 1e-3;
+
 /// Walls that almost touch may cross however fine their edges are: crossings there are smoothed, or
 /// cut out and filled again.
 Surface parted(const Surface& source, const Surface& result, RemeshReport& report) {
@@ -164,9 +168,10 @@ Surface parted(const Surface& source, const Surface& result, RemeshReport& repor
     report.crossing = result.points()[result.triangles()[crossings.front().first][0]];
     try {
         Repaired repaired =
-            repair(result, {.keep_components = std::numeric_limits<std::size_t>::max()});
+            repair(result, {.keep_components = connected_components(*source.topology).count()});
+        const double lost = 1.0 - area(repaired.surface) / area(result);
         // repair turns every component outward, which would fill a cavity
-        if (!repaired.report.turned_inside_out) return std::move(repaired.surface);
+        if (!repaired.report.turned_inside_out && lost < kCrumb) return std::move(repaired.surface);
     } catch (const AlgorithmFailure&) {
         // reported below, in terms of this operation
     }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
@@ -291,6 +292,15 @@ SCENARIO("Walls that almost touch are separated where no edge is short enough",
         const Remeshed remeshed = remesh(body, {.mode = RemeshMode::Uniform, .edge = 0.5});
         CHECK(remeshed.report.crossings_parted > 0);
         check_sound(remeshed.surface, true);
+    }
+    GIVEN("dents of several widths, with several edges") {
+        for (const double gap : {2e-5, 1e-4, 5e-4})
+            for (const double edge : {0.35, 0.45, 0.6}) {
+                CAPTURE(gap, edge);
+                const Surface body = dented(gap);
+                const auto made = remesh(body, {.mode = RemeshMode::Uniform, .edge = edge});
+                CHECK(connected_components(*made.surface.topology).count() == 1);
+            }
     }
 }
 
