@@ -1,0 +1,31 @@
+#include "workbench/commands/command_parser.h"
+
+#include <utility>
+
+#include "workbench/commands/console.h"
+
+namespace vesselbench {
+
+CommandLine::CommandLine(std::stop_token on)
+    : app("vesselbench turns vessel images and raw vessel surfaces into CFD models and print "
+          "models.",
+          "vesselbench"),
+      stop(std::move(on)),
+      progress(console_progress(stop)) {}
+
+CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
+                      std::function<int()> command) {
+    CLI::App& added = *line.app.add_subcommand(name, summary);
+    added.callback([&line, run = std::move(command)] { line.command = run; });
+    return added;
+}
+
+void add_project(CLI::App& command, std::string& project) {
+    command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
+}
+
+void add_json(CLI::App& command, bool& json, const char* help) {
+    command.add_flag("--json", json, help);
+}
+
+}  // namespace vesselbench

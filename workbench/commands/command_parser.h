@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "geometry/kernel/progress.h"
+#include "workbench/commands/commands.h"
+
+namespace vesselbench {
+
+/// The parser, and the command it found.
+struct CommandLine {
+    explicit CommandLine(std::stop_token on);
+
+    CLI::App app;
+    std::stop_token stop;
+    Progress progress;
+    std::function<int()> command;
+    WindowOptions window;
+};
+
+/// Adds a command. \param command runs it, and returns its exit code
+CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
+                      std::function<int()> command);
+
+/// Adds the argument PROJECT.
+void add_project(CLI::App& command, std::string& project);
+
+/// Adds the flag --json.
+void add_json(CLI::App& command, bool& json, const char* help = "Print one JSON document");
+
+}  // namespace vesselbench

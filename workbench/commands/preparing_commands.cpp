@@ -1,0 +1,105 @@
+#include "workbench/commands/preparing_commands.h"
+
+#include <memory>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/case/purposes.h"
+#include "workbench/export/export_formats.h"
+#include "workbench/export/products.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// What `prepare` writes for the purposes with products of their own.
+std::string product_lines() {
+    std::string lines;
+    for (const Purpose& purpose : purposes())
+        if (!purpose.products.empty())
+            lines += "  for " + purpose.name + ": " + joined(product_names(purpose.name)) + "\n";
+    return lines;
+}
+
+/// "flow simulation (cfd), ..., or surgery simulation (simulation)"
+std::string purposes_help() {
+    std::string text;
+    for (const Purpose& purpose : purposes())
+        text += (text.empty()                     ? ""
+                 : &purpose == &purposes().back() ? ", or "
+                                                  : ", ") +
+                purpose.help;
+    return text;
+}
+
+std::string prepare_footer() {
+    return input_formats_text() +
+           "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
+           "like\n"
+           "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
+           "OUT gets project.vbench, report.json, report.html and\n" +
+           product_lines() +
+           "\n"
+           "  vesselbench prepare aorta.stl --for cfd --out aorta\n"
+           "  vesselbench prepare scan.nrrd --for rp --set extract-surface.threshold=300 --out "
+           "print";
+}
+
+void add_input(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("INPUT", input.input,
+                    "A surface, an image, a folder of DICOM slices, or a case folder")
+        ->required()
+        ->type_name("");
+    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
+        ->type_name("FILE");
+    command
+        .add_option(
+            "--units", input.units,
+            "Unit of the file: mm, cm or m (default: as stated in it, or the only one in which "
+            "it is a vessel)")
+        ->type_name("UNIT");
+}
+
+void add_prepare(CommandLine& line) {
+    const auto options = std::make_shared<PrepareArguments>();
+    CLI::App& command =
+        add_command(line, "prepare", "Make a CFD model or a print model from an image or a surface",
+                    [options, &line] { return prepare_case(*options, line.progress), 0; });
+    add_input(command, options->input);
+    command.footer(prepare_footer());
+    command.add_option("--for", options->purpose, "Purpose of the model: " + purposes_help())
+        ->required()
+        ->type_name(joined(purpose_names(), "|"));
+    command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
+        ->type_name("FILE");
+    command.add_flag("--resume", options->resume,
+                     "Go on in the folder's project after the last edit of the recipe");
+    command
+        .add_option("--set", options->settings,
+                    "operation.parameter=value: change an argument of the recipe")
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+    command.add_option("--out", options->out, "Folder of the results; created if missing")
+        ->required()
+        ->type_name("FOLDER");
+    add_json(command, options->json);
+}
+
+void add_new(CommandLine& line) {
+    const auto options = std::make_shared<NewArguments>();
+    CLI::App& command =
+        add_command(line, "new", "Make a project from an image or a surface",
+                    [options, &line] { return make_project(*options, line.progress), 0; });
+    add_project(command, options->project);
+    add_input(command, options->input);
+    add_json(command, options->json);
+}
+
+}  // namespace
+
+void add_preparing_commands(CommandLine& line) {
+    add_prepare(line);
+    add_new(line);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,175 @@
+#include "workbench/commands/project_commands.h"
+
+#include <memory>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/export/export_formats.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string export_footer() {
+    return "Formats by suffix, with the unit of length:\n" + export_formats_text() +
+           "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, "
+           "residual,\n"
+           "processes; --set may be repeated.";
+}
+
+constexpr const char* kChangeFooter =
+    "Later edits become pending: they run again when their result is shown, exported or built\n"
+    "upon. 'undo' reverts the change.";
+
+void add_apply(CommandLine& line) {
+    const auto options = std::make_shared<ApplyOptions>();
+    CLI::App& command =
+        add_command(line, "apply", "Run an operation on a project, as an edit that can be undone",
+                    [options, &line] { return apply_operation(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command.add_option("OPERATION", options->operation, "Its name, as listed by 'operations'")
+        ->required()
+        ->type_name("");
+    command
+        .add_option("parameter=value", options->arguments,
+                    "Its arguments; see 'vesselbench operations OPERATION'")
+        ->type_name("");
+    command
+        .add_option("--variant", options->variant,
+                    "Variant for edits of steps 6-8: cfd, rp or a name")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--step", options->step,
+                    "Step the edit belongs to (default: the operation's usual step)")
+        ->type_name("STEP");
+    command.add_option("--author", options->author, "Author of the edit (default: login name)")
+        ->type_name("NAME");
+    command.add_option("--note", options->note, "Reason, in your own words")->type_name("WORDS");
+    add_json(command, options->json, "Print the edit as one JSON document");
+}
+
+void add_edit(CLI::App& command, std::int64_t& edit) {
+    command.add_option("EDIT", edit, "Its number, as 'log' lists it")->required()->type_name("");
+}
+
+void add_change_and_remove(CommandLine& line) {
+    const auto changed = std::make_shared<ChangeOptions>();
+    CLI::App& change =
+        add_command(line, "change", "Run an earlier edit with other arguments",
+                    [changed, &line] { return change_edit(*changed, line.progress), 0; });
+    add_project(change, changed->project);
+    add_edit(change, changed->edit);
+    change
+        .add_option("parameter=value", changed->arguments,
+                    "Arguments to replace; the others stay as they were given")
+        ->type_name("");
+    change.add_option("--author", changed->author, "Who makes the change (default: login name)")
+        ->type_name("NAME");
+    change.add_option("--note", changed->note, "Reason, in your own words (default: as it was)")
+        ->type_name("WORDS");
+    add_json(change, changed->json, "Print the edit as one JSON document");
+    change.footer(kChangeFooter);
+    const auto removed = std::make_shared<RemoveOptions>();
+    CLI::App& remove = add_command(line, "remove", "Leave an edit out",
+                                   [removed] { return remove_edit(*removed), 0; });
+    add_project(remove, removed->project);
+    add_edit(remove, removed->edit);
+    add_json(remove, removed->json);
+    remove.footer(kChangeFooter);
+}
+
+void add_note(CommandLine& line) {
+    const auto options = std::make_shared<NoteOptions>();
+    CLI::App& command = add_command(line, "note", "Write a note on an edit, or remove it",
+                                    [options] { return note_edit(*options), 0; });
+    add_project(command, options->project);
+    add_edit(command, options->edit);
+    command.add_option("WORDS", options->words, "The note (default: none)")->type_name("");
+    add_json(command, options->json);
+}
+
+void add_log(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command =
+        add_command(line, "log", "List steps, edits, authors, and what each edit changed",
+                    [options] { return show_log(*options), 0; });
+    add_project(command, options->project);
+    add_json(command, options->json);
+}
+
+void add_undo_and_redo(CommandLine& line) {
+    const auto options = std::make_shared<StepBackOptions>();
+    CLI::App& undo = add_command(line, "undo", "Return to the state before an edit",
+                                 [options] { return undo_edit(*options), 0; });
+    add_project(undo, options->project);
+    undo.add_option("EDIT", options->edit, "Return to before this edit (default: the last one)")
+        ->type_name("");
+    add_json(undo, options->json);
+    CLI::App& redo = add_command(line, "redo", "Redo an edit that was undone",
+                                 [options] { return redo_edit(*options), 0; });
+    add_project(redo, options->project);
+    redo.add_option("EDIT", options->edit, "Redo up to this edit (default: one state)")
+        ->type_name("");
+    add_json(redo, options->json);
+}
+
+void add_replay(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command = add_command(
+        line, "replay", "Run every edit again and compare with the stored results, bit for bit",
+        [options, &line] { return replay_project(*options, line.progress) ? 0 : 1; });
+    add_project(command, options->project);
+    add_json(command, options->json);
+}
+
+void add_compact(CommandLine& line) {
+    const auto options = std::make_shared<LogOptions>();
+    CLI::App& command =
+        add_command(line, "compact",
+                    "Make a project smaller: drop results of undone edits, which can be computed "
+                    "again; no edit is lost",
+                    [options] {
+                        compact(*options);
+                        return 0;
+                    });
+    add_project(command, options->project);
+    add_json(command, options->json);
+}
+
+void add_export(CommandLine& line) {
+    const auto options = std::make_shared<ExportArguments>();
+    CLI::App& command =
+        add_command(line, "export", "Export the model to a file, or as an OpenFOAM case",
+                    [options, &line] { return export_project(*options, line.progress), 0; });
+    add_project(command, options->project);
+    command
+        .add_option("FILE", options->file,
+                    "Its suffix determines the format; a folder: an OpenFOAM case")
+        ->required()
+        ->type_name("");
+    command.footer(export_footer());
+    command.add_option("--variant", options->variant, "Variant to write")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command
+        .add_option("--set", options->settings,
+                    "openfoam.parameter=value: change the flow of the case")
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+    add_json(command, options->json);
+}
+
+}  // namespace
+
+void add_project_commands(CommandLine& line) {
+    add_apply(line);
+    add_change_and_remove(line);
+    add_note(line);
+    add_log(line);
+    add_undo_and_redo(line);
+    add_replay(line);
+    add_compact(line);
+    add_export(line);
+}
+
+}  // namespace vesselbench
