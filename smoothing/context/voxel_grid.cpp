@@ -27,8 +27,8 @@ constexpr std::size_t kTrialEdges = 600;
 constexpr double kShareInPlanes = 0.5;  // of the edges in planes of any axis; marching cubes: 2/3
 constexpr double kShareOfAxis = 0.04;   // of the edges in planes of one axis alone; chance: 0.004
 
-constexpr double kSamePlane = 0.004;  // of the median edge: vertices of one plane
-constexpr double kOnPlanes = 0.25;    // share of the vertices in planes of an axis, at least
+constexpr double kSamePlane = 2e-4;  // of the median edge: vertices of one plane
+constexpr double kOnPlanes = 0.25;   // share of the vertices in planes of an axis, at least
 constexpr std::size_t kFewestPlanes = 4;
 constexpr double kOffPeriod = 0.06;      // of the distance, for planes that fit it
 constexpr double kPlanesInPeriod = 0.8;  // share of such planes, at least
@@ -85,12 +85,13 @@ Vec3 first_axis(const std::vector<Vec3>& edges) {
     return best;
 }
 
-/// The axis that fits the edges in its planes best.
+/// The axis that fits the edges in its planes best. Edges that only nearly lie in them turn it by
+/// more than the planes are apart, so that fewer count each time.
 Vec3 refined_axis(const std::vector<Vec3>& edges, Vec3 axis) {
-    for (int i = 0; i < 3; ++i) {
+    for (const double share : {1.0, 0.5, 0.2, 0.1, 0.05}) {
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (const Vec3& e : edges)
-            if (std::abs(e.dot(axis)) < kInPlane) sum += e * e.transpose();
+            if (std::abs(e.dot(axis)) < share * kInPlane) sum += e * e.transpose();
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
         if (!(solver.eigenvalues()[1] > 0.0)) break;
         const Vec3 next = solver.eigenvectors().col(0);
@@ -146,21 +147,30 @@ std::optional<Eigen::Matrix3d> grid_axes(const std::vector<Vec3>& edges) {
     return axes;
 }
 
-/// Heights at which several vertices lie, ascending.
-std::vector<double> plane_heights(std::vector<double> heights, double tolerance,
-                                  std::size_t& vertices) {
+/// Vertices at one height.
+struct Level {
+    double height = 0.0;
+    std::size_t vertices = 0;
+};
+
+/// Heights at which several vertices lie, ascending. A few lie at the same height by chance: they
+/// are no plane beside those that hold many.
+std::vector<Level> levels_of(std::vector<double> heights, double tolerance) {
     std::ranges::sort(heights);
     constexpr std::size_t kEnough = 4;  // vertices of a plane
-    std::vector<double> planes;
+    constexpr std::size_t kChance = 8;  // times fewer than those of the largest
+    std::vector<Level> levels;
+    std::size_t most = 0;
     for (std::size_t first = 0, last = 0; first < heights.size(); first = last) {
         for (last = first + 1; last < heights.size(); ++last)
             if (heights[last] - heights[last - 1] > tolerance) break;
         if (last - first < kEnough || heights[last - 1] - heights[first] > 4.0 * tolerance)
             continue;
-        planes.push_back(heights[first + (last - first) / 2]);
-        vertices += last - first;
+        levels.push_back({heights[first + (last - first) / 2], last - first});
+        most = std::max(most, last - first);
     }
-    return planes;
+    std::erase_if(levels, [&](const Level& level) { return kChance * level.vertices < most; });
+    return levels;
 }
 
 /// Distance of the planes across an axis that hold many vertices [mm]; none without such planes.
@@ -170,13 +180,14 @@ std::optional<double> plane_distance(const Positions& positions, const Vec3& axi
     for (const Vec3& p : positions)
         if (p.allFinite()) heights.push_back(p.dot(axis));
     const auto count = static_cast<double>(heights.size());
+    const std::vector<Level> planes = levels_of(std::move(heights), kSamePlane * median_length);
     std::size_t vertices = 0;
-    const std::vector<double> planes =
-        plane_heights(std::move(heights), kSamePlane * median_length, vertices);
+    for (const Level& plane : planes) vertices += plane.vertices;
     if (planes.size() < kFewestPlanes || static_cast<double>(vertices) < kOnPlanes * count)
         return {};
     std::vector<double> gaps;
-    for (std::size_t i = 1; i < planes.size(); ++i) gaps.push_back(planes[i] - planes[i - 1]);
+    for (std::size_t i = 1; i < planes.size(); ++i)
+        gaps.push_back(planes[i].height - planes[i - 1].height);
     const double period = median(gaps);
     const auto fitting = std::ranges::count_if(gaps, [&](double gap) {
         const double periods = gap / period;

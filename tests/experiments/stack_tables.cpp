@@ -51,8 +51,11 @@ struct Outcome {
     bool certain = false;
 };
 
-Outcome outcome_of(std::uint64_t seed) {
-    const CutSphere cut = cut_sphere(seed);
+/// \param noise of the contrast
+Outcome outcome_of(std::uint64_t seed, double noise) {
+    CutSphere cut = cut_sphere(seed);
+    auto& imaging = cut.description.imaging;
+    imaging.noise = noise * (imaging.inside - imaging.outside);
     const Surface surface = imaged(cut.description);
     const auto found = estimate_stack_orientation(turned(surface, cut.rotation));
     return {cut.share, 100.0 * share_of_flat_faces(surface),
@@ -75,11 +78,16 @@ void print_row(const char* name, const std::vector<Outcome>& group) {
                 errors[errors.size() / 2], static_cast<long>(certain), worst);
 }
 
-void print_spheres() {
+std::vector<Outcome> outcomes_of(double noise) {
     constexpr std::size_t kSpheres = 400;
     std::vector<Outcome> outcomes(kSpheres);
     tbb::parallel_for(std::size_t{0}, kSpheres,
-                      [&](std::size_t i) { outcomes[i] = outcome_of(i); });
+                      [&](std::size_t i) { outcomes[i] = outcome_of(i, noise); });
+    return outcomes;
+}
+
+void print_spheres() {
+    const std::vector<Outcome> outcomes = outcomes_of(0.0);
     std::map<double, std::vector<Outcome>> by_share;
     std::vector<Outcome> flat;
     for (const Outcome& o : outcomes) {
@@ -93,6 +101,8 @@ void print_spheres() {
         print_row(share == 1.0 ? "all" : ("1/" + std::to_string(std::lround(1.0 / share))).c_str(),
                   group);
     print_row("any, 1 % flat faces or more", flat);
+    print_row("any, noise of 2 %", outcomes_of(0.02));
+    print_row("any, noise of 5 %", outcomes_of(0.05));
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ constexpr std::size_t kMostBins = 10000;
 /// The vertices by their distance from the reference; the last bin holds the farthest.
 Json histogram_json(const Surface& surface, const Surface& reference, double width) {
     std::vector<std::size_t> bins;
-    for (const double distance : distance_to(reference).signed_distances(surface.points())) {
-        const double bin = std::floor(std::abs(distance) / width);
+    for (const SurfacePoint& nearest : distance_to(reference).closest_points(surface.points())) {
+        const double bin = std::floor(nearest.distance / width);
         if (bin >= static_cast<double>(kMostBins))
             throw UsageError("--histogram: " + formatted(width, "%g") + " mm makes more than " +
                              std::to_string(kMostBins) + " bins: give more");
