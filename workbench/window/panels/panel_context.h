@@ -14,6 +14,8 @@ namespace vesselbench {
 
 enum class BottomTab { History, Messages };
 
+enum class FormTab { Fields, Live };
+
 /// A note while it is written.
 struct NoteInProgress {
     EditRef edit;
@@ -24,6 +26,7 @@ struct NoteInProgress {
 /// Which parts of the window are shown.
 struct Shown {
     BottomTab bottom = BottomTab::History;
+    FormTab form = FormTab::Fields;  ///< of forms that smooth
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
