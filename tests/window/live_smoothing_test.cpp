@@ -241,3 +241,80 @@ SCENARIO("A difference is told if it is more than rounding", "[window][live]") {
     moved[5].x() += 0.2;
     CHECK(difference_text(tube, tube.with_positions(moved)) == "up to 0.2 mm");
 }
+
+SCENARIO("Graphs and suggestions come with the live part of the form", "[window][live]") {
+    const auto window = window_on(Screen::None);
+    if (!window) return;
+    open_smooth(*window);
+    REQUIRE(window->click_item("form.live"));
+    const QualityAnalysis& quality = window->app().place().quality();
+    REQUIRE(window->run_until(
+        [&] { return quality.answer() != nullptr && quality.answer()->complete; }, 120s));
+    CHECK_FALSE(document_of(*window).activity());
+    const auto& curves = quality.answer()->analysis.curves;
+    REQUIRE(curves.size() == 4);
+    THEN("a press in a graph sets the value, and the model follows") {
+        REQUIRE(window->reveal("quality.graph.lambda"));
+        const ScreenRect graph = window->app().ui().items().at("quality.graph.lambda").rect;
+        window->move_mouse(graph.x + 0.25F * graph.width, graph.middle_y());
+        window->press(MouseButton::Left);
+        window->frame();
+        CHECK(number_of(*window->app().place().form(), "lambda") == Approx(0.25).margin(0.011));
+        window->move_mouse(graph.x + 0.75F * graph.width, graph.middle_y());
+        CHECK(number_of(*window->app().place().form(), "lambda") == Approx(0.75).margin(0.011));
+        AND_THEN("Escape brings back what was there") {
+            window->press_key(keys::kEscape);
+            window->release(MouseButton::Left);
+            CHECK(text_in(*window, "lambda").empty());
+        }
+        AND_THEN("a release keeps it") {
+            window->release(MouseButton::Left);
+            window->frame();
+            CHECK(number_of(*window->app().place().form(), "lambda") == Approx(0.75).margin(0.011));
+            REQUIRE(wait_for_exact(*window));
+            REQUIRE(window->run_until([&] { return quality.answer()->complete; }, 120s));
+        }
+    }
+    THEN("its suggestion sets the value") {
+        const double suggested = curves.front().suggested;
+        REQUIRE(window->click_item("quality.suggest." + curves.front().name));
+        CHECK(number_of(*window->app().place().form(), curves.front().name) ==
+              Approx(suggested).margin(1e-3));
+    }
+    THEN("the best of all fills in what it searches") {
+        REQUIRE(quality.answer()->best);
+        const Arguments best = *quality.answer()->best;
+        REQUIRE(window->click_item("quality.best"));
+        for (const auto& [name, value] : best.values())
+            CHECK(number_of(*window->app().place().form(), name) ==
+                  Approx(best.real(name)).margin(1e-3));
+        CHECK(live_of(*window).follows());
+    }
+    THEN("a higher target smoothness does not suggest to smooth less") {
+        const auto best_score = [&] { return quality.answer()->best->integer("iterations"); };
+        REQUIRE(window->click_item("quality.little"));
+        REQUIRE(window->run_until([&] { return !quality.pending(); }, 120s));
+        const auto little = best_score();
+        REQUIRE(window->click_item("quality.strong"));
+        REQUIRE(window->run_until([&] { return !quality.pending(); }, 120s));
+        CHECK(best_score() >= little);
+    }
+    THEN("bars set values as well, in either order") {
+        for (const char* order : {"Bars by parameter", "Bars by measure"}) {
+            REQUIRE(window->fill_item("quality.view", order));
+            REQUIRE(window->reveal("quality.bar.iterations.error"));
+            const ScreenRect bar =
+                window->app().ui().items().at("quality.bar.iterations.error").rect;
+            window->click(bar.x + 0.6F * bar.width, bar.middle_y());
+            CHECK(number_of(*window->app().place().form(), "iterations") == Approx(30).margin(1));
+        }
+    }
+    THEN("a drive interrupts the analysis, which goes on afterwards") {
+        drive(*window, 40, 0);
+        CHECK_FALSE(quality.pending());
+        window->release(MouseButton::Right);
+        REQUIRE(window->run_until([&] { return !quality.pending() && quality.answer()->complete; },
+                                  120s));
+        CHECK(quality.answer()->analysis.curves.back().current == 25);
+    }
+}

@@ -45,6 +45,9 @@ public:
 
     [[nodiscard]] bool follows() const { return on_; }
 
+    /// Number of the model that is smoothed: equal ones are the same.
+    [[nodiscard]] int base() const { return base_; }
+
     /// What the view shows instead of the document's scene; null: nothing.
     [[nodiscard]] const std::shared_ptr<const LiveModel>& shown() const { return shown_; }
 

@@ -18,7 +18,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
       view_data_(options.wake),
       slices_(options.wake),
       wake_(options.wake),
-      live_(std::move(options.wake)) {}
+      live_(options.wake),
+      quality_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -42,11 +43,18 @@ bool Workplace::update() {
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
     const bool places = update_places();
     const bool view_data = view_data_.update(document, view, settings.layers);
-    const bool live = live_.update({.document = document,
-                                    .form = form_ ? &*form_ : nullptr,
-                                    .step = step_,
-                                    .colouring = view.colouring});
+    const bool live = update_live();
     return live || view_data || places || new_slices || compared || changed;
+}
+
+bool Workplace::update_live() {
+    const LiveSmoothing::Followed followed{.document = document,
+                                           .form = form_ ? &*form_ : nullptr,
+                                           .step = step_,
+                                           .colouring = view.colouring};
+    const bool live = live_.update(followed);
+    const bool quality = quality_.update(followed, live_, is_driving());
+    return live || quality;
 }
 
 void Workplace::end_applied_form() {

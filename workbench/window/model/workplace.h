@@ -17,6 +17,7 @@
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
 #include "workbench/window/model/place_search.h"
+#include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/view_data.h"
@@ -197,6 +198,11 @@ public:
 
     [[nodiscard]] const LiveSmoothing& live() const { return live_; }
 
+    /// What is known of the quality that the form's parameters give.
+    [[nodiscard]] QualityAnalysis& quality() { return quality_; }
+
+    [[nodiscard]] const QualityAnalysis& quality() const { return quality_; }
+
     /// True if movements of the mouse can drive fields of the form.
     [[nodiscard]] bool can_drive() const;
 
@@ -246,6 +252,7 @@ public:
 
 private:
     void renew_lists();
+    [[nodiscard]] bool update_live();
     void end_applied_form();
     void tell_difference();
     [[nodiscard]] bool update_places();
@@ -281,6 +288,7 @@ private:
     int looks_ = 0;
     std::optional<OperationForm> before_drag_;
     LiveSmoothing live_;
+    QualityAnalysis quality_;
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called
     std::shared_ptr<const Positions> applied_to_;    ///< of the model at that time

@@ -2,8 +2,8 @@
 
 #include <imgui.h>
 
-#include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/quality_graphs.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
@@ -43,27 +43,6 @@ void draw_mouse(PanelContext& c, const OperationForm& form) {
     changed = choose_axis(c, form, "Up and down", axes.up) || changed;
     changed = choose_axis(c, form, "With Shift", axes.shifted) || changed;
     if (changed) c.place.live().set_axes(axes);
-    bool on = c.place.live().follows();
-    if (checkbox(c.ui, "live.follow", "The model follows the fields", on))
-        c.place.live().follow(on);
-}
-
-void draw_figure(const PanelContext& c, const std::string& label, const std::string& value) {
-    begin_line(c, label);
-    text(c.ui, value, c.ui.theme.text);
-}
-
-void draw_figures(const PanelContext& c) {
-    const auto& model = c.place.live().shown();
-    if (!model || !model->state.change) return;
-    const SmoothingChange& change = *model->state.change;
-    space(c.ui, 0.5F);
-    draw_figure(c, "Mean distance", formatted(change.error.mean, "%.3g mm"));
-    draw_figure(c, "Largest distance", formatted(change.error.largest, "%.3g mm"));
-    draw_figure(c, "Volume", formatted(change.volume_change_percent, "%+.2f %%"));
-    draw_figure(c, "Normal curvature",
-                formatted(change.normal_curvature_after_deg, "%.3g deg, before ") +
-                    formatted(change.normal_curvature_before_deg));
 }
 
 }  // namespace
@@ -72,8 +51,13 @@ void draw_live_panel(PanelContext& c, const OperationForm& form) {
     const LiveSmoothing& live = c.place.live();
     if (!live.can_follow())
         return wrapped(c.ui, "The model cannot follow: " + live.why_not(), c.ui.theme.warning);
+    bool on = live.follows();
+    if (checkbox(c.ui, "live.follow", "The model follows the fields", on))
+        c.place.live().follow(on);
+    space(c.ui, 0.5F);
+    draw_quality(c, form);
+    space(c.ui, 1);
     draw_mouse(c, form);
-    draw_figures(c);
 }
 
 }  // namespace vesselbench

@@ -136,6 +136,9 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
+    if (c.place.live().has_form() && c.shown.form == FormTab::Live)
+        return wrapped(c.ui, "Drag in a graph, or with the right button in the view.",
+                       c.ui.theme.muted);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
@@ -212,17 +215,23 @@ void draw_removal(PanelContext& c, EditId edit) {
     c.place.document.remove(edit);
 }
 
+/// Of what explains fields: where none are seen, graphs need the room.
+float advice_height(const PanelContext& c) {
+    const bool graphs = c.place.live().has_form() && c.shown.form == FormTab::Live;
+    return c.ui.em * (graphs && !c.place.document.failure() ? 2.5F : 7.5F);
+}
+
 /// Height of the part below the fields.
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
     const float more = (form.edit() ? line : 0) + (remedy_of(c).empty() ? 0 : line);
-    return c.ui.em * 7.5F + line + more + c.ui.grid(1);
+    return advice_height(c) + line + more + c.ui.grid(1);
 }
 
 void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
     const std::optional<EditId> edit = form.edit();
     separator(c.ui);
-    ImGui::BeginChild("advice", {0, c.ui.em * 7.5F - c.ui.grid(1)});
+    ImGui::BeginChild("advice", {0, advice_height(c) - c.ui.grid(1)});
     draw_advice(c, form, parameter);
     ImGui::EndChild();
     draw_remedy(c);

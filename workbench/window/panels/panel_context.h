@@ -16,6 +16,9 @@ enum class BottomTab { History, Messages };
 
 enum class FormTab { Fields, Live };
 
+/// How the quality of parameters is drawn.
+enum class QualityView { Graphs, BarsByParameter, BarsByMeasure };
+
 /// A note while it is written.
 struct NoteInProgress {
     EditRef edit;
@@ -27,6 +30,7 @@ struct NoteInProgress {
 struct Shown {
     BottomTab bottom = BottomTab::History;
     FormTab form = FormTab::Fields;  ///< of forms that smooth
+    QualityView quality = QualityView::Graphs;
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far

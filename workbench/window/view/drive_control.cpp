@@ -4,6 +4,7 @@
 
 #include "workbench/window/model/readable.h"
 #include "workbench/window/view/screen_places.h"
+#include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
 
@@ -26,6 +27,7 @@ std::string movements(const DriveAxes& axes) {
 void DriveControl::begin(PanelContext& c) {
     c.place.begin_driving();
     if (!c.place.is_driving()) return;
+    take_keyboard();  // a field that is typed in would keep its text, and Escape
     state_ = State::Driving;
     last_ = mouse_pixel();
     reach_ = {};
