@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostAtOnce = 1 << 12;           // iterations
 constexpr double kSendEvery = 0.1;             // of what is done so far [s]
 constexpr double kLookEvery = 0.02;            // at the clock [s]
-constexpr double kMeasureWhileWaiting = 0.05;  // a measurement that takes longer follows [s]
+constexpr double kMeasureWhileWaiting = 0.08;  // a measurement that takes longer follows [s]
 
 /// Those on which a run of the filter depends, apart from its iterations.
 Arguments run_arguments(const Arguments& resolved) {

@@ -11,6 +11,7 @@ namespace vesselbench {
 
 namespace {
 
+constexpr double kPatience = 0.25;   ///< with a question, before a newer one ends it [s]
 constexpr double kSameShape = 1e-5;  ///< by the diagonal: a device's rounding stays below it [-]
 
 /// The last edit of the shown variant behind a step; null: none.
@@ -76,18 +77,27 @@ bool LiveSmoothing::update(const Followed& followed) {
     why_not_ = reason_against(followed);
     axes_ = usable_axes(*followed.form, wanted_axes_);
     if (!why_not_.empty()) follow(false);
-    if (on_) ask(followed);
     const bool changed = models_.update();
+    if (on_) ask(followed);
     const bool seen = on_ && !followed.document.previewed();
     const auto before = std::exchange(shown_, seen ? models_.newest() : nullptr);
     return changed || before != shown_;
 }
 
+/// True while the figures of the last question are about to come: values that change in every frame
+/// would otherwise keep all of them from being seen.
+bool LiveSmoothing::is_worked_on() const {
+    const auto& newest = models_.newest();
+    const bool answered = newest && newest->question == question_ && newest->state.change;
+    return models_.pending() && !answered && since_asked_.seconds() < kPatience;
+}
+
 void LiveSmoothing::ask(const Followed& followed) {
     const OperationForm& form = *followed.form;
     const Asked now{base_, form.changes(), followed.colouring};
-    if (now == asked_ || !form.valid()) return;
+    if (now == asked_ || !form.valid() || is_worked_on()) return;
     asked_ = now;
+    since_asked_ = {};
     question_ = models_.ask({.scene = *followed.document.current(),
                              .base = base_,
                              .arguments = checked_arguments(form.operation(), form.arguments()),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/stopwatch.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/live_model.h"
 #include "workbench/window/model/operation_form.h"
@@ -83,6 +84,7 @@ public:
 private:
     void take_base(const Followed& followed);
     void ask(const Followed& followed);
+    [[nodiscard]] bool is_worked_on() const;
     [[nodiscard]] std::string reason_against(const Followed& followed) const;
 
     /// What a question was asked for.
@@ -102,6 +104,7 @@ private:
     const Operation* operation_ = nullptr;
     Asked asked_;
     std::uint64_t question_ = 0;
+    Stopwatch since_asked_;
     DriveAxes wanted_axes_{"iterations", "lambda", "beta_min"}, axes_;
     std::map<std::string, double> starts_;  ///< of a drag, of parameters that are not given
 };
