@@ -80,6 +80,11 @@ void DrawnSurface::move(const Positions& positions, std::span<const VertexId> mo
     upload_parts(vertices_, bytes_of(arrays_.vertices), sizeof(DrawnVertex), changed);
 }
 
+void DrawnSurface::move_all(DrawingArrays arrays) {
+    arrays_ = std::move(arrays);
+    upload_all(vertices_, bytes_of(arrays_.vertices));
+}
+
 void DrawnSurface::set_values(std::span<const double> values) {
     require_count(values.size(), arrays_.surface.vertex_count(), "value");
     value_list_.clear();

@@ -29,6 +29,10 @@ public:
     /// \param positions #V [mm]
     void move(const Positions& positions, std::span<const VertexId> moved);
 
+    /// Takes other positions for all vertices; triangles stay on the device.
+    /// \param arrays prepared with the layout of arrays()
+    void move_all(DrawingArrays arrays);
+
     /// Values for colour maps, #V; not-a-number: no value. Empty: removes them.
     /// \throw InvalidInput unless #V long or empty
     void set_values(std::span<const double> values);

@@ -32,6 +32,11 @@ std::size_t DrawnEdges::bind(const Topology& topology) {
     return count_;
 }
 
+void upload_all(const Buffer& buffer, std::span<const std::byte> all) {
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(all.size()), all.data());
+}
+
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
                   std::span<const std::uint32_t> changed) {
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());

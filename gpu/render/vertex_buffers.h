@@ -22,6 +22,9 @@ template <class T>
     return std::as_bytes(std::span(values));
 }
 
+/// Uploads an array that is as long as the buffer.
+void upload_all(const Buffer& buffer, std::span<const std::byte> all);
+
 /// Uploads elements of an array whose indices are ascending: a few contiguous parts instead of
 /// single ones. \param size of one element [bytes]
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,

@@ -26,15 +26,26 @@ public:
 
     [[nodiscard]] NeighbourContext neighbours(std::span<const Surface> neighbours,
                                               const DistanceParameters& parameters) override {
-        const auto distances = neighbour_distances(surface_.points(), neighbours);
-        const auto [least, most] = std::ranges::minmax(distances);
-        return {distance_weights(distances, parameters), least, most};
+        keep_distances(neighbours);
+        const auto [least, most] = std::ranges::minmax(distances_);
+        return {distance_weights(distances_, parameters), least, most};
     }
 
 private:
+    /// Only other neighbours have other distances, whatever is made of them.
+    void keep_distances(std::span<const Surface> neighbours) {
+        std::vector<std::shared_ptr<const Positions>> asked;
+        for (const Surface& neighbour : neighbours) asked.push_back(neighbour.positions);
+        if (!distances_.empty() && asked == neighbours_) return;
+        distances_ = neighbour_distances(surface_.points(), neighbours);
+        neighbours_ = std::move(asked);
+    }
+
     [[nodiscard]] std::vector<Cap> search_caps() override { return find_caps(surface_); }
 
     Surface surface_;
+    std::vector<std::shared_ptr<const Positions>> neighbours_;  ///< those of the distances
+    std::vector<double> distances_;                             ///< #V; empty: not known
 };
 
 }  // namespace

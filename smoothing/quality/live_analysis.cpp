@@ -7,6 +7,21 @@
 
 namespace vesselbench {
 
+void analyse_step_by_step(ParameterSearch& graphs, ParameterSearch& best,
+                          const ParameterSet& current,
+                          const std::function<void(const LiveAnswer&)>& send,
+                          const Progress& progress) {
+    LiveAnswer known{.analysis = sensitivity(graphs, current, true, progress)};
+    send(known);
+    known.analysis = sensitivity(graphs, current, false, progress);
+    send(known);
+    known.best = best.first_look({}, progress);
+    send(known);
+    known.best = best.settled(*known.best, progress);
+    known.complete = true;
+    send(known);
+}
+
 LiveAnalysis::LiveAnalysis(ParameterSearch search, Receiver receiver)
     : search_(std::move(search)),
       receiver_(std::move(receiver)),
@@ -56,18 +71,15 @@ void LiveAnalysis::send(const Request& request, const LiveAnswer& answer) {
 }
 
 void LiveAnalysis::answer(const Request& request) {
-    const Progress progress(nullptr, request.stop);
     search_.set_score(request.settings);
-    LiveAnswer known{.request = request.number,
-                     .analysis = sensitivity(search_, request.current, true, progress)};
-    send(request, known);
-    known.analysis = sensitivity(search_, request.current, false, progress);
-    send(request, known);
-    known.best = search_.first_look({}, progress);
-    send(request, known);
-    known.best = search_.settled(*known.best, progress);
-    known.complete = true;
-    send(request, known);
+    analyse_step_by_step(
+        search_, search_, request.current,
+        [&](const LiveAnswer& answer) {
+            LiveAnswer numbered = answer;
+            numbered.request = request.number;
+            send(request, numbered);
+        },
+        Progress(nullptr, request.stop));
 }
 
 }  // namespace vesselbench

@@ -22,6 +22,17 @@ struct LiveAnswer {
     std::string error;               ///< why there is no answer; else empty
 };
 
+/// Sends answers for a set, coarse ones first: graphs, then finer ones, a first suggestion, and the
+/// settled one. What was measured before is not measured again; the complete answer does not depend
+/// on it.
+/// \param graphs search whose parameters are varied
+/// \param best search of the best of all; it may be the same
+/// \throw Cancelled
+void analyse_step_by_step(ParameterSearch& graphs, ParameterSearch& best,
+                          const ParameterSet& current,
+                          const std::function<void(const LiveAnswer&)>& send,
+                          const Progress& progress);
+
 /// Sensitivity analysis and suggestions in the background while a user changes parameters: a new
 /// value stops the analysis in progress at once, and is answered coarsely first, then more finely.
 /// Measurements made for earlier values are reused; the complete answer does not depend on them.

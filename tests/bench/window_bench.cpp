@@ -1,5 +1,6 @@
 // Times the window without a display, and prints a row each: start-up, frames while a surface of
-// 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight.
+// 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight,
+// models while the mouse drives their smoothing.
 //   bench_window PROGRAM                        all of these
 //   bench_window PROGRAM --clicks SECONDS [SEEDS [FIRST]]   longest frames under random input
 //                                                           instead
@@ -17,6 +18,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
+#include "smoothing/filters/laplace_hc.h"
 #include "tests/support/shapes.h"
 #include "tests/window/random_user.h"
 #include "workbench/operations/table.h"
@@ -33,6 +35,8 @@ namespace fs = std::filesystem;
 
 constexpr int kAround = 252;        // vertices around the tube: about 200,000 triangles
 constexpr double kLongest = 250.0;  // of a frame under random input [ms]
+constexpr int kAroundDriven = 252;  // vertices around the driven tube: about 100,000 of them
+constexpr double kDriveSeconds = 10.0;
 
 /// A shell whose files are all in one temporary folder.
 struct Bench {
@@ -153,6 +157,51 @@ void time_case(const Bench& bench) {
     time_pick(shell);
 }
 
+/// A press of the right button, and movements that drive lambda while 20 iterations are computed,
+/// with error and curvature, and drawn.
+void time_driving(const Bench& bench) {
+    OffscreenShell shell(bench.options(), 1280, 720, report_error);
+    shell.frame();
+    if (!open(shell, bench.tube(kAroundDriven))) return;
+    Workplace& place = shell.app().place();
+    place.choose("smooth");
+    place.set_field("filter", "laplace-hc");
+    place.set_field("iterations", "20");
+    place.set_field("lambda", "0.5");
+    place.view.choose(ColouringKind::Deviation);
+    const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+    const float x = view.middle_x(), y = view.middle_y();
+    shell.move_mouse(x, y);
+    shell.press(MouseButton::Right);
+    shell.run_until([&] { return place.live().shown() != nullptr; }, 1min);
+    std::vector<double> frames;
+    shell.watch_frames([&](const FrameTime& time) { frames.push_back(1e3 * time.clock); });
+    int models = 0;
+    auto seen = place.live().shown();
+    const Stopwatch watch;
+    for (int i = 0; watch.seconds() < kDriveSeconds; ++i) {
+        shell.move_mouse(x, y + static_cast<float>(i % 160 - 80));
+        if (place.live().shown() == seen) continue;
+        seen = place.live().shown();
+        if (seen->state.whole && seen->state.change && !place.live().problem().size()) ++models;
+    }
+    const double rate = models / watch.seconds();
+    shell.watch_frames({});
+    shell.release(MouseButton::Right);
+    const std::size_t vertices = place.document.current()->surface->vertex_count();
+    const Surface& surface = *place.document.current()->surface;
+    const Stopwatch plain;
+    static_cast<void>(laplace_hc(*surface.topology, surface.points(), {}, {.iterations = 20}));
+    const double reference = plain.seconds();
+    std::printf("lambda driven on %zu vertices, 20 iterations with error and curvature\n",
+                vertices);
+    std::printf("  %-56s %8.1f /s   goal > 10\n", "models shown", rate);
+    std::printf("  %-56s %8.1f      by 20 iterations alone\n", "time of one",
+                1.0 / (rate * reference));
+    print("a frame meanwhile", median(frames), "");
+    print("the longest of them", *std::ranges::max_element(frames), "goal < 100");
+}
+
 /// The longest frames, with what had been done just before.
 struct Longest {
     FrameTime frame;
@@ -195,6 +244,7 @@ void run(int count, char** words) {
     std::printf("the window\n");
     time_start(bench);
     time_case(bench);
+    time_driving(bench);
 }
 
 }  // namespace

@@ -154,12 +154,40 @@ void failures(Photographer& p, const Home& home) {
     p.click("start.dismiss");
 }
 
+/// The surface as it comes from the image; the edit is undone afterwards.
+void live(Photographer& p) {
+    p.click("rail.source");
+    p.click("choose.extract-surface");
+    p.click("operation.apply");
+    p.wait();
+    p.click("rail.smoothing");
+    p.click("choose.smooth");
+    p.click("form.live");
+    p.click("live.follow");
+    p.click("view.deviation");
+    p.wait();
+    p.rest_mouse();
+    p.take("live-graphs");
+    p.click("quality.view");
+    p.click("quality.view=Bars by parameter");
+    p.rest_mouse();
+    p.take("live-bars");
+    p.click("quality.view");
+    p.click("quality.view=Graphs");
+    p.click("view.deviation");
+    p.click("form.fields");
+    p.click("operation.back");
+    p.click("tool.undo");
+    p.wait();
+}
+
 void new_case(Photographer& p) {
     p.click("case.aneurysm");
     p.shell.frame();
     p.wait();
     p.rest_mouse();
     p.take("image");
+    live(p);
     p.click("tool.prepare");
     p.rest_mouse();
     p.take("prepare-dialog");

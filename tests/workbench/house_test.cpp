@@ -62,7 +62,7 @@ const std::map<std::string, Names> kDoors = {
      {"geometry/kernel", "geometry/image", "geometry/formats", "geometry/vessel", "smoothing/brush",
       "smoothing/context", "gpu", "meshing/remeshing", "meshing/tetrahedra", "workbench/case",
       "workbench/session", "workbench/operations", "workbench/export", "workbench/phantoms",
-      "workbench/report", "workbench/prepare"}},
+      "workbench/report", "workbench/prepare", "workbench/suggest"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};

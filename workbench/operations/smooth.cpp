@@ -4,14 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/freed_memory.h"
-#include "geometry/kernel/local_error.h"
-#include "geometry/kernel/measure.h"
-#include "geometry/kernel/statistics.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/shared/replacing_stepper.h"
+#include "workbench/operations/smooth/change_meter.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
 #include "workbench/operations/smooth/filter_choice.h"
@@ -27,15 +25,13 @@ using Json = nlohmann::ordered_json;
 
 /// Adds the figures of the change beside those that every edit has. \return the local error
 LocalError add_changes(Json& report, const Surface& before, const Surface& after) {
-    const double volume_before = volume(before), volume_after = volume(after);
-    report["volume_change_percent"] =
-        volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
+    SmoothingChange change = ChangeMeter(before).measure(after);
+    report["volume_change_percent"] = change.volume_change_percent;
     report["vertices"] = before.vertex_count();
-    LocalError error = local_error(*before.topology, before.points(), after.points());
-    report["local_error"] = distance_json(error.mean, error.largest);
-    report["normal_curvature_before_deg"] = mean(normal_curvature(before));
-    report["normal_curvature_after_deg"] = mean(normal_curvature(after));
-    return error;
+    report["local_error"] = distance_json(change.error.mean, change.error.largest);
+    report["normal_curvature_before_deg"] = change.normal_curvature_before_deg;
+    report["normal_curvature_after_deg"] = change.normal_curvature_after_deg;
+    return std::move(change.error);
 }
 
 bool any_moved(const Positions& before, const Positions& after) {

@@ -103,6 +103,19 @@ std::vector<Parameter> context_parameter_table() {
     return table;
 }
 
+Arguments arguments_in(const std::vector<Parameter>& table, const Arguments& arguments) {
+    Arguments own;
+    for (const Parameter& parameter : table)
+        if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
+            own.set(parameter.name, at->second);
+    return own;
+}
+
+Arguments context_arguments(const Arguments& arguments) {
+    static const std::vector<Parameter> table = context_parameter_table();
+    return arguments_in(table, arguments);
+}
+
 SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,
                                    Arguments& arguments) {
     const Surface& surface = surface_of(scene);

@@ -15,6 +15,13 @@ namespace vesselbench {
 /// The context parameters of `smooth`.
 [[nodiscard]] std::vector<Parameter> context_parameter_table();
 
+/// Those arguments on which the context depends.
+[[nodiscard]] Arguments context_arguments(const Arguments& arguments);
+
+/// The arguments among these that are parameters of a table.
+[[nodiscard]] Arguments arguments_in(const std::vector<Parameter>& table,
+                                     const Arguments& arguments);
+
 /// Findings on a context.
 struct SmoothingFigures {
     std::size_t caps = 0;

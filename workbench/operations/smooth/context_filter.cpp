@@ -15,16 +15,6 @@ namespace {
 /// Share of the whole that the context takes.
 constexpr double kContextShare = 0.1;
 
-/// Those on which the context depends.
-Arguments context_arguments(const Arguments& arguments) {
-    static const std::vector<Parameter> table = context_parameter_table();
-    Arguments own;
-    for (const Parameter& parameter : table)
-        if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
-            own.set(parameter.name, at->second);
-    return own;
-}
-
 }  // namespace
 
 /// A context and what it was found for.

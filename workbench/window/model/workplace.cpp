@@ -17,7 +17,9 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
       search_(options.wake),
       view_data_(options.wake),
       slices_(options.wake),
-      wake_(std::move(options.wake)) {}
+      wake_(options.wake),
+      live_(options.wake),
+      quality_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -34,17 +36,44 @@ bool Workplace::update() {
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
     if (seen_entered_ != document.entered()) {
         seen_entered_ = document.entered();
-        if (applied_form_ == form_number_) {
-            form_.reset();
-            disarm();
-            end_drag();
-        }
+        if (applied_form_ == form_number_) end_applied_form();
     }
+    tell_difference();
     const bool new_slices = slices_.update(document.shown());
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
     const bool places = update_places();
     const bool view_data = view_data_.update(document, view, settings.layers);
-    return view_data || places || new_slices || compared || changed;
+    const bool live = update_live();
+    return live || view_data || places || new_slices || compared || changed;
+}
+
+bool Workplace::update_live() {
+    const LiveSmoothing::Followed followed{.document = document,
+                                           .form = form_ ? &*form_ : nullptr,
+                                           .step = step_,
+                                           .colouring = view.colouring};
+    const bool live = live_.update(followed);
+    const bool quality = quality_.update(followed, live_, is_driving());
+    return live || quality;
+}
+
+void Workplace::end_applied_form() {
+    form_.reset();
+    disarm();
+    end_drag();
+}
+
+/// What was applied is computed by the CPU, and taken back where it would cross itself: a user who
+/// saw something else is told.
+void Workplace::tell_difference() {
+    if (!applied_live_ || form_) return;
+    const Scene* scene = document.current();
+    if (scene == nullptr || !scene->surface || scene->surface->positions == applied_to_) return;
+    const std::shared_ptr<const LiveModel> seen = std::exchange(applied_live_, nullptr);
+    const std::string difference = difference_text(seen->state.surface, *scene->surface);
+    if (difference.empty()) return;
+    document.tell(make_message(MessageKind::Remark,
+                               "The result differs from the live preview by " + difference));
 }
 
 bool Workplace::update_places() {
@@ -193,6 +222,8 @@ void Workplace::reset_form() {
 
 void Workplace::leave_form() {
     looked_at_.reset();
+    live_.follow(false);
+    applied_live_.reset();
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();
@@ -226,6 +257,8 @@ void Workplace::preview() {
 void Workplace::apply() {
     if (!can_apply()) return;
     applied_form_ = form_number_;
+    applied_live_ = live_.shown();
+    applied_to_ = applied_live_ ? document.current()->surface->positions : nullptr;
     if (preview_is_current()) return document.commit_preview();
     if (form_->edit())
         document.change(*form_->edit(), form_->arguments());
@@ -307,6 +340,7 @@ void Workplace::stop_comparing() {
 
 void Workplace::begin_drag() {
     before_drag_ = form_;
+    driving_ = false;
 }
 
 void Workplace::drag(const std::vector<FieldText>& texts) {
@@ -318,6 +352,26 @@ void Workplace::cancel_drag() {
     const std::optional<OperationForm> before = std::exchange(before_drag_, std::nullopt);
     if (!form_ || !before) return;
     for (const FormField& field : before->fields()) set_field(field.parameter->name, field.text);
+    if (std::exchange(driving_, false)) live_.cancel_drive();
+}
+
+// --- smoothing by the mouse
+
+bool Workplace::can_drive() const {
+    return form_ && form_->valid() && armed_.empty() && live_.can_follow() &&
+           document.can(RequestKind::Preview) && view.tool == MeasureTool::None && !comparison_;
+}
+
+void Workplace::begin_driving() {
+    if (!can_drive()) return;
+    begin_drag();
+    driving_ = true;
+    document.drop_preview();
+    live_.begin_drive();
+}
+
+void Workplace::drive(const DriveReach& reach) {
+    if (is_driving()) drag(live_.drive(*before_drag_, reach));
 }
 
 // --- openings that are clicked

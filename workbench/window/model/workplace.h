@@ -13,9 +13,11 @@
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/image_slices.h"
+#include "workbench/window/model/live_smoothing.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
 #include "workbench/window/model/place_search.h"
+#include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/view_data.h"
@@ -189,6 +191,30 @@ public:
     /// The form when the drag began; none: nothing is dragged.
     [[nodiscard]] const std::optional<OperationForm>& before_drag() const { return before_drag_; }
 
+    // --- smoothing by the mouse
+
+    /// The form's model, followed live.
+    [[nodiscard]] LiveSmoothing& live() { return live_; }
+
+    [[nodiscard]] const LiveSmoothing& live() const { return live_; }
+
+    /// What is known of the quality that the form's parameters give.
+    [[nodiscard]] QualityAnalysis& quality() { return quality_; }
+
+    [[nodiscard]] const QualityAnalysis& quality() const { return quality_; }
+
+    /// True if movements of the mouse can drive fields of the form.
+    [[nodiscard]] bool can_drive() const;
+
+    /// As begin_drag(), and the model follows the form from now on. end_drag() keeps the values,
+    /// cancel_drag() brings back those from before.
+    void begin_driving();
+
+    [[nodiscard]] bool is_driving() const { return driving_ && before_drag_; }
+
+    /// \param reach since begin_driving()
+    void drive(const DriveReach& reach);
+
     // --- openings that are clicked
 
     /// Adds an opening to the form's openings, or takes it away; or asks for its role, if the form
@@ -226,6 +252,9 @@ public:
 
 private:
     void renew_lists();
+    [[nodiscard]] bool update_live();
+    void end_applied_form();
+    void tell_difference();
     [[nodiscard]] bool update_places();
     void arm_required();
     [[nodiscard]] bool preview_is_current() const;
@@ -258,7 +287,12 @@ private:
     WorstTour worst_;
     int looks_ = 0;
     std::optional<OperationForm> before_drag_;
-    std::optional<PatchMeasures> opening_;  ///< whose role is asked for
+    LiveSmoothing live_;
+    QualityAnalysis quality_;
+    bool driving_ = false;                           ///< the drag drives fields by the mouse
+    std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called
+    std::shared_ptr<const Positions> applied_to_;    ///< of the model at that time
+    std::optional<PatchMeasures> opening_;           ///< whose role is asked for
 };
 
 }  // namespace vesselbench

@@ -127,6 +127,44 @@ void draw_preview(PanelContext& c, ScreenRect& place) {
     draw_banner(c, "preview", banner, place);
 }
 
+std::string figures_of(const LiveModel& model) {
+    const auto& change = model.state.change;
+    if (!change) return "";
+    return "Distance " + formatted(change->error.mean) + " mm on average, at most " +
+           formatted(change->error.largest) + " mm; volume " +
+           formatted(change->volume_change_percent, "%+.2f %%") + "; normal curvature " +
+           formatted(change->normal_curvature_before_deg) + " to " +
+           formatted(change->normal_curvature_after_deg) + " deg";
+}
+
+/// What is shown is not all of what is asked for.
+std::string progress_of(const LiveModel& model) {
+    const auto& state = model.state;
+    if (state.whole) return "";
+    return "Coarse: " + std::to_string(state.iterations) + " of " +
+           std::to_string(state.resolved.integer("iterations")) + " iterations";
+}
+
+std::string live_text(const PanelContext& c) {
+    const LiveSmoothing& live = c.place.live();
+    const auto& model = live.shown();
+    if (!live.problem().empty()) return readable_sentence(live.problem());
+    if (!model) return "Finding what the smoothing depends on";
+    std::string text = "Live preview, not applied yet";
+    for (const std::string& more : {progress_of(*model), figures_of(*model)})
+        if (!more.empty()) text += ". " + more;
+    return text;
+}
+
+void draw_live(PanelContext& c, ScreenRect& place) {
+    const bool failed = !c.place.live().problem().empty();
+    const Banner banner{failed ? icons::kWarning : icons::kPreview,
+                        failed ? c.ui.theme.warning : c.ui.theme.accent, live_text(c), "", true};
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner.live", place);
+    if (draw_banner(c, "live", banner, place) == Answer::Close) c.place.live().follow(false);
+}
+
 }  // namespace
 
 void draw_banners(PanelContext& c, const ScreenRect& view) {
@@ -154,7 +192,10 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_pending(c, place, pending);
         place.y += place.height + gap;
     }
-    if (document.previewed()) draw_preview(c, place);
+    if (document.previewed())
+        draw_preview(c, place);
+    else if (c.place.live().follows())
+        draw_live(c, place);
 }
 
 }  // namespace vesselbench

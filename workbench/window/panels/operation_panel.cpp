@@ -10,6 +10,7 @@
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/panels/form_fields.h"
+#include "workbench/window/panels/live_panel.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -135,6 +136,9 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
+    if (c.place.live().has_form() && c.shown.form == FormTab::Live)
+        return wrapped(c.ui, "Drag in a graph, or with the right button in the view.",
+                       c.ui.theme.muted);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
@@ -211,17 +215,23 @@ void draw_removal(PanelContext& c, EditId edit) {
     c.place.document.remove(edit);
 }
 
+/// Of what explains fields: where none are seen, graphs need the room.
+float advice_height(const PanelContext& c) {
+    const bool graphs = c.place.live().has_form() && c.shown.form == FormTab::Live;
+    return c.ui.em * (graphs && !c.place.document.failure() ? 2.5F : 7.5F);
+}
+
 /// Height of the part below the fields.
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
     const float more = (form.edit() ? line : 0) + (remedy_of(c).empty() ? 0 : line);
-    return c.ui.em * 7.5F + line + more + c.ui.grid(1);
+    return advice_height(c) + line + more + c.ui.grid(1);
 }
 
 void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
     const std::optional<EditId> edit = form.edit();
     separator(c.ui);
-    ImGui::BeginChild("advice", {0, c.ui.em * 7.5F - c.ui.grid(1)});
+    ImGui::BeginChild("advice", {0, advice_height(c) - c.ui.grid(1)});
     draw_advice(c, form, parameter);
     ImGui::EndChild();
     draw_remedy(c);
@@ -231,6 +241,33 @@ void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (c.place.form()) draw_actions(c, form);
 }
 
+void draw_tab(PanelContext& c, const std::string& name, const std::string& label, FormTab tab) {
+    const bool chosen = c.shown.form == tab;
+    ImGui::PushFont(chosen ? c.ui.fonts.medium : c.ui.fonts.regular);
+    if (button(c.ui, name, label, {.quiet = true})) c.shown.form = tab;
+    ImGui::PopFont();
+    if (!chosen) return;
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddRectFilled({from.x, to.y}, {to.x, to.y + c.ui.grid(0.25F)},
+                                              c.ui.theme.accent);
+}
+
+/// What the form says, or what comes of it. \return the parameter to be explained; null: none
+const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
+    if (!c.place.live().has_form() || c.shown.form == FormTab::Fields)
+        return draw_form_fields(c, form);
+    draw_live_panel(c, form);
+    return nullptr;
+}
+
+void draw_tabs(PanelContext& c) {
+    if (!c.place.live().has_form()) return;
+    draw_tab(c, "form.fields", "Parameters", FormTab::Fields);
+    ImGui::SameLine();
+    draw_tab(c, "form.live", "Live", FormTab::Live);
+    separator(c.ui);
+}
+
 void draw_form(PanelContext& c, const ScreenRect& rect) {
     begin_frame(c.ui, "operation", rect, {.scrolls = false});
     draw_title(c, *c.place.form());
@@ -238,9 +275,10 @@ void draw_form(PanelContext& c, const ScreenRect& rect) {
         OperationForm& form = *c.place.form();
         wrapped(c.ui, readable_sentence(form.operation().summary), c.ui.theme.muted);
         space(c.ui, 1);
+        draw_tabs(c);
         const float height = ImGui::GetContentRegionAvail().y - footer_height(c, form);
         ImGui::BeginChild("fields", {0, std::max(height, c.ui.em * 4)});
-        const Parameter* parameter = draw_form_fields(c, form);
+        const Parameter* parameter = draw_contents(c, form);
         ImGui::EndChild();
         draw_footer(c, form, parameter);
     }

@@ -14,6 +14,11 @@ namespace vesselbench {
 
 enum class BottomTab { History, Messages };
 
+enum class FormTab { Fields, Live };
+
+/// How the quality of parameters is drawn.
+enum class QualityView { Graphs, BarsByParameter, BarsByMeasure };
+
 /// A note while it is written.
 struct NoteInProgress {
     EditRef edit;
@@ -24,6 +29,8 @@ struct NoteInProgress {
 /// Which parts of the window are shown.
 struct Shown {
     BottomTab bottom = BottomTab::History;
+    FormTab form = FormTab::Fields;  ///< of forms that smooth
+    QualityView quality = QualityView::Graphs;
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far

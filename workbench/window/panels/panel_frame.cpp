@@ -26,7 +26,9 @@ void begin_frame(const Ui& ui, const std::string& name, const ScreenRect& rect,
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding, padding});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, look.bordered ? 1.0F : 0.0F);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, look.back == 0 ? ui.theme.panel : look.back);
-    ImGui::Begin(name.c_str(), nullptr, kFixed | (look.scrolls ? 0 : kStill));
+    // A banner that appears while something is dragged must not take the drag's focus.
+    const ImGuiWindowFlags calm = ImGui::IsAnyMouseDown() ? ImGuiWindowFlags_NoFocusOnAppearing : 0;
+    ImGui::Begin(name.c_str(), nullptr, kFixed | calm | (look.scrolls ? 0 : kStill));
     // Once only: popups of this part come to the front later.
     if (look.floats && ImGui::IsWindowAppearing())
         ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());

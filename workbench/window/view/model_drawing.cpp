@@ -31,6 +31,11 @@ void ModelDrawing::show(const Scene* scene) {
         lay_out(*scene->surface);
 }
 
+void ModelDrawing::reshape(const Surface& surface) {
+    late_.clear();
+    if (!drawn_ || task_.pending() || !same_surface(shown_, surface)) lay_out(surface);
+}
+
 void ModelDrawing::lay_out(const Surface& surface) {
     task_.begin([surface, known = drawn_ ? drawn_->arrays().layout : nullptr](const Progress&) {
         return prepare_drawing(surface, known);
@@ -71,11 +76,15 @@ void ModelDrawing::fail(const std::string& problem) {
 }
 
 void ModelDrawing::take(DrawingArrays arrays) {
-    drawn_.reset();  // not both at once
     problem_.clear();
-    drawn_ = std::make_shared<DrawnSurface>(std::move(arrays));
+    if (drawn_ && drawn_->arrays().layout == arrays.layout) {
+        drawn_->move_all(std::move(arrays));
+    } else {
+        drawn_.reset();  // not both at once
+        drawn_ = std::make_shared<DrawnSurface>(std::move(arrays));
+        uploaded_.reset();
+    }
     shown_ = drawn_->surface();
-    uploaded_.reset();
     follow_late();
 }
 

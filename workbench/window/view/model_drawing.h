@@ -40,6 +40,11 @@ public:
     /// Begins to show a scene's surface, or nothing.
     void show(const Scene* scene);
 
+    /// Begins to show another shape of the shown surface. Unlike show(), it leaves a shape that is
+    /// being laid out to be shown, too: those that come faster do not keep each other from the
+    /// view.
+    void reshape(const Surface& surface);
+
     /// Follows a dab: what it changed is uploaded at once if the drawing shows the surface before
     /// it, else all is laid out again.
     void move(const SceneMove& move);

@@ -28,6 +28,10 @@ std::optional<ValueRange> automatic_range(const Workplace& place, const Comparis
     return kind == ColouringKind::Deviation ? range_of(place.document.deviation()) : std::nullopt;
 }
 
+std::optional<ValueRange> live_range(const LiveModel& live) {
+    return live.colours ? std::optional(live.colours->range) : range_of(live.deviation);
+}
+
 double line_width(const Ui& ui) {
     return std::max(1.0, ui.em / 15.0);
 }
@@ -57,6 +61,7 @@ void ViewScene::forget(PanelContext& c) {
     planes_.update(c.place.slices());
     image_box_.reset();
     seen_scenes_ = -1;
+    live_.reset();
     target_.reset();
     texture_ = 0;
     drawn_.reset();
@@ -88,18 +93,21 @@ bool ViewScene::take_room(PanelContext& c, const ScreenRect& area) {
 /// \return true if another surface is shown
 bool ViewScene::take_model(PanelContext& c) {
     Document& document = c.place.document;
-    if (seen_scenes_ != document.scene_changes()) {
+    const auto live = c.place.live().shown();
+    if (seen_scenes_ != document.scene_changes() || (live_ && !live)) {
         seen_scenes_ = document.scene_changes();
         static_cast<void>(document.take_moves());
         model_.show(document.shown());
         drawn_.reset();
     }
     for (const SceneMove& move : document.take_moves()) model_.move(move);
+    if (live && live != live_) model_.reshape(live->state.surface);
+    live_ = live;
     choose_colours(c);
     if (!model_.update()) return false;
     drawn_.reset();
     ++models_;
-    return model_.is_new();
+    return model_.is_new() && !live_;
 }
 
 void ViewScene::choose_colours(PanelContext& c) {
@@ -108,13 +116,15 @@ void ViewScene::choose_colours(PanelContext& c) {
     model_.set_painted(form ? painted_attribute(*form) : "");
     look_ = look_of(c.place);
     document.want_deviation(look_.deviation);
-    model_.set_deviation(compared_.colours_model() ? compared_.difference() : document.deviation());
+    model_.set_deviation(live_                       ? live_->deviation
+                         : compared_.colours_model() ? compared_.difference()
+                                                     : document.deviation());
     const auto& colours = c.place.view_data().colours();
     const bool on_model =
         colours && !compared_.colours_model() && colours->kind != ColouringKind::TetrahedraQuality;
-    model_.set_colouring(on_model ? colours : nullptr);
+    model_.set_colouring(live_ ? live_->colours : on_model ? colours : nullptr);
     c.place.view.draw_as({c.place.view.colouring, compared_.colours_model()},
-                         automatic_range(c.place, compared_));
+                         live_ ? live_range(*live_) : automatic_range(c.place, compared_));
     model_.set_range(c.place.view.range());
 }
 

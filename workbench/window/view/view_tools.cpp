@@ -60,8 +60,9 @@ void draw_slice_switch(PanelContext& c) {
 
 std::string deviation_title(const PanelContext& c, const ViewScene& scene) {
     if (scene.compared().colours_model()) return "Distance from the reference [mm]";
-    return c.place.document.previewed() ? "Distance from the unmodified surface [mm]"
-                                        : "Distance from the source [mm]";
+    return c.place.document.previewed() || c.place.live().shown()
+               ? "Distance from the unmodified surface [mm]"
+               : "Distance from the source [mm]";
 }
 
 /// None: the colours are those of patches.
@@ -108,6 +109,7 @@ void draw_legend(const PanelContext& c, const ViewScene& scene) {
     if (!legend || scene.compared().hides_model()) return;
     ScreenRect place = scene.rect();
     if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;  // below its banner
+    if (c.place.live().follows()) place.y += c.ui.em * 3.5F;          // below its banner
     draw_colour_legend(c.ui, place, *legend);
 }
 

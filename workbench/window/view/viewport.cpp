@@ -10,6 +10,7 @@
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/camera_control.h"
 #include "workbench/window/view/drawing_guard.h"
+#include "workbench/window/view/drive_control.h"
 #include "workbench/window/view/edit_marks.h"
 #include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/role_card.h"
@@ -84,6 +85,7 @@ struct Viewport::Impl {
     BrushPointer brush;
     ViewPlaces places;
     ViewHandles handles;
+    DriveControl drive;
     MeasuringTool measuring;
     ViewPicture picture;
     SliceRow slice_row;
@@ -119,6 +121,7 @@ void Viewport::Impl::rest(PanelContext& c) {
     brush.forget();
     places.forget();
     handles.forget();
+    drive.forget();
     measuring.forget();
     slice_row = {};
     picture.collect(c.place.document);
@@ -158,6 +161,7 @@ void Viewport::Impl::handle_input(PanelContext& c, const ViewMouse& mouse) {
     guard.run([&] { handle_brush(c); });
     if (scene.has_content()) {
         handles.update(c, screen());
+        drive.update(c, mouse.over_model);
         handle_mouse(c);
     }
     camera.handle_keys(c, content(), mouse.over);
@@ -233,6 +237,7 @@ void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
     if (scene.has_content()) {
         places.draw(c, view);
         handles.draw(c, view);
+        drive.draw(c, scene.rect(), over_view);
     }
     if (scene.surface() != nullptr) draw_model_marks(c, view, over_view);
 }

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "workbench/suggest/live_search.h"
+#include "workbench/window/model/latest_worker.h"
+#include "workbench/window/model/live_smoothing.h"
+
+namespace vesselbench {
+
+/// What a smoothing is to be judged for.
+struct QualityQuestion {
+    Scene scene;
+    int base = 0;  ///< number of the scene: equal ones are the same
+    const Operation* operation = nullptr;
+    Arguments given;   ///< without defaults
+    double tau = 0.5;  ///< target smoothness [-]
+};
+
+struct QualityAnswer {
+    std::uint64_t question = 0;
+    LiveSearch::Answer found;
+};
+
+using QualityAnalyses = LatestWorker<QualityQuestion, QualityAnswer>;
+
+/// Work that answers with graphs and suggestions.
+[[nodiscard]] QualityAnalyses::Maker quality_analysing();
+
+/// The quality graphs and suggestions of a smoothing form (thesis 6.5.3-6.5.5), while they are
+/// looked at. Used by the frame's thread.
+class QualityAnalysis {
+public:
+    /// \param wake called by another thread when update() has something to do
+    explicit QualityAnalysis(std::function<void()> wake);
+
+    /// In every frame in which they are seen, before update().
+    void want() { wanted_ = true; }
+
+    /// Once a frame. \param paused while the mouse changes values: the last answer stays
+    /// \return true if what is known has changed
+    bool update(const LiveSmoothing::Followed& followed, const LiveSmoothing& live, bool paused);
+
+    /// The newest answer, which may be one to earlier values; null: none for this model.
+    [[nodiscard]] const LiveSearch::Answer* answer() const {
+        return analyses_.newest() ? &analyses_.newest()->found : nullptr;
+    }
+
+    /// Why there is none; empty: no problem.
+    [[nodiscard]] const std::string& problem() const { return analyses_.problem(); }
+
+    /// True while a finer answer, or one to newer values, is to come.
+    [[nodiscard]] bool pending() const { return analyses_.pending(); }
+
+    double tau = 0.5;  ///< target smoothness, in [0, 1] [-]
+
+private:
+    void forget();
+
+    struct Asked {
+        int base = -1, changes = -1;
+        double tau = -1.0;
+
+        bool operator==(const Asked&) const = default;
+    };
+
+    QualityAnalyses analyses_;
+    bool wanted_ = false;
+    int base_ = -1;
+    Asked asked_;
+};
+
+}  // namespace vesselbench

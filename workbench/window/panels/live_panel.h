@@ -1,0 +1,11 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// The part of a smoothing form that is seen while the model follows it: what the mouse drives, and
+/// what the smoothing changes.
+void draw_live_panel(PanelContext& context, const OperationForm& form);
+
+}  // namespace vesselbench

@@ -1,0 +1,362 @@
+#include "workbench/window/panels/quality_graphs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "geometry/kernel/wording.h"
+#include "gpu/colours.h"
+#include "workbench/suggest/suggestion_search.h"
+#include "workbench/window/model/readable.h"
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/slider.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kMostShown = 1.5;  ///< of a graph's measures, by the strong change [-]
+
+struct MeasureLook {
+    QualityMeasure measure;
+    const char* name;
+    Paint dark, light;  ///< themes
+};
+
+constexpr std::array<MeasureLook, 3> kLooks = {
+    {{QualityMeasure::Curvature, "curvature", paint(0x5B9BE0), paint(0x1B6CA8)},
+     {QualityMeasure::Error, "error", paint(0xE8806E), paint(0xC8442B)},
+     {QualityMeasure::Volume, "volume", paint(0x5FB87A), paint(0x2E8B57)}}};
+
+Paint colour_of(const Ui& ui, const MeasureLook& look) {
+    return ui.theme.dark ? look.dark : look.light;
+}
+
+Paint suggestion_colour(const Ui& ui) {
+    return ui.theme.dark ? paint(0xC58CFF) : paint(0x7A1FC9);
+}
+
+ImDrawList& draw_list() {
+    return *ImGui::GetWindowDrawList();
+}
+
+/// "Tau max [mm]"
+std::string title_of(const QualityCurve& curve) {
+    const bool plain = curve.unit.empty() || curve.unit == "-";
+    return readable(curve.name) + (plain ? "" : " [" + curve.unit + "]");
+}
+
+/// The axis of a parameter.
+struct Axis {
+    ScreenRect rect;
+    double from = 0.0, to = 1.0;
+
+    [[nodiscard]] float x(double value) const {
+        const double share = to > from ? (value - from) / (to - from) : 0.5;
+        return rect.x + rect.width * static_cast<float>(std::clamp(share, 0.0, 1.0));
+    }
+
+    [[nodiscard]] double value(float x) const {
+        const double share = std::clamp((x - rect.x) / std::max(rect.width, 1.0F), 0.0F, 1.0F);
+        return from + share * (to - from);
+    }
+};
+
+Axis axis_of(const QualityCurve& curve, const ScreenRect& rect) {
+    if (curve.points.empty()) return {rect};
+    return {rect, curve.points.front().value, curve.points.back().value};
+}
+
+/// What the form says now, which may be newer than the curve.
+double value_now(const PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
+    if (const auto typed = number_of(form, curve.name)) return *typed;
+    const auto& model = c.place.live().model();
+    const auto& now = model ? model->state.resolved : Arguments();
+    const bool known = now.has(curve.name) && !c.place.live().outdated();
+    return known ? now.real(curve.name) : curve.current;
+}
+
+/// What belongs to a filter has no effect until the filter is given, although it is the one that is
+/// taken without.
+void set_value(PanelContext& c, const OperationForm& form, const std::string& name, double value) {
+    const LiveSearch::Answer* answer = c.place.quality().answer();
+    if (!form.field(name).active && answer != nullptr)
+        c.place.set_field(form.operation().search.filter_parameter, answer->filter);
+    c.place.set_field(name, driven_text(*form.field(name).parameter, value));
+}
+
+/// ImGui's last item sets the parameter while it is pressed; the model follows.
+void handle_press(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
+                  const Axis& axis) {
+    if (ImGui::IsItemActivated()) c.place.begin_driving();
+    if (ImGui::IsItemActive() && c.place.is_driving()) {
+        const double step = (axis.to - axis.from) / 200;
+        const double value = axis.value(ImGui::GetIO().MousePos.x);
+        const double rounded = step > 0.0 ? std::round(value / step) * step : value;
+        set_value(c, form, curve.name, rounded);
+    }
+    if (ImGui::IsItemDeactivated() && c.place.is_driving()) c.place.end_drag();
+}
+
+void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
+                     ImVec2 tip) {
+    const float reach = c.ui.em * 0.35F;
+    const ImVec2 back = ImGui::GetCursorScreenPos();
+    draw_list().AddTriangleFilled(tip, {tip.x - reach, tip.y + 1.6F * reach},
+                                  {tip.x + reach, tip.y + 1.6F * reach}, suggestion_colour(c.ui));
+    ImGui::SetCursorScreenPos({tip.x - 1.5F * reach, tip.y});
+    const std::string name = "quality.suggest." + curve.name;
+    if (ImGui::InvisibleButton(name.c_str(), {3 * reach, 1.8F * reach}))
+        set_value(c, form, curve.name, curve.suggested);
+    c.ui.item(name);
+    help_on_hover(c.ui, "Suggestion: " + formatted(curve.suggested));
+    ImGui::SetCursorScreenPos(back);
+}
+
+// --- graphs
+
+void draw_curve(const PanelContext& c, const QualityCurve& curve, const Axis& axis,
+                const MeasureLook& look) {
+    std::vector<ImVec2> line;
+    const auto finish = [&] {
+        if (line.size() > 1)
+            draw_list().AddPolyline(line.data(), static_cast<int>(line.size()),
+                                    colour_of(c.ui, look), ImDrawFlags_None,
+                                    std::max(1.5F, c.ui.em / 8));
+        line.clear();
+    };
+    for (const CurvePoint& point : curve.points) {
+        if (!point.measures) {
+            finish();
+            continue;
+        }
+        const double share =
+            std::clamp(point.scaled.of(look.measure), 0.0, kMostShown) / kMostShown;
+        line.emplace_back(axis.x(point.value),
+                          axis.rect.y + axis.rect.height * static_cast<float>(1.0 - share));
+    }
+    finish();
+}
+
+void label(const PanelContext& c, ImVec2 at, float alignment, const std::string& words) {
+    ImFont* font = c.ui.fonts.small;
+    const float wide = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str()).x;
+    draw_list().AddText(font, font->FontSize, {at.x - alignment * wide, at.y}, c.ui.theme.muted,
+                        words.c_str());
+}
+
+void draw_grid(const PanelContext& c, const Axis& axis) {
+    const ScreenRect& rect = axis.rect;
+    draw_list().AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
+                              c.ui.theme.field);
+    for (const double percent : {0.0, 50.0, 100.0}) {
+        const float y =
+            rect.y + rect.height * static_cast<float>(1.0 - percent / (100.0 * kMostShown));
+        draw_list().AddLine({rect.x, y}, {rect.x + rect.width, y}, c.ui.theme.border);
+        label(c, {rect.x - c.ui.grid(0.5F), y - c.ui.em * 0.45F}, 1.0F,
+              formatted(percent, "%g %%"));
+    }
+}
+
+void draw_ends(const PanelContext& c, const Axis& axis) {
+    const float y = axis.rect.y + axis.rect.height + c.ui.grid(0.25F);
+    label(c, {axis.rect.x, y}, 0.0F, formatted(axis.from));
+    label(c, {axis.rect.x + axis.rect.width, y}, 1.0F, formatted(axis.to));
+}
+
+void draw_title(const PanelContext& c, const QualityCurve& curve, double now) {
+    text(c.ui, title_of(curve), c.ui.theme.text);
+    const std::string value = formatted(now, "%.4g");
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x -
+                    c.ui.grid(0.5F));
+    text(c.ui, value, c.ui.theme.text);
+}
+
+void draw_value_line(const PanelContext& c, const Axis& axis, double now) {
+    const float x = axis.x(now), low = axis.rect.y + axis.rect.height;
+    draw_list().AddLine({x, axis.rect.y}, {x, low}, c.ui.theme.text, std::max(1.0F, c.ui.em / 10));
+    draw_list().AddCircleFilled({x, axis.rect.y}, c.ui.em * 0.28F, c.ui.theme.text);
+}
+
+void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
+    const double now = value_now(c, form, curve);
+    draw_title(c, curve, now);
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float left = c.ui.em * 3.1F, high = c.ui.em * 5.0F;
+    const float wide = ImGui::GetContentRegionAvail().x - left - c.ui.grid(1);
+    const Axis axis = axis_of(curve, {from.x + left, from.y + c.ui.grid(0.5F), wide, high});
+    draw_grid(c, axis);
+    for (const MeasureLook& look : kLooks) draw_curve(c, curve, axis, look);
+    draw_value_line(c, axis, now);
+    draw_ends(c, axis);
+    ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
+    ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
+    c.ui.item("quality.graph." + curve.name);
+    handle_press(c, form, curve, axis);
+    draw_suggestion(c, form, curve, {axis.x(curve.suggested), axis.rect.y + high});
+    ImGui::SetCursorScreenPos({from.x, axis.rect.y + high});
+    ImGui::Dummy({1, c.ui.em * 1.4F});
+}
+
+void draw_legend(const PanelContext& c, const QualityScale& scale) {
+    for (const MeasureLook& look : kLooks) {
+        if (&look != kLooks.data()) ImGui::SameLine(0, c.ui.grid(1.5F));
+        small_text(c.ui, look.name, colour_of(c.ui, look));
+    }
+    help_on_hover(c.ui,
+                  "Curvature: 100 % is the unsmoothed surface. Error and volume change: "
+                  "100 % is that of " +
+                      scale.strong);
+}
+
+// --- bars
+
+void draw_fields(const QualityCurve& curve, const QualityBar& bar, const Axis& axis, const Ui& ui) {
+    const auto& points = curve.points;
+    const auto edge = [&](std::size_t i) {
+        if (i == 0) return axis.rect.x;
+        if (i == points.size()) return axis.rect.x + axis.rect.width;
+        return axis.x(0.5 * (points[i - 1].value + points[i].value));
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Paint colour = ui.theme.field;
+        if (!std::isnan(bar.goodness[i])) {
+            const PixelColour rgb = pixel_colour(heated_colour(bar.goodness[i]));
+            colour = IM_COL32(rgb[0], rgb[1], rgb[2], 255);
+        }
+        draw_list().AddRectFilled({edge(i), axis.rect.y},
+                                  {edge(i + 1), axis.rect.y + axis.rect.height}, colour);
+    }
+    draw_list().AddRect({axis.rect.x, axis.rect.y},
+                        {axis.rect.x + axis.rect.width, axis.rect.y + axis.rect.height},
+                        ui.theme.border);
+}
+
+void draw_value_frame(const Ui& ui, const Axis& axis, double now) {
+    const float reach = ui.em * 0.25F, x = axis.x(now);
+    const ImVec2 from{x - reach, axis.rect.y - 2},
+        to{x + reach, axis.rect.y + axis.rect.height + 2};
+    draw_list().AddRect(from, to, paint(0x000000), 0, 0, 3);
+    draw_list().AddRect(from, to, paint(0xFFFFFF), 0, 0, 1);
+}
+
+std::string name_of(QualityMeasure measure) {
+    return std::ranges::find(kLooks, measure, &MeasureLook::measure)->name;
+}
+
+void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
+              const QualityBar& bar, const std::string& words) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const float left = c.ui.em * 5.2F, high = c.ui.em * 0.9F;
+    small_text(c.ui, fitted(words, left), c.ui.theme.muted);
+    const float wide = ImGui::GetContentRegionAvail().x - left - c.ui.grid(1);
+    const Axis axis = axis_of(curve, {from.x + left, from.y, wide, high});
+    draw_fields(curve, bar, axis, c.ui);
+    draw_value_frame(c.ui, axis, value_now(c, form, curve));
+    ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
+    const std::string name = curve.name + "." + name_of(bar.measure);
+    ImGui::InvisibleButton(("bar." + name).c_str(), {wide, high});
+    c.ui.item("quality.bar." + name);
+    handle_press(c, form, curve, axis);
+    ImGui::SetCursorScreenPos({from.x, from.y + high + c.ui.grid(0.5F)});
+}
+
+void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnalysis& analysis,
+               BarOrder order) {
+    std::string group;
+    for (const QualityBar& bar : quality_bars(analysis, order)) {
+        const QualityCurve& curve = analysis.curves[bar.curve];
+        const bool by_parameter = order == BarOrder::Parameter;
+        const std::string own =
+            by_parameter ? title_of(curve) : readable_sentence(name_of(bar.measure));
+        if (own != group) {
+            if (!group.empty()) space(c.ui, 0.75F);
+            text(c.ui, own, c.ui.theme.text);
+        }
+        group = own;
+        draw_bar(c, form, curve, bar, by_parameter ? name_of(bar.measure) : title_of(curve));
+    }
+    small_text(c.ui, "bright: better", c.ui.theme.muted);
+}
+
+// --- suggestions
+
+void draw_target(PanelContext& c) {
+    double& tau = c.place.quality().tau;
+    slider(c.ui, "quality.tau", tau,
+           {.text = formatted(tau, "Target smoothness %.2f"),
+            .help = "0: as accurate as can be, 1: as smooth as can be"});
+    constexpr std::array kNames = {"little", "medium", "strong"};
+    const float wide = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+        if (i > 0) ImGui::SameLine(0, c.ui.grid(1));
+        if (button(c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
+                   {.width = wide, .help = formatted(kPresetTaus[i], "Target smoothness %g")}))
+            tau = kPresetTaus[i];
+    }
+}
+
+std::string best_text(const Arguments& best) {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : best.values())
+        words.push_back(readable(name) + " " + formatted(best.real(name)));
+    return joined(words);
+}
+
+void draw_best(PanelContext& c, const OperationForm& form) {
+    const LiveSearch::Answer* const answer = c.place.quality().answer();
+    const bool known = answer != nullptr && answer->best;
+    if (button(c.ui, "quality.best", "Take the best of all",
+               {.enabled = known, .width = -1, .help = "Fill in all of these values"})) {
+        const Arguments best = *answer->best;
+        c.place.live().follow(true);
+        for (const auto& [name, value] : best.values()) set_value(c, form, name, best.real(name));
+    }
+    const std::string words = known ? best_text(*answer->best) : "Searching";
+    wrapped(c.ui, words, c.ui.theme.muted);
+}
+
+void draw_view_choice(PanelContext& c) {
+    const std::vector<std::string> options = {"Graphs", "Bars by parameter", "Bars by measure"};
+    std::string chosen = options[static_cast<std::size_t>(c.shown.quality)];
+    if (choice(c.ui, "quality.view", options, chosen))
+        c.shown.quality =
+            static_cast<QualityView>(std::ranges::find(options, chosen) - options.begin());
+}
+
+void draw_analysis(PanelContext& c, const OperationForm& form,
+                   const SensitivityAnalysis& analysis) {
+    if (c.shown.quality == QualityView::Graphs) {
+        draw_legend(c, analysis.scale);
+        space(c.ui, 0.5F);
+        for (const QualityCurve& curve : analysis.curves) draw_graph(c, form, curve);
+    } else {
+        draw_bars(c, form, analysis,
+                  c.shown.quality == QualityView::BarsByMeasure ? BarOrder::Measure
+                                                                : BarOrder::Parameter);
+    }
+}
+
+}  // namespace
+
+void draw_quality(PanelContext& c, const OperationForm& form) {
+    QualityAnalysis& quality = c.place.quality();
+    quality.want();
+    group_heading(c.ui, "Suggestions");
+    space(c.ui, 0.5F);
+    draw_target(c);
+    draw_best(c, form);
+    space(c.ui, 1);
+    group_heading(c.ui, quality.pending() ? "Quality, being refined" : "Quality");
+    space(c.ui, 0.5F);
+    draw_view_choice(c);
+    if (!quality.problem().empty())
+        return wrapped(c.ui, readable_sentence(quality.problem()), c.ui.theme.warning);
+    if (quality.answer() == nullptr) return wrapped(c.ui, "Measuring", c.ui.theme.muted);
+    // Setting a value changes what is asked, but not this answer.
+    draw_analysis(c, form, quality.answer()->analysis);
+}
+
+}  // namespace vesselbench
