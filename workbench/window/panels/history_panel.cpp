@@ -16,6 +16,7 @@ namespace vesselbench {
 namespace {
 
 constexpr int kMostColumns = 8;
+constexpr float kLeastWords = 6.0F;  ///< room below which arguments are left out [em]
 
 float row_height(const Ui& ui) {
     return ui.em * 2.2F;
@@ -88,7 +89,9 @@ void draw_cells(const Ui& ui, const HistoryRow& state, const Columns& columns, f
     const std::string words =
         state.note.empty() ? state.arguments
                            : "\u201C" + first_line(state.note) + "\u201D  " + state.arguments;
-    cell(ui, columns.title + wide + ui.grid(1), columns.change, y, words, ui.theme.muted);
+    const float left = columns.title + wide + ui.grid(1);
+    const float until = state.change.empty() ? columns.author : columns.change;
+    if (until - left > ui.em * kLeastWords) cell(ui, left, until, y, words, ui.theme.muted);
     cell(ui, columns.change, columns.author, y, state.change, ui.theme.muted);
     cell(ui, columns.author, columns.time, y, state.author, ui.theme.muted);
     cell(ui, columns.time, columns.end, y, state.time, ui.theme.muted);
@@ -217,7 +220,9 @@ void draw_history(PanelContext& c) {
     const float height = row_height(c.ui);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const Columns columns = columns_of(c.ui, tree, ImGui::GetContentRegionAvail().x);
+    // The columns stay where they are when the list gets its scroll bar.
+    const float width = ImGui::GetWindowWidth() - ImGui::GetStyle().ScrollbarSize;
+    const Columns columns = columns_of(c.ui, tree, width);
     const int count = static_cast<int>(tree.rows.size());
     ImGuiListClipper clipper;
     clipper.Begin(count, height);
