@@ -211,3 +211,25 @@ SCENARIO("A click beside the help closes it", "[window][obstacles]") {
     shell->frame();
     CHECK_FALSE(shell->has("help.close"));
 }
+
+SCENARIO("The current state stays in sight when the window is made larger and small again",
+         "[window][obstacles]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    Workplace& place = shell->app().place();
+    for (int i = 0; i < 6; ++i) {
+        place.document.apply("smooth", {{"iterations", Value(std::int64_t{1 + i})}},
+                             Step::Smoothing);
+        REQUIRE(wait_until_idle(*shell));
+    }
+    REQUIRE(shell->settle(60s));
+    const std::string current =
+        "history." + std::to_string(place.document.snapshot()->history->current());
+    REQUIRE(shell->has(current));
+    shell->resize(2000, 2400);
+    REQUIRE(shell->settle(60s));
+    shell->resize(1280, 720);
+    REQUIRE(shell->settle(60s));
+    CHECK(shell->has(current));
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <imgui.h>
 
@@ -200,13 +201,16 @@ void draw_graph(const Ui& ui, const HistoryTree& tree, const ImVec2& corner, flo
             draw_node(ui, tree.rows, i, corner, height);
 }
 
-/// Once for each state, however many frames it takes until the row is seen.
+/// Once for each state and size of the list, however many frames it takes until the row is seen.
 void show_current(const HistoryTree& tree, float top, float height) {
     int& seen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("seen"), -1);
-    const auto current = std::ranges::find(tree.rows, true, &HistoryRow::current);
-    if (current == tree.rows.end() || seen == current->state) return;
-    const float row = top + static_cast<float>(current - tree.rows.begin()) * height;
+    float& seen_room = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("seen room"), 0.0F);
     const float from = ImGui::GetWindowPos().y, room = ImGui::GetWindowHeight();
+    const bool resized = std::exchange(seen_room, room) != room;
+    const auto current = std::ranges::find(tree.rows, true, &HistoryRow::current);
+    if (current == tree.rows.end() || (seen == current->state && !resized)) return;
+    if (resized) seen = -1;
+    const float row = top + static_cast<float>(current - tree.rows.begin()) * height;
     if (row >= from && row + height <= from + room)
         seen = static_cast<int>(current->state);
     else
