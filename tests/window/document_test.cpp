@@ -102,7 +102,7 @@ SCENARIO("Nothing disturbs a recipe while it runs", "[window][document]") {
             REQUIRE(wait_for_rest(document));
             THEN("they are refused, and the recipe ends") {
                 CHECK(told(document, "Not now: the model is being prepared"));
-                CHECK(told(document, "Prepared the model for cfd"));
+                CHECK(told(document, "Prepared the model for flow simulation"));
                 CHECK(document.variant() == "cfd");
                 CHECK(operations_in(document) ==
                       std::vector<std::string>{"load-surface", "smooth", "smooth", "subdivide"});

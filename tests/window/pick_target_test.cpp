@@ -20,6 +20,8 @@ SCENARIO("Parameters that are places can be picked", "[window][picking]") {
     CHECK(target_of("remove-branch", "tip") == PickTarget::Tip);
     CHECK(target_of("clip-opening", "tip") == PickTarget::Tip);
     CHECK(target_of("clip-opening", "inlet") == PickTarget::Opening);
+    CHECK(target_of("clip-opening", "open") == PickTarget::Ends);
+    CHECK(target_of("clip-opening", "closed") == PickTarget::Ends);
     CHECK(target_of("fill-hole", "near") == PickTarget::Surface);
     CHECK(target_of("brush-smooth", "at") == PickTarget::Surface);
     CHECK(target_of("crop", "centre") == PickTarget::Surface);

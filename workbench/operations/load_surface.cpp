@@ -27,16 +27,18 @@ ordered_json report_of(const SurfaceArgument& read) {
     const Vec3 size = bounds(surface).max - bounds(surface).min;
     const std::size_t components = connected_components(*surface.topology).count();
     const std::size_t loops = surface.topology->boundary_loops().size();
-    return {{"headline", headline_of(read, components, loops)},
-            {"file", read.name},
-            {"units", read.units},
-            {"units_reason", read.unit_reason},
-            {"vertices", surface.vertex_count()},
-            {"triangles", surface.triangle_count()},
-            {"components", components},
-            {"boundary_loops", loops},
-            {"size_mm", point_json(size)},
-            {"notes", read.notes}};
+    ordered_json report = {{"headline", headline_of(read, components, loops)},
+                           {"file", read.name},
+                           {"units", read.units},
+                           {"units_reason", read.unit_reason},
+                           {"vertices", surface.vertex_count()},
+                           {"triangles", surface.triangle_count()},
+                           {"components", components},
+                           {"boundary_loops", loops},
+                           {"size_mm", point_json(size)},
+                           {"notes", read.notes}};
+    if (!read.unit_doubt.empty()) report["units_doubt"] = read.unit_doubt;
+    return report;
 }
 
 Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress) {

@@ -29,11 +29,11 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
                          .notes = std::move(file.notes)};
     outcome.resolved.set("units", read.units);
     if (file.unit_doubt.empty()) return read;
-    const std::string doubt =
+    read.unit_doubt =
         read.name + " does not state its unit: " + file.unit_doubt + "; both can be a vessel";
     if (units == "auto")
-        throw UsageError(doubt + ". Give units=mm, cm or m (prepare and new: --units)");
-    outcome.warnings.push_back(doubt + ". It is read as " + read.units +
+        throw UsageError(read.unit_doubt + ". Give units=mm, cm or m (prepare and new: --units)");
+    outcome.warnings.push_back(read.unit_doubt + ". It is read as " + read.units +
                                "; change the units of the edit if that is wrong");
     return read;
 }

@@ -13,6 +13,7 @@ struct SurfaceArgument {
     std::string name;         ///< the file's, without its folder
     std::string units;        ///< unit used: mm, cm or m
     std::string unit_reason;  ///< one sentence
+    std::string unit_doubt;   ///< one sentence with both readings; empty: the unit is certain
     std::vector<std::string> notes;
 };
 

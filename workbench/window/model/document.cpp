@@ -1,12 +1,14 @@
 #include "workbench/window/model/document.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <set>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
@@ -52,6 +54,16 @@ std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
         if (entry.status != EditStatus::Pending && pending.contains(entry.edit.edit.id))
             run.push_back(entry);
     return run;
+}
+
+/// The newest edit of an operation; null: none.
+const LogEntry* newest_edit(const Snapshot& snapshot, const std::string& operation) {
+    const LogEntry* newest = nullptr;
+    for (const LogEntry& entry : snapshot.log)
+        if (entry.edit.operation == operation &&
+            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
+            newest = &entry;
+    return newest;
 }
 
 /// "edit 7, Smooth", or of several, "edit 7, Smooth, and 2 more": the edits that only one of two
@@ -205,7 +217,7 @@ void Document::take_opened() {
             if (entry.result) tell_warnings(entry.edit, *entry.result);
         const std::string what = opened.is_new ? "New project " : "Opened ";
         tell(make_message(MessageKind::Success, what + project_.string()));
-        for (const std::string& remark : opened.remarks) tell(message_from(remark));
+        for (const std::string& remark : opened.remarks) tell_once(message_from(remark));
     } catch (const Cancelled&) {
         tell(make_message(MessageKind::Remark, "Cancelled"));
     } catch (const std::exception& error) {
@@ -287,6 +299,11 @@ void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result)
         if (edit.edit.id != 0) message.edit = edit.edit.id;
         tell(std::move(message));
     }
+}
+
+/// Unless it was told with the edits.
+void Document::tell_once(Message message) {
+    if (std::ranges::count(messages_, message.text, &Message::text) == 0) tell(std::move(message));
 }
 
 /// After pending edits were run.
@@ -468,9 +485,12 @@ void Document::prepare_next() {
 }
 
 void Document::end_entry(RecipeMessages& messages) {
-    for (const Message& message : messages.take()) {
-        tell(message);
-        if (message.kind == MessageKind::Warning) ++preparation_->warnings;
+    const LogEntry* made = newest_edit(*snapshot_, preparation_->operation());
+    for (Message& message : messages.take()) {
+        const bool warns = message.kind == MessageKind::Warning;
+        if (warns) ++preparation_->warnings;
+        if (warns && made != nullptr) message.edit = made->edit.edit.id;
+        tell(std::move(message));
     }
     ++preparation_->next;
     if (preparation_->cancelled) {
@@ -483,7 +503,9 @@ void Document::end_entry(RecipeMessages& messages) {
 /// Edits that were made before it may follow the recipe's.
 void Document::end_preparation() {
     const Preparation done = *std::exchange(preparation_, std::nullopt);
-    const std::string text = "Prepared the model for " + done.purpose;
+    std::string model = find_purpose(done.purpose).title;
+    model[0] = static_cast<char>(std::tolower(model[0]));
+    const std::string text = "Prepared the " + model;
     if (done.warnings == 0)
         tell(make_message(MessageKind::Success, text));
     else

@@ -198,6 +198,7 @@ private:
     void enter(const LogEntry& entry);
     void tell_entered(const LogEntry& entry);
     void tell_warnings(const EditRecord& edit, const ResultRecord& result);
+    void tell_once(Message message);
     void tell_run(const Snapshot& before);
     void tell_move(const std::string& verb, const std::string& edits);
     void show(const Preview& preview);

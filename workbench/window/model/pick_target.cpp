@@ -61,7 +61,7 @@ std::optional<PickTarget> pick_target(const Parameter& parameter) {
             return PickTarget::Surface;
         case Meaning::Tip:
         case Meaning::Branch:
-            return PickTarget::Tip;
+            return parameter.type == ParameterType::List ? PickTarget::Ends : PickTarget::Tip;
         case Meaning::Inlet:
             return PickTarget::Opening;
         case Meaning::Seed:
@@ -83,6 +83,8 @@ std::string pick_instruction(PickTarget target) {
             return "Click a vessel end or a dome";
         case PickTarget::Opening:
             return "Click an opening; one that is chosen is removed";
+        case PickTarget::Ends:
+            return "Click a vessel end or a dome; one that is chosen is removed";
         case PickTarget::Corners:
             return "Click two opposite corners";
         case PickTarget::Voxel:
@@ -95,7 +97,8 @@ std::string pick_instruction(PickTarget target) {
 
 std::string picked_text(PickTarget target, const std::string& text, const Vec3& point) {
     const Vec3 now = rounded_place(point);
-    if (target == PickTarget::Opening) return with_point_switched(points_of(text), now);
+    if (target == PickTarget::Opening || target == PickTarget::Ends)
+        return with_point_switched(points_of(text), now);
     const std::optional<Vec3> before =
         target == PickTarget::Corners ? point_of(text) : std::nullopt;
     return before ? box_text(*before, now) : to_text(Value(now));
@@ -126,7 +129,8 @@ std::vector<NamedPlace> places_in(const OperationForm& form) {
 bool wants_tips(const OperationForm& form) {
     return std::ranges::any_of(form.fields(), [&](const FormField& field) {
         const auto target = pick_target(*field.parameter);
-        return target == PickTarget::Tip || target == PickTarget::Opening;
+        return target == PickTarget::Tip || target == PickTarget::Ends ||
+               target == PickTarget::Opening;
     });
 }
 

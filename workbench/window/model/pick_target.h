@@ -14,6 +14,7 @@ namespace vesselbench {
 enum class PickTarget {
     Surface,  ///< a point on the surface
     Tip,      ///< a vessel end; elsewhere on the surface, such as on a dome, the point itself
+    Ends,     ///< as Tip, several; another click on one removes it
     Opening,  ///< an opening
     Corners,  ///< two opposite corners of a box, one after the other
     Voxel,    ///< a point in a slice of the image

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/operations/table.h"
+#include "workbench/window/model/readable.h"
+
 namespace vesselbench {
 
 namespace {
@@ -17,6 +20,30 @@ bool is_done(const Snapshot& snapshot, const RecipeEntry& entry) {
                return made.edit.operation == entry.given.operation().name &&
                       made.edit.place.step == Step::Source;
            });
+}
+
+/// Takes the part up to a separator from the text's beginning.
+std::string taken_word(std::string& text, std::string_view separator) {
+    const std::size_t end = text.find(separator);
+    if (end == std::string::npos) return "";
+    std::string word = text.substr(0, end);
+    text.erase(0, end + separator.size());
+    return word;
+}
+
+/// A line of the command line in the window's words: "openings: clip-opening (0.3 s): ..." as
+/// "Clip opening (0.3 s): ...". \param about receives the operation that it begins with
+std::string in_window_words(const std::string& text, std::string& about) {
+    std::string rest = text;
+    const std::string step = taken_word(rest, ": ");
+    if (known_operation(step) != nullptr) {
+        about = step;
+        return readable(step) + ": " + rest;
+    }
+    const std::string operation = taken_word(rest, " (");
+    if (known_operation(operation) == nullptr) return text;
+    about = operation;
+    return readable(operation) + " (" + rest;
 }
 
 }  // namespace
@@ -61,9 +88,11 @@ Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& inp
 
 Message message_from(const std::string& text) {
     constexpr std::string_view kWarning = "warning: ";
-    if (text.starts_with(kWarning))
-        return make_message(MessageKind::Warning, text.substr(kWarning.size()));
-    return make_message(MessageKind::Remark, text);
+    const bool warns = text.starts_with(kWarning);
+    std::string about;
+    std::string words = in_window_words(warns ? text.substr(kWarning.size()) : text, about);
+    return make_message(warns ? MessageKind::Warning : MessageKind::Remark, std::move(words),
+                        about);
 }
 
 }  // namespace vesselbench

@@ -52,7 +52,8 @@ struct Preparation {
 [[nodiscard]] Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
                                      const Scene* scene, const std::string& purpose);
 
-/// A message of a text that may begin with "warning: ".
+/// A message of a text that may begin with "warning: "; the names of a step and an operation at its
+/// beginning are put in the window's words.
 [[nodiscard]] Message message_from(const std::string& text);
 
 }  // namespace vesselbench

@@ -18,6 +18,14 @@ std::string readable_sentence(std::string sentence) {
     return sentence;
 }
 
+std::string readable_unit(const std::string& unit) {
+    if (unit == "-") return "";
+    std::string words = unit;
+    if (words.ends_with("m2")) words.replace(words.size() - 1, 1, "\u00B2");
+    if (words.ends_with("m3")) words.replace(words.size() - 1, 1, "\u00B3");
+    return words;
+}
+
 std::optional<double> typed_number(const std::string& text) {
     const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
     if (first == std::string::npos) return std::nullopt;

@@ -12,6 +12,9 @@ namespace vesselbench {
 /// With a capital first letter: words stay as they are.
 [[nodiscard]] std::string readable_sentence(std::string sentence);
 
+/// A unit with raised digits: "mm²"; empty for numbers without one ("-").
+[[nodiscard]] std::string readable_unit(const std::string& unit);
+
 /// A number that was typed, with blanks around it or without; none: it is not one.
 [[nodiscard]] std::optional<double> typed_number(const std::string& text);
 

@@ -11,6 +11,17 @@
 
 namespace vesselbench {
 
+namespace {
+
+/// The edit that loaded the image; none: no edit did.
+std::optional<EditId> image_edit(const Snapshot& snapshot) {
+    for (const LogEntry& entry : snapshot.log)
+        if (entry.edit.operation == "load-image") return entry.edit.edit.id;
+    return std::nullopt;
+}
+
+}  // namespace
+
 Workplace::Workplace(DocumentOptions options, Settings remembered)
     : document(options),
       settings(std::move(remembered)),
@@ -91,6 +102,7 @@ bool Workplace::update_places() {
 
 void Workplace::renew_lists() {
     seen_snapshots_ = document.snapshot_changes();
+    unit_question_.reset();
     if (!document.is_open()) {
         rail_ = empty_rail();
         history_ = {};
@@ -98,9 +110,31 @@ void Workplace::renew_lists() {
     }
     rail_ = rail_of(*document.snapshot(), document.variant());
     history_ = history_tree(*document.snapshot());
+    unit_question_ = vesselbench::unit_question(*document.snapshot());
+}
+
+void Workplace::answer_unit(const std::string& unit) {
+    const LogEntry* entry =
+        unit_question_ ? find_entry(*document.snapshot(), unit_question_->edit) : nullptr;
+    if (entry == nullptr || !can_change()) return;
+    Arguments given = entry->edit.given;
+    given.set("units", unit);
+    leave_form();
+    document.change(entry->edit.edit.id, std::move(given));
 }
 
 // --- cases
+
+bool Workplace::can_add_mask() const {
+    return can_change() && image_edit(*document.snapshot()).has_value();
+}
+
+void Workplace::ask_for_mask() {
+    const auto edit = image_edit(*document.snapshot());
+    if (!edit) return;
+    choose_edit(*edit);
+    ask(FileQuestion::Parameter, "mask");
+}
 
 void Workplace::open(const std::filesystem::path& path) {
     const std::filesystem::path bundled = bundled_cases_folder();

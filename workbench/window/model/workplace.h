@@ -20,6 +20,7 @@
 #include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
+#include "workbench/window/model/unit_question.h"
 #include "workbench/window/model/view_data.h"
 #include "workbench/window/model/worst_places.h"
 
@@ -55,6 +56,20 @@ public:
     [[nodiscard]] const std::vector<RailStep>& rail() const { return rail_; }
 
     [[nodiscard]] const HistoryTree& history() const { return history_; }
+
+    /// What the user has to say about the unit of a file; none: nothing.
+    [[nodiscard]] const std::optional<UnitQuestion>& unit_question() const {
+        return unit_question_;
+    }
+
+    /// Reads the file of the question in this unit: "cm".
+    void answer_unit(const std::string& unit);
+
+    /// True if an edit has loaded the image and can be changed.
+    [[nodiscard]] bool can_add_mask() const;
+
+    /// Shows the form of the edit that loaded the image, and asks for a mask's file.
+    void ask_for_mask();
 
     /// The mouse is over an edit, in the rail or in the view: it is lit up in the next frame.
     void point_at_edit(EditId edit) { next_pointed_ = edit; }
@@ -261,6 +276,7 @@ private:
     [[nodiscard]] bool can_change() const;
 
     std::vector<RailStep> rail_ = empty_rail();
+    std::optional<UnitQuestion> unit_question_;
     HistoryTree history_;
     std::optional<OperationForm> form_;
     int form_number_ = 0;    ///< counts forms

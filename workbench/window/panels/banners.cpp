@@ -7,6 +7,7 @@
 #include "workbench/window/panels/comparison_banner.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/panels/unit_banner.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 
@@ -179,6 +180,9 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
     }
     if (!document.snapshot()->read_only_reason.empty()) {
         draw_read_only(c, place);
+        place.y += place.height + gap;
+    } else if (c.place.unit_question()) {
+        place.height = draw_unit_banner(c, place);
         place.y += place.height + gap;
     }
     if (c.place.comparison()) {

@@ -51,17 +51,31 @@ const char* title_of(FileQuestion question) {
     return "";
 }
 
-/// Whether the variant has a volume mesh, or pending edits that may make one.
-bool can_have_volume(const Document& document) {
+bool has_volume(const Document& document) {
     const Scene* scene = document.current();
-    return pending_count(*document.snapshot(), document.variant()) > 0 ||
-           (scene != nullptr && scene->volume_mesh);
+    return scene != nullptr && scene->volume_mesh;
 }
 
-/// What the name of a new file adds to the project's.
-const char* ending_for(FileQuestion question) {
+/// Whether the variant has a volume mesh, or pending edits that may make one.
+bool can_have_volume(const Document& document) {
+    return pending_count(*document.snapshot(), document.variant()) > 0 || has_volume(document);
+}
+
+/// What the name of a new file adds to the project's. A volume mesh is what one was made for.
+const char* ending_for(FileQuestion question, bool volume) {
     if (question == FileQuestion::Picture) return ".png";
-    return question == FileQuestion::Export ? ".stl" : " copy.vbench";
+    if (question != FileQuestion::Export) return " copy.vbench";
+    return volume ? ".vtu" : ".stl";
+}
+
+/// The formats in the order of the list: those of the volume mesh first, if there is one.
+std::vector<ExportFormat> listed_formats(bool volume) {
+    std::vector<ExportFormat> formats = export_formats();
+    if (volume)
+        std::ranges::stable_partition(formats, [](const ExportFormat& format) {
+            return format.kind == FormatKind::VolumeMesh;
+        });
+    return formats;
 }
 
 /// The suffix that a name must have; empty: any.
@@ -138,7 +152,8 @@ void FileDialog::begin(PanelContext& c) {
     replaced_.clear();
     clicked_.clear();
     if (writes())
-        name_ = free_file(listing_.folder / (project.stem().string() + ending_for(question_)))
+        name_ = free_file(listing_.folder / (project.stem().string() +
+                                             ending_for(question_, has_volume(c.place.document))))
                     .filename()
                     .string();
 }
@@ -242,10 +257,10 @@ void FileDialog::draw_formats(PanelContext& c) {
     ImGui::BeginChild("formats");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
     const std::string suffix = fs::path(name_).extension().string();
-    const bool has_volume = can_have_volume(c.place.document);
-    for (const ExportFormat& format : export_formats()) {
+    const bool can_have = can_have_volume(c.place.document);
+    for (const ExportFormat& format : listed_formats(has_volume(c.place.document))) {
         const std::string own = format.suffixes.empty() ? "" : format.suffixes[0];
-        const bool writable = has_volume || format.kind != FormatKind::VolumeMesh;
+        const bool writable = can_have || format.kind != FormatKind::VolumeMesh;
         if (row(c.ui, "format." + (own.empty() ? format.name : own),
                 {.title = format.name + (own.empty() ? "" : "  " + own),
                  .detail = writable ? format.content + ", in " + format.unit

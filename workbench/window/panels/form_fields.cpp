@@ -17,12 +17,17 @@ std::string item_name(const Parameter& parameter) {
     return "field." + parameter.name;
 }
 
+/// What an empty field says: nothing takes the place of a file that was not given.
+std::string hint_of(const Parameter& parameter) {
+    const bool file = parameter.type == ParameterType::File && !parameter.required;
+    return file ? "none" : default_text(parameter);
+}
+
 void edit_text(PanelContext& c, const FormField& field, float width) {
     std::string text = field.text;
-    if (text_field(c.ui, item_name(*field.parameter), text,
-                   {.hint = default_text(*field.parameter),
-                    .wrong = !field.error.empty(),
-                    .width = width}))
+    if (text_field(
+            c.ui, item_name(*field.parameter), text,
+            {.hint = hint_of(*field.parameter), .wrong = !field.error.empty(), .width = width}))
         c.place.set_field(field.parameter->name, text);
 }
 
@@ -69,13 +74,13 @@ void edit_flag(PanelContext& c, const FormField& field) {
 }
 
 void edit_number(PanelContext& c, const FormField& field) {
-    const std::string unit = unit_text(*field.parameter);
-    const std::string bare = unit.size() < 2 ? "" : unit.substr(1, unit.size() - 2);
-    const float room = bare.empty() ? 0 : c.ui.em * 2.6F;
+    const std::string unit = readable_unit(field.parameter->unit);
+    const float gap = c.ui.grid(0.75F), wide = ImGui::CalcTextSize(unit.c_str()).x + gap;
+    const float room = unit.empty() ? 0 : std::max(c.ui.em * 2.6F, wide);
     edit_text(c, field, ImGui::GetContentRegionAvail().x - room);
-    if (bare.empty()) return;
-    ImGui::SameLine(0, c.ui.grid(0.75F));
-    text(c.ui, bare, c.ui.theme.muted);
+    if (unit.empty()) return;
+    ImGui::SameLine(0, gap);
+    text(c.ui, unit, c.ui.theme.muted);
 }
 
 void edit(PanelContext& c, const FormField& field) {

@@ -23,6 +23,13 @@ void draw_keys(const Ui& ui, const std::string& title, KeyGroup group) {
     }
 }
 
+/// True for a click beside the help.
+bool clicked_outside(const ScreenRect& rect) {
+    return ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+           !ImGui::IsMouseHoveringRect({rect.x, rect.y},
+                                       {rect.x + rect.width, rect.y + rect.height}, false);
+}
+
 constexpr const char* kFirstSteps =
     "1. Open an image or a surface, or a bundled case. A project file is made for it.\n"
     "2. Press Prepare to run a complete recipe; or go through the steps on the left, one by one.\n"
@@ -38,7 +45,8 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 44);
     heading(ui, "Help");
     ImGui::SameLine(rect.width - ui.grid(2.5F) - ImGui::GetFrameHeight());
-    if (icon_button(c.ui, "help.close", icons::kClose, "Close  Esc")) c.shown.help = false;
+    const bool closed = icon_button(c.ui, "help.close", icons::kClose, "Close  Esc");
+    if (closed || clicked_outside(rect)) c.shown.help = false;
     space(ui, 1);
     ImGui::BeginChild("help text");
     wrapped(ui, kFirstSteps, ui.theme.text, false);

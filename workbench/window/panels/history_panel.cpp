@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <imgui.h>
 
@@ -16,6 +17,7 @@ namespace vesselbench {
 namespace {
 
 constexpr int kMostColumns = 8;
+constexpr float kLeastWords = 6.0F;  ///< room below which arguments are left out [em]
 
 float row_height(const Ui& ui) {
     return ui.em * 2.2F;
@@ -88,7 +90,9 @@ void draw_cells(const Ui& ui, const HistoryRow& state, const Columns& columns, f
     const std::string words =
         state.note.empty() ? state.arguments
                            : "\u201C" + first_line(state.note) + "\u201D  " + state.arguments;
-    cell(ui, columns.title + wide + ui.grid(1), columns.change, y, words, ui.theme.muted);
+    const float left = columns.title + wide + ui.grid(1);
+    const float until = state.change.empty() ? columns.author : columns.change;
+    if (until - left > ui.em * kLeastWords) cell(ui, left, until, y, words, ui.theme.muted);
     cell(ui, columns.change, columns.author, y, state.change, ui.theme.muted);
     cell(ui, columns.author, columns.time, y, state.author, ui.theme.muted);
     cell(ui, columns.time, columns.end, y, state.time, ui.theme.muted);
@@ -197,13 +201,16 @@ void draw_graph(const Ui& ui, const HistoryTree& tree, const ImVec2& corner, flo
             draw_node(ui, tree.rows, i, corner, height);
 }
 
-/// Once for each state, however many frames it takes until the row is seen.
+/// Once for each state and size of the list, however many frames it takes until the row is seen.
 void show_current(const HistoryTree& tree, float top, float height) {
     int& seen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("seen"), -1);
-    const auto current = std::ranges::find(tree.rows, true, &HistoryRow::current);
-    if (current == tree.rows.end() || seen == current->state) return;
-    const float row = top + static_cast<float>(current - tree.rows.begin()) * height;
+    float& seen_room = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("seen room"), 0.0F);
     const float from = ImGui::GetWindowPos().y, room = ImGui::GetWindowHeight();
+    const bool resized = std::exchange(seen_room, room) != room;
+    const auto current = std::ranges::find(tree.rows, true, &HistoryRow::current);
+    if (current == tree.rows.end() || (seen == current->state && !resized)) return;
+    if (resized) seen = -1;
+    const float row = top + static_cast<float>(current - tree.rows.begin()) * height;
     if (row >= from && row + height <= from + room)
         seen = static_cast<int>(current->state);
     else
@@ -217,7 +224,9 @@ void draw_history(PanelContext& c) {
     const float height = row_height(c.ui);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const Columns columns = columns_of(c.ui, tree, ImGui::GetContentRegionAvail().x);
+    // The columns stay where they are when the list gets its scroll bar.
+    const float width = ImGui::GetWindowWidth() - ImGui::GetStyle().ScrollbarSize;
+    const Columns columns = columns_of(c.ui, tree, width);
     const int count = static_cast<int>(tree.rows.size());
     ImGuiListClipper clipper;
     clipper.Begin(count, height);

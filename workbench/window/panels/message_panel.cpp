@@ -41,32 +41,35 @@ Paint colour_of(const Theme& theme, MessageKind kind) {
 
 namespace {
 
-std::string label_of(const Message& message) {
-    if (message.edit) return "Go to edit " + std::to_string(*message.edit);
+std::string label_of(const PanelContext& c, const Message& message) {
+    const auto snapshot = c.place.document.snapshot();
+    const LogEntry* entry =
+        message.edit && snapshot ? find_entry(*snapshot, *message.edit) : nullptr;
+    if (entry != nullptr) return "Go to " + readable(entry->edit.operation);
     return message.remedy.empty() ? "" : "Go to " + readable(message.remedy);
 }
 
 constexpr float kTextLeft = 7.5F;  ///< [em]
 
 /// Room right of a message's text [pixels].
-float right_of(const Ui& ui, const Message& message) {
-    return label_of(message).empty() && !message.place ? ui.grid(2) : ui.em * 14;
+float right_of(const PanelContext& c, const Message& message) {
+    return label_of(c, message).empty() && !message.place ? c.ui.grid(2) : c.ui.em * 14;
 }
 
 /// Of a message's text [pixels].
-float width_of(const Ui& ui, const Message& message) {
-    return ImGui::GetWindowWidth() - right_of(ui, message) - ui.em * kTextLeft;
+float width_of(const PanelContext& c, const Message& message) {
+    return ImGui::GetWindowWidth() - right_of(c, message) - c.ui.em * kTextLeft;
 }
 
-float height_of(const Ui& ui, const Message& message) {
-    const float width = width_of(ui, message);
+float height_of(const PanelContext& c, const Message& message) {
+    const float width = width_of(c, message);
     const std::string lines = broken(message.text, width);
     const float text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, width).y;
     return text + 2 * ImGui::GetStyle().FramePadding.y;
 }
 
 void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
-    const std::string label = label_of(message);
+    const std::string label = label_of(c, message);
     const float button_width = label.empty() ? 0 : ImGui::CalcTextSize(label.c_str()).x;
     const float target = message.place ? ImGui::GetFrameHeight() + c.ui.grid(1) : 0;
     const float width = button_width + target + c.ui.grid(3);
@@ -90,8 +93,8 @@ void draw_message(PanelContext& c, const Message& message, std::size_t index) {
     ImGui::SameLine(ui.em * 5.5F);
     text(ui, icon_of(message.kind), colour_of(ui.theme, message.kind));
     ImGui::SameLine(ui.em * kTextLeft);
-    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - right_of(ui, message));
-    text(ui, broken(message.text, width_of(ui, message)), ui.theme.text);
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - right_of(c, message));
+    text(ui, broken(message.text, width_of(c, message)), ui.theme.text);
     ImGui::PopTextWrapPos();
     draw_remedy(c, message, index);
 }
@@ -105,7 +108,7 @@ void draw_messages(PanelContext& c) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {c.ui.grid(1), 0});
     float y = ImGui::GetCursorPosY();
     for (std::size_t i = all.size(); i-- > 0;) {
-        const float height = height_of(c.ui, all[i]);
+        const float height = height_of(c, all[i]);
         ImGui::SetCursorPosY(y);
         if (ImGui::IsRectVisible({ImGui::GetWindowWidth(), height})) draw_message(c, all[i], i);
         y += height;

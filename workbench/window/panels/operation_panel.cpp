@@ -106,7 +106,7 @@ void draw_title(PanelContext& c, const OperationForm& form) {
 std::string help_of(const Parameter& parameter) {
     std::string range = range_text(parameter);
     std::ranges::replace(range, '|', ' ');
-    const std::string unit = unit_text(parameter);
+    const std::string unit = readable_unit(parameter.unit);
     std::string help = readable(parameter.name) + ": " + parameter.help + ".";
     if (parameter.type != ParameterType::Choice && parameter.type != ParameterType::Flag)
         help += "  Allowed: " + range + (unit.empty() ? "" : " " + unit) + ".";
@@ -119,6 +119,14 @@ const LogEntry* stale_edit(const PanelContext& c) {
     if (!form || !form->edit()) return nullptr;
     const LogEntry* entry = find_entry(*c.place.document.snapshot(), *form->edit());
     return entry != nullptr && entry->status == EditStatus::Stale ? entry : nullptr;
+}
+
+/// What the form still needs, in the window's words.
+std::string need_of(const OperationForm& form) {
+    for (const FormField& field : form.fields())
+        if (field.parameter->required && field.text.empty())
+            return readable(field.parameter->name) + " is needed: " + field.parameter->help + ".";
+    return form.error();
 }
 
 /// Why the operation cannot run, or the help of a parameter: always in the same place.
@@ -135,7 +143,7 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                        "No longer applies: " + stale->reason +
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
-    if (missing) return wrapped(c.ui, form.error(), c.ui.theme.warning);
+    if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
     if (c.place.live().has_form() && c.shown.form == FormTab::Live)
         return wrapped(c.ui, "Drag in a graph, or with the right button in the view.",
                        c.ui.theme.muted);
@@ -197,7 +205,7 @@ void draw_note(PanelContext& c, EditId edit) {
     const bool noted = !record->note.empty();
     if (button(c.ui, "operation.note", noted ? "Note" : "Add a note",
                {.icon = icons::kNote,
-                .width = (ImGui::GetContentRegionAvail().x - c.ui.grid(1)) / 3,
+                .width = (ImGui::GetContentRegionAvail().x - c.ui.grid(1)) * 0.4F,
                 .help = noted ? record->note : "Write down why this edit was made"}))
         c.shown.note = NoteInProgress{record->edit, readable(record->operation), record->note};
     ImGui::SameLine(0, c.ui.grid(1));

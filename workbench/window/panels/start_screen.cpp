@@ -128,6 +128,16 @@ void draw_welcome(PanelContext& c) {
             ui.theme.muted);
 }
 
+/// What is being opened, where the user looks.
+void draw_opening(PanelContext& c) {
+    const auto activity = c.place.document.activity();
+    if (!activity) return;
+    space(c.ui, 2);
+    text(c.ui, std::string(icons::kPending) + "  Opening the case", c.ui.theme.accent);
+    wrapped(c.ui, readable_sentence(activity->what), c.ui.theme.muted);
+    c.ui.item("start.opening");
+}
+
 void draw_failure(PanelContext& c) {
     const auto& failure = c.place.document.failure();
     if (!failure) return;
@@ -156,6 +166,7 @@ void draw_start_screen(PanelContext& c, const ScreenRect& rect) {
     ImGui::BeginChild("start columns", {width, rect.height - top - ui.grid(2)});
     draw_column(c, "welcome", column, [](PanelContext& context) {
         draw_welcome(context);
+        draw_opening(context);
         draw_failure(context);
     });
     ImGui::SameLine(0, gap);

@@ -25,10 +25,12 @@ float text_top(const Ui& ui) {
     return (ImGui::GetWindowHeight() - ui.em) / 2;
 }
 
-void figure(const Ui& ui, const std::string& name, const std::string& value) {
+void figure(const Ui& ui, const std::string& name, const std::string& value,
+            const std::string& help = {}) {
     text(ui, name, ui.theme.muted);
     ImGui::SameLine(0, ui.grid(0.75F));
     text(ui, value, ui.theme.text);
+    if (!help.empty()) help_on_hover(ui, help);
     ImGui::SameLine(0, ui.grid(3));
 }
 
@@ -47,9 +49,12 @@ void draw_figures(const PanelContext& c) {
     if (change != nullptr && change->largest_deviation)
         figure(c.ui, "Preview differs by up to", formatted(*change->largest_deviation, "%.3f mm"));
     else if (figures.deviation)
-        figure(c.ui, "Deviation from source",
-               formatted(figures.deviation->mean, "mean %.3f, ") +
-                   formatted(figures.deviation->largest, "largest %.3f mm"));
+        figure(
+            c.ui, "Deviation from source",
+            formatted(figures.deviation->mean, "mean %.3f, ") +
+                formatted(figures.deviation->largest, "largest %.3f mm"),
+            "Of the shown wall from the source. What was removed, and what was made at the ends, "
+            "is not part of it");
 }
 
 void draw_progress(PanelContext& c, const Activity& activity, float width) {
@@ -74,19 +79,20 @@ void draw_progress(PanelContext& c, const Activity& activity, float width) {
 }
 
 /// The newest message, in the room that the figures leave.
-void draw_news(const PanelContext& c, float width) {
+void draw_news(PanelContext& c, float width) {
     const auto& messages = c.place.document.messages();
     if (messages.empty() || width < c.ui.em * 10) return;
     const Message& newest = messages.back();
     text(c.ui, icon_of(newest.kind), colour_of(c.ui.theme, newest.kind));
     ImGui::SameLine(0, c.ui.grid(0.75F));
     text(c.ui, fitted(newest.text, width - c.ui.em * 2), c.ui.theme.muted);
+    if (ImGui::IsItemClicked()) c.shown.bottom = BottomTab::Messages;
     help_on_hover(c.ui, newest.text);
     c.ui.item("status.news");
 }
 
 /// The newest message and the device.
-void draw_idle(const PanelContext& c, float width) {
+void draw_idle(PanelContext& c, float width) {
     const Ui& ui = c.ui;
     const std::string words = fitted("mm    " + c.device, ui.em * 20);
     const float device = width - ImGui::CalcTextSize(words.c_str()).x - ui.grid(2);

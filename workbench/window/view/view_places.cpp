@@ -18,6 +18,7 @@ constexpr float kMarkReach = 1.2F;  ///< a cursor so near to a mark means its pl
 std::vector<NamedPlace> offered_for(PickTarget target, const SurfacePlaces& places) {
     switch (target) {
         case PickTarget::Tip:
+        case PickTarget::Ends:
             return places.tips;
         case PickTarget::Opening:
             return openings_and_tips(places);

@@ -127,8 +127,14 @@ void draw_empty_view(PanelContext& c, const ViewScene& scene) {
     }
     const Scene* shown = c.place.document.shown();
     if (shown == nullptr || !shown->image || c.place.form()) return;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (button(c.ui, "view.extract", "Extract surface", {.primary = true, .width = wide}))
-        c.place.choose("extract-surface");
+        return c.place.choose("extract-surface");
+    ImGui::SetCursorScreenPos({corner.x, corner.y + ImGui::GetFrameHeight() + c.ui.grid(1)});
+    if (!shown->mask && c.place.can_add_mask() &&
+        button(c.ui, "view.add_mask", "Add a mask",
+               {.width = wide, .help = "A segmentation of the vessel, made on this image"}))
+        c.place.ask_for_mask();
 }
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cfloat>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -161,12 +162,17 @@ void group_heading(const Ui& ui, const std::string& words) {
 }
 
 std::string broken(const std::string& words, float width) {
-    const float blank = ImGui::CalcTextSize(" ").x;
+    // ImGui::CalcTextSize rounds up: over the words of a line, that would add up.
+    const auto width_of = [](const char* from, const char* to) {
+        return ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), FLT_MAX, 0.0F, from, to).x;
+    };
+    const std::string space = " ";
+    const float blank = width_of(space.data(), space.data() + 1);
     std::string lines;
     float used = 0;
     for (std::size_t at = 0; at < words.size();) {
         const std::size_t end = std::min(words.find_first_of(" \n", at), words.size());
-        const float wide = ImGui::CalcTextSize(words.data() + at, words.data() + end).x;
+        const float wide = width_of(words.data() + at, words.data() + end);
         if (used > 0 && used + wide > width && lines.ends_with(' ')) {
             lines.back() = '\n';
             used = 0;

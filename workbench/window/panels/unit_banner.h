@@ -1,0 +1,10 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// Asks which unit a file is in, while that is in doubt. \return the height it took [pixels]
+float draw_unit_banner(PanelContext& c, const ScreenRect& place);
+
+}  // namespace vesselbench
