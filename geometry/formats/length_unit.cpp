@@ -88,8 +88,10 @@ double implausibility(const Figures& figures, double factor) {
 
 std::string reading_text(const Figures& figures, LengthUnit unit) {
     const double factor = millimetres_per(unit);
-    return "in " + to_string(unit) + " it is " + formatted(factor * figures.extent) +
-           " mm long with a typical radius of " + formatted(factor * figures.radius) + " mm";
+    const std::string text =
+        "in " + to_string(unit) + " it is " + formatted(factor * figures.extent) + " mm long";
+    if (figures.radius == 0.0) return text;
+    return text + " with a typical radius of " + formatted(factor * figures.radius) + " mm";
 }
 
 }  // namespace

@@ -473,7 +473,8 @@ SCENARIO("Each damaged file is prepared, or rejected with a reason", "[workbench
                             "trimesh_soup.stl"};
     for (const std::string& name : hopeless) {
         INFO(name);
-        check_bad_input(run({"prepare", folder + "/" + name, "--for", "rp", "--out", out}));
+        check_bad_input(
+            run({"prepare", folder + "/" + name, "--units", "mm", "--for", "rp", "--out", out}));
         CHECK_FALSE(fs::exists(out));
     }
 }

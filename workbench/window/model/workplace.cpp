@@ -15,8 +15,9 @@ namespace {
 
 /// The edit that loaded the image; none: no edit did.
 std::optional<EditId> image_edit(const Snapshot& snapshot) {
+    const std::string& loading = loading_operation(InputKind::Image).name;
     for (const LogEntry& entry : snapshot.log)
-        if (entry.edit.operation == "load-image") return entry.edit.edit.id;
+        if (entry.edit.operation == loading) return entry.edit.edit.id;
     return std::nullopt;
 }
 
