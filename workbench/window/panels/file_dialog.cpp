@@ -72,7 +72,7 @@ const char* ending_for(FileQuestion question, bool volume) {
 std::vector<ExportFormat> listed_formats(bool volume) {
     std::vector<ExportFormat> formats = export_formats();
     if (volume)
-        std::ranges::stable_partition(formats, [](const ExportFormat& format) {
+        std::stable_partition(formats.begin(), formats.end(), [](const ExportFormat& format) {
             return format.kind == FormatKind::VolumeMesh;
         });
     return formats;
