@@ -1,4 +1,4 @@
-# The headers that most sources read, parsed once for all targets: a third of a build's time went into them. Sources
+# The headers that most sources read, parsed once for all targets: a quarter of a build's time went into them. Sources
 # include what they use all the same: scripts/check reads them without this. No path of the project is among the
 # headers, so that checkouts share a compiler cache.
 add_library(vesselbench_precompiled OBJECT ${CMAKE_SOURCE_DIR}/cmake/precompiled.cpp)

@@ -19,6 +19,9 @@ constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, L
 /// thinnest lumen resolved by images, the extent from the smallest excerpt to a whole body.
 constexpr double kSmallestRadius = 1.3;
 constexpr double kLargestRadius = 20.0;
+/// Of what is longer than kSlender of its radii, and therefore no chamber or excerpt.
+constexpr double kLargestTube = 14.0;
+constexpr double kSlender = 8.0;
 constexpr double kThinnestOpening = 0.5;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
@@ -26,7 +29,7 @@ constexpr double kLargestExtent = 1000.0;
 /// Another unit than the usual one, mm in most files, is considered only for an implausibility (in
 /// natural logarithms) above this one; below kCertain the guess counts as uncertain.
 constexpr double kInFavourOfUsual = 0.4;
-constexpr double kCertain = 1.2;
+constexpr double kCertain = 0.45;
 
 /// Above this ratio of extent to radius the volume is meaningless (scattered or reversed
 /// triangles).
@@ -79,8 +82,9 @@ Figures figures_of(const Surface& surface) {
 
 /// 0: like a vessel; above: deviation in natural logarithms.
 double implausibility(const Figures& figures, double factor) {
+    const bool slender = figures.extent > kSlender * figures.radius;
     return too_small(factor * figures.radius, kSmallestRadius) +
-           too_large(factor * figures.radius, kLargestRadius) +
+           too_large(factor * figures.radius, slender ? kLargestTube : kLargestRadius) +
            too_small(factor * figures.opening, kThinnestOpening) +
            too_small(factor * figures.extent, kSmallestExtent) +
            too_large(factor * figures.extent, kLargestExtent);

@@ -213,6 +213,16 @@ SCENARIO("Units are guessed from what a vessel can be, stated or given", "[geome
     const Surface trunk = open_tube(1.0, 12.0, 24, 40);
     CHECK(guess_length_unit(trunk).unit == LengthUnit::Millimetre);
     CHECK(guess_length_unit(trunk, LengthUnit::Centimetre).unit == LengthUnit::Centimetre);
+    const auto doubtful = [](double radius, double length) {
+        return !guess_length_unit(open_tube(radius, length, 24, 40)).doubt.empty();
+    };
+    CHECK(doubtful(1.0, 12.0));        // a carotid's excerpt, or a pulmonary trunk in cm
+    CHECK(doubtful(0.83, 38.0));       // an aorta and its iliac arteries in cm
+    CHECK(doubtful(1.6, 10.0));        // too short to tell an artery from an aortic arch
+    CHECK_FALSE(doubtful(1.7, 22.0));  // an intracranial artery: no aorta is 34 mm wide throughout
+    CHECK_FALSE(doubtful(2.3, 58.0));  // a carotid
+    CHECK_FALSE(doubtful(9.0, 300.0));
+    CHECK_FALSE(doubtful(0.002, 0.02));
     const std::string folder = temporary_folder();
     write_surface(cube(3.0), folder + "/c.vtp");
     CHECK(volume(read_surface(folder + "/c.vtp").surface) == Approx(27.0));

@@ -42,7 +42,7 @@ constexpr const char* kFirstSteps =
 
 void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
-    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 44);
+    const ScreenRect rect = begin_dialog(ui, "help", window, ui.em * 56, ui.em * 56);
     heading(ui, "Help");
     ImGui::SameLine(rect.width - ui.grid(2.5F) - ImGui::GetFrameHeight());
     const bool closed = icon_button(c.ui, "help.close", icons::kClose, "Close  Esc");
