@@ -38,12 +38,6 @@ void require_sound_projects(const fs::path& folder) {
     }
 }
 
-/// The frame in which the window stood still longest, and what led to it.
-struct LongestFrame {
-    FrameTime time;
-    std::string inputs;
-};
-
 }  // namespace
 
 SCENARIO("Random clicks, keys and drops do no harm", "[window][random]") {
@@ -59,19 +53,10 @@ SCENARIO("Random clicks, keys and drops do no harm", "[window][random]") {
         shell->frame();
         if (seed % 4 != 0) open_and_wait(*shell, tube);
         RandomUser user(*shell, seed, {tube, broken, home / "none.stl"});
-        LongestFrame longest;
-        shell->watch_frames([&](const FrameTime& time) {
-            if (time.clock > longest.time.clock) longest = {time, user.latest()};
-        });
         const Stopwatch watch;
         while (watch.seconds() < seconds_per_seed()) user.act();
         INFO("seed " << seed << ", latest inputs:\n" << user.latest());
         shell->app().place().document.cancel();
-        shell->watch_frames({});
-        if (wished_seconds() != nullptr)
-            WARN("seed " << seed << ": the longest frame took " << longest.time.clock << " s, "
-                         << longest.time.work << " s of them work, after:\n"
-                         << longest.inputs);
         CHECK(wait_until_idle(*shell));
     }
     require_sound_projects(home);
