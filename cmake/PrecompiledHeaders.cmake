@@ -1,7 +1,8 @@
 # The headers that most sources read, parsed once for all targets: a quarter of a build's time went into them. Sources
 # include what they use all the same: scripts/check reads them without this. No path of the project is among the
 # headers, so that checkouts share a compiler cache.
-add_library(vesselbench_precompiled OBJECT ${CMAKE_SOURCE_DIR}/cmake/precompiled.cpp)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "// Carries the precompiled headers of all rooms.\n")
+add_library(vesselbench_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(vesselbench_precompiled PRIVATE vesselbench_options Eigen3::Eigen TBB::tbb)
 target_precompile_headers(vesselbench_precompiled PRIVATE
   <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numbers> <optional> <set>
