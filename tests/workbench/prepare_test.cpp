@@ -267,6 +267,42 @@ SCENARIO("prepare goes on where it stopped", "[workbench][prepare]") {
     CHECK(std::ranges::count(made, "project.1.vbench") == 0);
 }
 
+SCENARIO("A vessel's side is not opened where an image ends", "[workbench][prepare]") {
+    // A bow whose legs leave the image below; the border above takes a slice of the bend.
+    constexpr double kTop = 8.6, kVoxel = 0.5;
+    const auto bow = [](const Vec3& p) {
+        const double along = p.z() > 0.0 ? std::hypot(p.x(), p.z()) : std::abs(p.x());
+        return 100.0 -
+               50.0 * std::clamp((std::hypot(along - 8.0, p.y()) - 2.0) / kVoxel, -2.0, 2.0);
+    };
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.diagonal().head<3>().setConstant(kVoxel);
+    matrix.col(3).head<3>() = Vec3(-12, -4, kTop - 41 * kVoxel);
+    write_image(folder + "/bow.nrrd", image_of({49, 17, 42}, matrix, bow));
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "extract-surface", "arguments": {"threshold": 100}},
+        {"operation": "repair"}, {"operation": "clip-opening"}])");
+    const auto prepared = [&](const std::string& setting) {
+        return run({"prepare", folder + "/bow.nrrd", "--for", "planning", "--recipe",
+                    folder + "/recipe.json", "--out", out, "--set", setting});
+    };
+    const ProgramRun made = prepared("clip-opening.strict=false");
+    INFO(made.err);
+    REQUIRE(made.exit_code == 0);
+    const Json openings = Json::parse(text_of(out + "/report.json"))["openings"];
+    REQUIRE(openings.size() == 2);
+    for (const Json& opening : openings) CHECK(opening["centroid"][2].get<double>() < -10.0);
+    THEN("asked for, it is an error that names the end") {
+        for (const char* name : {"open", "inlet"}) {
+            const ProgramRun asked = prepared("clip-opening." + std::string(name) + "=0,0,8.6");
+            INFO(asked.err);
+            CHECK(asked.exit_code == 1);
+            CHECK_THAT(asked.err, Contains("8.6) mm cannot be opened: it lies in the side of"));
+        }
+    }
+}
+
 SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
     const std::string folder = temporary_folder(), out = folder + "/out";
     write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
