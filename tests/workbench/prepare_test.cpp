@@ -267,6 +267,51 @@ SCENARIO("prepare goes on where it stopped", "[workbench][prepare]") {
     CHECK(std::ranges::count(made, "project.1.vbench") == 0);
 }
 
+SCENARIO("prepare opens the ends that an edit by hand has not opened", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const auto fork = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -18), Vec3::Zero(), 2.5),
+                         capsule(p, Vec3::Zero(), Vec3(8, 0, 16), 2.0),
+                         capsule(p, Vec3::Zero(), Vec3(-8, 0, 16), 2.0)});
+    };
+    write_surface(iso_surface(fork, {Vec3(-12, -5, -22), Vec3(12, 5, 20)}, 0.5),
+                  folder + "/fork.stl");
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "repair"}, {"operation": "clip-opening"},
+        {"operation": "smooth", "arguments": {"iterations": 3}},
+        {"operation": "remesh"}, {"operation": "tetrahedralize"}])");
+    const auto prepared = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command = {
+            "prepare",  folder + "/fork.stl",   "--units", "mm", "--for", "cfd", "--out", out,
+            "--recipe", folder + "/recipe.json"};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    // No end is at the inlet that is asked for.
+    REQUIRE(prepared({"--set", "clip-opening.inlet=40,0,0"}).exit_code == 1);
+    const std::string project = out + "/project.vbench";
+    const auto apply = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"apply", project});
+        const ProgramRun made = run(arguments);
+        INFO(made.err);
+        REQUIRE(made.exit_code == 0);
+    };
+    apply({"clip-opening", "tip=8,0,16"});
+    apply({"smooth", "iterations=2"});
+    const ProgramRun resumed = prepared({"--resume"});
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    CHECK_THAT(resumed.err, Contains("clip-opening") && !Contains("smooth ("));
+    CHECK(Json::parse(text_of(out + "/report.json"))["openings"].size() == 3);
+    THEN("what is made already is not made again, nor what was removed by hand") {
+        REQUIRE(run({"remove", project, "4"}).exit_code == 0);  // the smoothing by hand
+        const ProgramRun again = prepared({"--resume"});
+        INFO(again.err);
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.err, Contains("every edit of the recipe has been made"));
+    }
+}
+
 SCENARIO("A vessel's side is not opened where an image ends", "[workbench][prepare]") {
     // A bow whose legs leave the image below; the border above takes a slice of the bend.
     constexpr double kTop = 8.6, kVoxel = 0.5;
