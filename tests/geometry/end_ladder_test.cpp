@@ -64,6 +64,29 @@ Surface blind_trunk(double reach) {
     return made;
 }
 
+/// A vessel of radius 0.9 mm along z, and a branch along x from its middle with these radii every
+/// 0.15 mm.
+CenterlineGraph with_side_branch(std::vector<double> radii) {
+    constexpr double kVessel = 0.9, kStep = 0.15;
+    const auto half = [&](double sign, std::size_t end) {
+        CenterlineBranch branch{.start_node = 0, .end_node = end, .points = {}, .radii = {}};
+        for (int i = 0; i <= 40; ++i) {
+            branch.points.emplace_back(0, 0, sign * kStep * i);
+            branch.radii.push_back(kVessel);
+        }
+        return branch;
+    };
+    CenterlineBranch side{.start_node = 0, .end_node = 3, .points = {}, .radii = {}};
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        side.points.emplace_back(kStep * static_cast<double>(i), 0, 0);
+    side.radii = std::move(radii);
+    return {.nodes = {{Vec3::Zero(), kVessel, {0, 1, 2}},
+                      {Vec3(0, 0, 40 * kStep), kVessel, {0}},
+                      {Vec3(0, 0, -40 * kStep), kVessel, {1}},
+                      {side.points.back(), side.radii.back(), {2}}},
+            .branches = {half(1.0, 1), half(-1.0, 2), side}};
+}
+
 const PlannedOpening& upper(const OpeningPlan& plan) {
     return *std::ranges::find_if(plan.openings,
                                  [](const auto& o) { return o.place.plane.point.z() > 15.0; });
@@ -126,6 +149,27 @@ SCENARIO("The widest vessel of an image is opened, though it is short", "[geomet
     };
     CHECK(end_of_trunk(8.5) == EndFate::Opened);
     CHECK(end_of_trunk(6.0) != EndFate::Opened);
+}
+
+SCENARIO("A sac whose neck the image has widened is not a vessel's end", "[geometry][openings]") {
+    // As seen in an image whose voxels are as large as the sac's radius.
+    const std::vector<double> sac = {0.94, 0.90, 0.88, 0.88, 0.86, 0.85, 0.84, 0.80, 0.76, 0.75,
+                                     0.76, 0.78, 0.81, 0.86, 0.90, 0.88, 0.80, 0.70, 0.60};
+    const auto seen = [](const std::vector<double>& radii) {
+        const auto blind = blind_branch(with_side_branch(radii), 3);
+        REQUIRE(blind);
+        CAPTURE(blind->length, blind->widest);
+        CHECK(blind->is_short());
+        return blind->bulges;
+    };
+    CHECK(seen(sac));
+    std::vector<double> stub = sac;  // no wider behind its narrowest place
+    std::ranges::replace_if(
+        stub, [](double r) { return r > 0.76; }, 0.76);
+    CHECK_FALSE(seen(stub));
+    std::vector<double> longer = sac;  // a vessel that is narrower at its root
+    longer.insert(longer.end() - 4, 4, 0.9);
+    CHECK_FALSE(seen(longer));
 }
 
 SCENARIO("A wrong model is a failure", "[geometry][openings]") {

@@ -267,6 +267,87 @@ SCENARIO("prepare goes on where it stopped", "[workbench][prepare]") {
     CHECK(std::ranges::count(made, "project.1.vbench") == 0);
 }
 
+SCENARIO("prepare opens the ends that an edit by hand has not opened", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const auto fork = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -18), Vec3::Zero(), 2.5),
+                         capsule(p, Vec3::Zero(), Vec3(8, 0, 16), 2.0),
+                         capsule(p, Vec3::Zero(), Vec3(-8, 0, 16), 2.0)});
+    };
+    write_surface(iso_surface(fork, {Vec3(-12, -5, -22), Vec3(12, 5, 20)}, 0.5),
+                  folder + "/fork.stl");
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "repair"}, {"operation": "clip-opening"},
+        {"operation": "smooth", "arguments": {"iterations": 3}},
+        {"operation": "remesh"}, {"operation": "tetrahedralize"}])");
+    const auto prepared = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command = {
+            "prepare",  folder + "/fork.stl",   "--units", "mm", "--for", "cfd", "--out", out,
+            "--recipe", folder + "/recipe.json"};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    // No end is at the inlet that is asked for.
+    REQUIRE(prepared({"--set", "clip-opening.inlet=40,0,0"}).exit_code == 1);
+    const std::string project = out + "/project.vbench";
+    const auto apply = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"apply", project});
+        const ProgramRun made = run(arguments);
+        INFO(made.err);
+        REQUIRE(made.exit_code == 0);
+    };
+    apply({"clip-opening", "tip=8,0,16"});
+    apply({"smooth", "iterations=2"});
+    const ProgramRun resumed = prepared({"--resume"});
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    CHECK_THAT(resumed.err, Contains("clip-opening") && !Contains("smooth ("));
+    CHECK(Json::parse(text_of(out + "/report.json"))["openings"].size() == 3);
+    THEN("what is made already is not made again, nor what was removed by hand") {
+        REQUIRE(run({"remove", project, "4"}).exit_code == 0);  // the smoothing by hand
+        const ProgramRun again = prepared({"--resume"});
+        INFO(again.err);
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.err, Contains("every edit of the recipe has been made"));
+    }
+}
+
+SCENARIO("A vessel's side is not opened where an image ends", "[workbench][prepare]") {
+    // A bow whose legs leave the image below; the border above takes a slice of the bend.
+    constexpr double kTop = 8.6, kVoxel = 0.5;
+    const auto bow = [](const Vec3& p) {
+        const double along = p.z() > 0.0 ? std::hypot(p.x(), p.z()) : std::abs(p.x());
+        return 100.0 -
+               50.0 * std::clamp((std::hypot(along - 8.0, p.y()) - 2.0) / kVoxel, -2.0, 2.0);
+    };
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.diagonal().head<3>().setConstant(kVoxel);
+    matrix.col(3).head<3>() = Vec3(-12, -4, kTop - 41 * kVoxel);
+    write_image(folder + "/bow.nrrd", image_of({49, 17, 42}, matrix, bow));
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "extract-surface", "arguments": {"threshold": 100}},
+        {"operation": "repair"}, {"operation": "clip-opening"}])");
+    const auto prepared = [&](const std::string& setting) {
+        return run({"prepare", folder + "/bow.nrrd", "--for", "planning", "--recipe",
+                    folder + "/recipe.json", "--out", out, "--set", setting});
+    };
+    const ProgramRun made = prepared("clip-opening.strict=false");
+    INFO(made.err);
+    REQUIRE(made.exit_code == 0);
+    const Json openings = Json::parse(text_of(out + "/report.json"))["openings"];
+    REQUIRE(openings.size() == 2);
+    for (const Json& opening : openings) CHECK(opening["centroid"][2].get<double>() < -10.0);
+    THEN("asked for, it is an error that names the end") {
+        for (const char* name : {"open", "inlet"}) {
+            const ProgramRun asked = prepared("clip-opening." + std::string(name) + "=0,0,8.6");
+            INFO(asked.err);
+            CHECK(asked.exit_code == 1);
+            CHECK_THAT(asked.err, Contains("8.6) mm cannot be opened: it lies in the side of"));
+        }
+    }
+}
+
 SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
     const std::string folder = temporary_folder(), out = folder + "/out";
     write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");

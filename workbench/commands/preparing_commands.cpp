@@ -73,7 +73,7 @@ void add_prepare(CommandLine& line) {
     command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
     command.add_flag("--resume", options->resume,
-                     "Go on in the folder's project after the last edit of the recipe");
+                     "Go on in the folder's project with the edits of the recipe that are missing");
     command
         .add_option("--set", options->settings,
                     "operation.parameter=value: change an argument of the recipe")

@@ -16,6 +16,7 @@
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
+#include "workbench/prepare/resume.h"
 #include "workbench/session/stored_recipes.h"
 
 namespace vesselbench {
@@ -132,100 +133,30 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     return recipe;
 }
 
-bool is_edit_of(const LogEntry& made, const RecipeEntry& entry, const std::string& variant) {
-    const Step step = entry.step.value_or(entry.given.operation().usual_step);
-    return made.edit.operation == entry.given.operation().name && made.edit.place.step == step &&
-           (made.edit.place.variant.empty() || made.edit.place.variant == variant);
-}
-
-/// The entries after the last one that has an edit in the log, in the recipe's order.
-Recipe rest_of(Recipe recipe, const std::vector<LogEntry>& log, const std::string& variant) {
-    std::size_t done = 0;
-    auto from = log.begin();
-    for (std::size_t i = 0; i < recipe.size(); ++i) {
-        const auto found = std::find_if(from, log.end(), [&](const LogEntry& made) {
-            return is_edit_of(made, recipe[i], variant);
-        });
-        if (found == log.end()) continue;
-        from = found + 1;
-        done = i + 1;
-    }
-    recipe.erase(recipe.begin(), recipe.begin() + static_cast<std::ptrdiff_t>(done));
-    return recipe;
-}
-
-Session resumed(const fs::path& project, const std::string& purpose) {
-    Session session = Session::open(project, {.find = find_operation});
-    if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
-    std::string other;
-    for (const LogEntry& entry : session.log()) {
-        const std::string& variant = entry.edit.place.variant;
-        if (variant == purpose) return session;
-        if (!variant.empty()) other = variant;
-    }
-    if (!other.empty())
-        throw UsageError("--resume: the project is for " + other +
-                         ", and its edits are not those of " + purpose +
-                         ": prepare that into another folder");
-    return session;
-}
-
-/// \throw UsageError if a setting is of an edit that has been made
-void refuse_late_settings(const PrepareOptions& options, const Recipe& rest,
-                          const std::vector<LogEntry>& log) {
-    for (const std::string& text : options.arguments) {
-        const std::string name = text.substr(0, text.find('.'));
-        const bool comes = std::ranges::any_of(
-            rest, [&](const RecipeEntry& entry) { return entry.given.operation().name == name; });
-        if (comes) continue;
-        std::string edit = "EDIT";
-        for (const LogEntry& entry : log)
-            if (entry.edit.operation == name) edit = std::to_string(entry.edit.edit.id);
-        throw UsageError("--set '" + text + "': " + name +
-                         " has been made already; use vesselbench " + "change project.vbench " +
-                         edit + " " + text.substr(text.find('.') + 1) + ", then --resume");
-    }
-}
-
 /// So that a reopened project still has them.
 void keep_recipes(const fs::path& project, const Input& input) {
     if (input.recipes) store_recipes(project, input.recipes->dump());
 }
 
-/// True if the recipe leaves it to clip-opening which ends it opens where, and removes nothing
-/// afterwards: a vessel that is missing then is missing unasked.
-bool decides_by_itself(const Recipe& recipe, Recipe::const_iterator cut) {
-    for (const char* asked : {"tip", "distance", "radii", "planes"})
-        if (cut->given->has(asked)) return false;
-    return std::none_of(cut + 1, recipe.end(), [](const RecipeEntry& entry) {
-        const Operation& operation = entry.given.operation();
-        return operation.recipe.cuts_ends || operation.usual_step == Step::Source ||
-               operation.usual_step == Step::Branches;
-    });
-}
-
 /// Applies the recipe; a model that has lost vessels, or an opening in a vessel's side, is an
-/// error.
+/// error, whenever the ends were opened.
 std::vector<std::string> apply_checked(Session& session, const Recipe& recipe,
                                        const std::string& variant, const Teller& tell,
                                        const Progress& progress) {
     const auto cut = std::ranges::find_if(
         recipe, [](const RecipeEntry& entry) { return entry.given.operation().recipe.cuts_ends; });
-    if (cut == recipe.end() || cut == recipe.begin() || !decides_by_itself(recipe, cut))
-        return apply_recipe(session, recipe, variant, tell, progress);
-    const double size = static_cast<double>(recipe.size());
-    const double until = static_cast<double>(cut - recipe.begin()) / size;
-    auto warnings = apply_recipe(session, Recipe(recipe.begin(), cut), variant, tell,
-                                 progress.part(0.0, until));
-    const Surface before = surface_of(session.scene(variant));
-    const auto add = [&](const Recipe& part, double from, double to) {
-        const auto more = apply_recipe(session, part, variant, tell, progress.part(from, to));
-        warnings.insert(warnings.end(), more.begin(), more.end());
-    };
-    add({*cut}, until, until + 1.0 / size);
-    check_openings(before, surface_of(session.scene(variant)));
-    add(Recipe(cut + 1, recipe.end()), until + 1.0 / size, 0.98);
-    check_vessels(before, surface_of(session.scene(variant)), progress.part(0.98, 1.0));
+    const auto then = cut == recipe.end() ? recipe.begin() : cut + 1;
+    const double until = static_cast<double>(then - recipe.begin()) /
+                         static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
+    auto warnings = apply_recipe(session, Recipe(recipe.begin(), then), variant, tell,
+                                 progress.part(0.0, 0.98 * until));
+    if (const auto before = surface_before_openings(session, variant))
+        check_openings(*before, surface_of(session.scene(variant)));
+    const auto more = apply_recipe(session, Recipe(then, recipe.end()), variant, tell,
+                                   progress.part(0.98 * until, 0.98));
+    warnings.insert(warnings.end(), more.begin(), more.end());
+    if (const auto before = surface_before_openings(session, variant))
+        check_vessels(*before, surface_of(session.scene(variant)), progress.part(0.98, 1.0));
     return warnings;
 }
 
@@ -268,8 +199,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         Session session = options.resume ? resumed(project, options.purpose)
                                          : Session::create(project, {.find = find_operation});
         if (options.resume) {
-            recipe = rest_of(std::move(recipe), session.log(), options.purpose);
-            refuse_late_settings(for_recipe, recipe, session.log());
+            recipe = rest_of(recipe, *session.snapshot(), options.purpose);
+            refuse_late_settings(for_recipe.arguments, recipe, session.log());
             if (recipe.empty()) tell("every edit of the recipe has been made: writing the results");
         } else {
             keep_recipes(project, input);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "geometry/kernel/edges.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -50,25 +49,6 @@ bool had(const Surface& before, const Surface& after, std::size_t patch) {
     return false;
 }
 
-/// The wall without an opening's triangles: its rim is a border.
-double rise_at(const Surface& surface, std::size_t patch) {
-    const PatchShape shape = patch_shape(surface, patch);
-    std::vector<bool> keep;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        keep.push_back((*surface.patch_labels)[t] != patch);
-    const Surface wall = select_triangles(surface, keep);
-    double least = 90.0, nearest = shape.diameter();
-    for (const auto& loop : wall.topology->boundary_loops()) {
-        const RimShape found = rim_shape(wall, loop);
-        const double apart = (found.plane.point - shape.plane.point).norm();
-        if (apart < nearest) {
-            nearest = apart;
-            least = found.rise_deg;
-        }
-    }
-    return least;
-}
-
 }  // namespace
 
 std::vector<LostVessel> lost_vessels(const CenterlineGraph& before, const Surface& after) {
@@ -84,11 +64,14 @@ std::vector<LostVessel> lost_vessels(const CenterlineGraph& before, const Surfac
 
 std::vector<std::size_t> openings_in_walls(const Surface& before, const Surface& after) {
     std::vector<std::size_t> found;
-    for (std::size_t p = 0; p < after.patches.size(); ++p)
-        if (after.patches[p].kind != PatchKind::Wall &&
-            std::ranges::find(*after.patch_labels, p) != after.patch_labels->end() &&
-            !had(before, after, p) && rise_at(after, p) < kLeastRiseDegInWall)
-            found.push_back(p);
+    for (std::size_t p = 0; p < after.patches.size(); ++p) {
+        if (after.patches[p].kind == PatchKind::Wall ||
+            std::ranges::find(*after.patch_labels, p) == after.patch_labels->end() ||
+            had(before, after, p))
+            continue;
+        const auto rim = rim_shape_of_cap(after, p);
+        if (rim && rim->rise_deg < kLeastRiseDegInWall) found.push_back(p);
+    }
     return found;
 }
 

@@ -58,8 +58,10 @@ public:
           records_(ends_.size()),
           decided_(ends_.size(), false),
           trials_(surface, graph, ends_) {
-        for (std::size_t e = 0; e < ends_.size(); ++e)
+        for (std::size_t e = 0; e < ends_.size(); ++e) {
             records_[e] = {.place = ends_[e].centre, .diameter = ends_[e].diameter};
+            in_side_.push_back(lies_in_side(e));
+        }
     }
 
     OpeningPlan run() {
@@ -78,6 +80,20 @@ private:
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (ends_[e].tip && *ends_[e].tip == tip) return e;
         return 0;
+    }
+
+    /// A rim, or an image's border, where no vessel ends: the vessel passes it. A cap that has a
+    /// name was meant by whoever gave it.
+    bool lies_in_side(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        if (end.patch ? surface_.patches[*end.patch].kind != PatchKind::Cut : end.rim.empty())
+            return false;
+        const auto rim = end.patch ? rim_shape_of_cap(surface_, *end.patch)
+                                   : std::optional(rim_shape(surface_, end.rim));
+        if (!rim || !rim->is_graze()) return false;
+        if (!end.tip) return true;
+        const auto blind = blind_branch(graph_, *end.tip);
+        return blind && blind->length < kLeastOwnVessel * rim->diameter();
     }
 
     void plan_one(std::size_t end) {
@@ -149,18 +165,21 @@ private:
     /// vessels may end inside the image. Nor does a single end: blood has to enter and leave.
     bool opens_blind_ends() const {
         const auto determines = [&](const SurfaceEnd& end) {
-            return !end.rim.empty() ||
+            const auto e = static_cast<std::size_t>(&end - ends_.data());
+            return (!end.rim.empty() && !in_side_[e]) ||
                    (end.patch && surface_.patches[*end.patch].kind != PatchKind::Cut);
         };
         const auto is_end = [&](const SurfaceEnd& end) {
             const auto e = static_cast<std::size_t>(&end - ends_.data());
-            return end.is_visible() && (end.tip || made_[e]);
+            return end.is_visible() && !in_side_[e] && (end.tip || made_[e]);
         };
         return std::ranges::none_of(ends_, determines) || std::ranges::count_if(ends_, is_end) < 2;
     }
 
     void plan_end(std::size_t e, bool blind_too) {
         const SurfaceEnd& end = ends_[e];
+        if (in_side_[e] && !options_.strict)
+            return close(e, "it lies in the side of a vessel that passes there");
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
             records_[e].sac = blind && (blind->bulges || blind->is_short());
@@ -238,7 +257,7 @@ private:
 
     /// Keeps a good cap or rim as it is.
     bool keep(std::size_t e) {
-        if (is_fixed()) return false;
+        if (is_fixed() || in_side_[e]) return false;
         const auto place = ends_[e].patch ? kept_cap(e) : kept_rim(e);
         if (!place || has_failed(e, place->plane.point)) return false;
         const bool cap = ends_[e].patch.has_value();
@@ -270,6 +289,12 @@ private:
         return end.tip ? graph_.nodes[*end.tip].position : end.centre;
     }
 
+    /// False for the plate that an image's border leaves where it grazes a bulge.
+    bool rises(std::size_t patch) const {
+        const auto rim = rim_shape_of_cap(surface_, patch);
+        return !rim || rim->rise_deg > kLeastRiseAtTip;
+    }
+
     std::optional<OpeningPlace> kept_cap(std::size_t e) const {
         const SurfaceEnd& end = ends_[e];
         const PatchShape shape = patch_shape(surface_, *end.patch);
@@ -277,10 +302,11 @@ private:
         const double tilt = axis ? axis->tilt_deg : 90.0;
         const bool meant =
             !options_.border_cuts || surface_.patches[*end.patch].kind != PatchKind::Cut;
-        const bool good = options_.strict
-                              ? end.tip && shape.flatness <= kStrictFlatness * shape.diameter() &&
-                                    tilt <= kStrictTiltDeg
-                              : is_flat(shape) && (meant || tilt <= kKeptTiltDeg);
+        const bool good =
+            options_.strict
+                ? end.tip && shape.flatness <= kStrictFlatness * shape.diameter() &&
+                      tilt <= kStrictTiltDeg
+                : is_flat(shape) && (meant || (tilt <= kKeptTiltDeg && rises(*end.patch)));
         if (!good) return std::nullopt;
         return place_on(shape.plane, shape.diameter(), tip_place(end), axis);
     }
@@ -421,6 +447,9 @@ private:
         return std::move(plan_);
     }
 
+    /// An end's own vessel, beyond the others, is at least this long [diameters of the end].
+    static constexpr double kLeastOwnVessel = 0.1;
+
     /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
     static constexpr double kLongestAcross = 3.0;
 
@@ -431,6 +460,7 @@ private:
     std::vector<std::optional<PlannedOpening>> made_;  ///< by end
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
+    std::vector<bool> in_side_;                        ///< by end: no vessel ends there
     CutTrials trials_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened

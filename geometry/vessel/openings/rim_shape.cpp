@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "geometry/editing/hole_filling.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/vessel/openings/profile.h"
 
 namespace vesselbench {
@@ -15,6 +17,10 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// Fewer edges are those of a stray hole; less round ones those of a slit.
 constexpr std::size_t kFewestEdges = 6;
 constexpr double kLeastRoundness = 0.25;
+/// A plane that grazes a vessel leaves a longer border than one across it, even at 55 degrees, and
+/// a wall that leans more than that of a tapering vessel.
+constexpr double kGrazedAspect = 1.75;
+constexpr double kGrazedRiseDeg = 75.0;
 
 /// Largest distance from the plane of a flat rim of this diameter [mm].
 double flat_within(double diameter) {
@@ -47,6 +53,25 @@ Vec3 loop_normal(const Positions& corners, const Vec3& centre) {
     return normal.norm() > 0.0 ? Vec3(-normal.normalized()) : Vec3(Vec3::UnitZ());
 }
 
+/// Length over width of a flat polygon, as of the ellipse with its second moments.
+double aspect_of(const Positions& corners, const Vec3& centre, const Vec3& normal) {
+    const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+    const auto at = [&](std::size_t i) {
+        const Vec3 p = corners[i % corners.size()] - centre;
+        return Eigen::Vector2d(p.dot(x), p.dot(y));
+    };
+    Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d p = at(i), q = at(i + 1);
+        const double twice_area = p.x() * q.y() - p.y() * q.x();
+        moments +=
+            twice_area * (p * p.transpose() + q * q.transpose() + (p + q) * (p + q).transpose());
+    }
+    const double sum = std::abs(moments.trace());
+    const double apart = std::sqrt(std::max(0.0, sum * sum - 4.0 * moments.determinant()));
+    return sum > apart ? std::sqrt((sum + apart) / (sum - apart)) : 1.0;
+}
+
 double rise_of(const Surface& surface, std::span<const VertexId> loop, const Vec3& normal) {
     MeanRise rise;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -76,6 +101,10 @@ bool RimShape::is_good() const {
            flatness <= flat_within(diameter());
 }
 
+bool RimShape::is_graze() const {
+    return aspect > kGrazedAspect && rise_deg < kGrazedRiseDeg;
+}
+
 RimShape rim_shape(const Surface& surface, std::span<const VertexId> loop) {
     Positions corners;
     for (const VertexId v : loop) corners.push_back(surface.points()[v]);
@@ -92,7 +121,33 @@ RimShape rim_shape(const Surface& surface, std::span<const VertexId> loop) {
         shape.flatness = std::max(shape.flatness, std::abs(shape.plane.distance(corners[i])));
     }
     shape.rise_deg = rise_of(surface, loop, shape.plane.normal);
+    shape.aspect = aspect_of(flat, shape.plane.point, shape.plane.normal);
     return shape;
+}
+
+std::optional<RimShape> rim_shape_of_cap(const Surface& surface, std::size_t patch) {
+    const PatchShape cap = patch_shape(surface, patch);
+    double reach = 0.0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if ((*surface.patch_labels)[t] == patch)
+            for (const VertexId v : surface.triangles()[t])
+                reach = std::max(reach, (surface.points()[v] - cap.plane.point).norm());
+    const Surface near = part_near(surface, cap.plane.point, 1.5 * reach);
+    std::vector<bool> wall;
+    for (const std::uint16_t label : *near.patch_labels) wall.push_back(label != patch);
+    const Surface open = select_triangles(near, wall);
+    std::optional<RimShape> found;
+    for (const auto& loop : open.topology->boundary_loops()) {
+        RimShape shape = rim_shape(open, loop);
+        const bool flat = std::ranges::all_of(loop, [&](VertexId v) {
+            return std::abs(cap.plane.distance(open.points()[v])) <= cap.flatness + 1e-9 * reach &&
+                   (open.points()[v] - cap.plane.point).norm() <= (1.0 + 1e-9) * reach;
+        });
+        if (!flat) continue;  // where the part was cut out
+        if (found) return std::nullopt;
+        found = std::move(shape);
+    }
+    return found;
 }
 
 bool is_flat(const PatchShape& shape) {

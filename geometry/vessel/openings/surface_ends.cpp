@@ -19,6 +19,10 @@ constexpr double kFarthestEnd = 4.0;
 /// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
 constexpr double kSacToNeck = 1.4;
 constexpr double kSacLength = 2.5;
+/// A ball on a narrower neck that the image has widened: it rises behind its neck by this factor,
+/// in at most this many radii beyond the vessels around it.
+constexpr double kBallToNeck = 1.15;
+constexpr double kBallLength = 1.5;
 /// A stub is shorter than this many of its parent's diameters.
 constexpr double kStubShare = 1.0;
 
@@ -91,6 +95,20 @@ double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size
     return radius_at(graph.branches[branch], place_from_node(graph, branch, node, zone).abscissa);
 }
 
+/// How much wider a branch becomes behind its neck, the narrowest place outside the vessel that it
+/// leaves.
+double rise_behind_neck(const CenterlineGraph& graph, std::size_t branch, std::size_t root) {
+    const auto& own = graph.branches[branch];
+    const double whole = branch_length(own), step = 0.02 * whole + 1e-9;
+    double neck = std::numeric_limits<double>::infinity(), rise = 1.0;
+    for (double s = graph.nodes[root].radius; s <= whole; s += step) {
+        const double r = radius_at(own, place_from_node(graph, branch, root, s).abscissa);
+        neck = std::min(neck, r);
+        rise = std::max(rise, r / neck);
+    }
+    return rise;
+}
+
 }  // namespace
 
 std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const CenterlineGraph& graph) {
@@ -151,7 +169,9 @@ std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_
     for (const std::size_t other : graph.nodes[root].branches)
         if (other != index)
             found.parent = std::max(found.parent, radius_beyond(graph, other, root));
-    found.bulges = found.bulges || found.widest > kSacToNeck * found.parent;
+    found.bulges = found.bulges || found.widest > kSacToNeck * found.parent ||
+                   (found.length < kBallLength * found.widest &&
+                    rise_behind_neck(graph, index, root) > kBallToNeck);
     return found;
 }
 

@@ -1,0 +1,139 @@
+#include "workbench/prepare/resume.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+bool is_of(const EditPlace& place, const std::string& variant) {
+    return place.variant.empty() || place.variant == variant;
+}
+
+bool has_place_of(const EditRecord& edit, const RecipeEntry& entry, const std::string& variant) {
+    const Operation& operation = entry.given.operation();
+    return edit.operation == operation.name &&
+           edit.place.step == entry.step.value_or(operation.usual_step) &&
+           is_of(edit.place, variant);
+}
+
+/// True for an argument that limits an operation to one vessel's end, or to ends that were decided.
+bool names_end(const Parameter& parameter) {
+    const Meaning meaning = parameter.meaning;
+    return meaning == Meaning::Planes || (parameter.type == ParameterType::Point &&
+                                          (meaning == Meaning::Tip || meaning == Meaning::Branch));
+}
+
+/// True unless the edit does a part only of what the entry does.
+bool covers(const Arguments& edit, const GivenArguments& entry) {
+    return std::ranges::none_of(entry.operation().parameters, [&](const Parameter& parameter) {
+        const std::string& name = parameter.name;
+        return names_end(parameter) && edit.has(name) &&
+               !(entry->has(name) && edit.values().at(name) == entry->values().at(name));
+    });
+}
+
+/// The edits on the way to the current state, with those that were removed.
+std::vector<EditId> edits_made(const Snapshot& made) {
+    std::vector<EditId> ids;
+    for (const LogEntry& entry : made.log) ids.push_back(entry.edit.edit.id);
+    for (const HistoryState* state = &made.history->state(made.history->current());
+         state->change != StateChange::Start; state = &made.history->state(state->parent))
+        if (state->change == StateChange::Remove) ids.push_back(state->edit.id);
+    return ids;
+}
+
+/// An edit's revisions: it counts with its first arguments and with those it was changed to.
+bool does(EditId id, const Snapshot& made, const RecipeEntry& entry, const std::string& variant) {
+    const auto first = made.past->lower_bound({id, 0}), last = made.past->lower_bound({id + 1, 0});
+    return std::any_of(first, last, [&](const auto& revision) {
+        const EditRecord& edit = revision.second.edit;
+        return has_place_of(edit, entry, variant) && covers(edit.given, entry.given);
+    });
+}
+
+}  // namespace
+
+Session resumed(const std::filesystem::path& project, const std::string& purpose) {
+    Session session = Session::open(project, {.find = find_operation});
+    if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
+    std::string other;
+    for (const LogEntry& entry : session.log()) {
+        const std::string& variant = entry.edit.place.variant;
+        if (variant == purpose) return session;
+        if (!variant.empty()) other = variant;
+    }
+    if (!other.empty())
+        throw UsageError("--resume: the project is for " + other +
+                         ", and its edits are not those of " + purpose +
+                         ": prepare that into another folder");
+    return session;
+}
+
+Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {
+    std::vector<EditId> left = edits_made(made);
+    std::vector<bool> done(recipe.size(), false);
+    std::size_t behind_last = 0;
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const auto found = std::ranges::find_if(
+            left, [&](EditId id) { return does(id, made, recipe[i], variant); });
+        if (found == left.end()) continue;
+        left.erase(found);
+        done[i] = true;
+        behind_last = i + 1;
+    }
+    Recipe rest;
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const bool skipped = i < behind_last && (recipe[i].optional || recipe[i].unless_closed) &&
+                             std::ranges::none_of(made.log, [&](const LogEntry& entry) {
+                                 return has_place_of(entry.edit, recipe[i], variant);
+                             });
+        if (!done[i] && !skipped) rest.push_back(recipe[i]);
+    }
+    return rest;
+}
+
+void refuse_late_settings(std::span<const std::string> settings, const Recipe& rest,
+                          const std::vector<LogEntry>& log) {
+    for (const std::string& text : settings) {
+        const std::string name = text.substr(0, text.find('.'));
+        const bool comes = std::ranges::any_of(
+            rest, [&](const RecipeEntry& entry) { return entry.given.operation().name == name; });
+        if (comes) continue;
+        std::string edit = "EDIT";
+        for (const LogEntry& entry : log)
+            if (entry.edit.operation == name) edit = std::to_string(entry.edit.edit.id);
+        throw UsageError("--set '" + text + "': " + name +
+                         " has been made already; use vesselbench " + "change project.vbench " +
+                         edit + " " + text.substr(text.find('.') + 1) + ", then --resume");
+    }
+}
+
+std::optional<Surface> surface_before_openings(Session& session, const std::string& variant) {
+    const std::vector<LogEntry> log = session.log();
+    std::optional<EditId> before;
+    const LogEntry* cut = nullptr;
+    EditId last = 0;
+    for (const LogEntry& entry : log) {
+        if (!is_of(entry.edit.place, variant) || entry.status == EditStatus::Stale) continue;
+        const Operation& operation = find_operation(entry.edit.operation);
+        if (operation.recipe.cuts_ends) {
+            before = last;
+            cut = &entry;
+        } else if (cut != nullptr && (operation.usual_step == Step::Source ||
+                                      operation.usual_step == Step::Branches)) {
+            return std::nullopt;
+        }
+        last = entry.edit.edit.id;
+    }
+    if (cut == nullptr || *before == 0) return std::nullopt;
+    for (const char* asked : {"tip", "distance", "radii", "planes"})
+        if (cut->edit.given.has(asked)) return std::nullopt;
+    return surface_of(session.scene_after(*before));
+}
+
+}  // namespace vesselbench

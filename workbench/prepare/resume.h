@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "geometry/kernel/surface.h"
+#include "workbench/prepare/recipe.h"
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+/// Opens the project of an earlier preparation to go on in it.
+/// \throw IoError if it cannot be written, UsageError if it is for another purpose
+[[nodiscard]] Session resumed(const std::filesystem::path& project, const std::string& purpose);
+
+/// The entries that are still to be made. An edit counts as the entry of its operation and step
+/// unless it does a part of it only: opens one end where the recipe opens all. What the recipe made
+/// counts with the arguments that it was changed to, or removed. Entries that may be left out are
+/// not made up for before one that has been made.
+[[nodiscard]] Recipe rest_of(const Recipe& recipe, const Snapshot& made,
+                             const std::string& variant);
+
+/// \throw UsageError if a setting "operation.parameter=value" is of an edit that has been made
+void refuse_late_settings(std::span<const std::string> settings, const Recipe& rest,
+                          const std::vector<LogEntry>& log);
+
+/// The surface before clip-opening decided by itself which ends to open where. Empty if it has not,
+/// or vessels were cut or removed afterwards: one that is missing then was not lost.
+[[nodiscard]] std::optional<Surface> surface_before_openings(Session& session,
+                                                             const std::string& variant);
+
+}  // namespace vesselbench
