@@ -57,6 +57,10 @@ struct ImageSource {
     std::optional<Intensities> intensities;
 };
 
+bool wants_topology(const ExtractionParameters& parameters) {
+    return parameters.with_topology && parameters.cleaning.any();
+}
+
 /// Fills in the method, the side and (for level sets) the threshold.
 void decide_method(ImageSource& source, const ExtractionParameters& parameters,
                    Extraction& result) {
@@ -72,6 +76,8 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters,
     } else {
         result.method = ExtractionMethod::Threshold;
     }
+    if (result.method == ExtractionMethod::Masked && !source.mask)
+        throw InvalidInput("method=masked needs a mask: load the image with mask=");
     const bool level_set = result.method == ExtractionMethod::Threshold &&
                            judgement.kind == ImageKind::LevelSet &&
                            parameters.threshold.value_or(0.0) == 0.0;
@@ -138,7 +144,7 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     result.labels = parameters.labels.empty() ? there : parameters.labels;
     const Cleaning& cleaning = parameters.cleaning;
     const Image mask = mask_of_labels(labels, parameters.labels);
-    if (cleaning.any()) result.before = voxel_topology(mask, kMaskIso);
+    if (wants_topology(parameters)) result.before = voxel_topology(mask, kMaskIso);
     progress.check_cancelled();
     Field field{cleaned_mask(mask, cleaning), kMaskIso};
     progress.check_cancelled();
@@ -171,7 +177,7 @@ Field threshold_field(ImageSource& source, const ExtractionParameters& parameter
     const Intensities& made = prepared(source, parameters, result.inside_below, progress);
     result.contrast = made.contrast;
     progress.check_cancelled();
-    if (parameters.cleaning.any()) result.before = voxel_topology(made.up, iso);
+    if (wants_topology(parameters)) result.before = voxel_topology(made.up, iso);
     return {made.ready, iso};
 }
 
@@ -228,8 +234,6 @@ Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extr
                const Progress& progress) {
     decide_method(source, parameters, result);
     progress.check_cancelled();
-    if (result.method == ExtractionMethod::Masked && !source.mask)
-        throw InvalidInput("method=masked needs a mask: load the image with mask=");
     if (result.method == ExtractionMethod::Masked)
         return masked_field(source, parameters, result, progress);
     if (result.method == ExtractionMethod::Threshold)
@@ -285,6 +289,21 @@ SurfaceExtractor::SurfaceExtractor(Image image, std::optional<Image> mask) {
 SurfaceExtractor::~SurfaceExtractor() = default;
 SurfaceExtractor::SurfaceExtractor(SurfaceExtractor&&) noexcept = default;
 
+ExtractionParameters SurfaceExtractor::decided(ExtractionParameters parameters,
+                                               const Progress& progress) {
+    Extraction result;
+    decide_method(*source_, parameters, result);
+    progress.check_cancelled();
+    parameters.method = result.method;
+    if (result.method == ExtractionMethod::Labels) return parameters;
+    if (result.method == ExtractionMethod::Masked && !parameters.threshold)
+        result.threshold = masked_threshold(
+            source_->image, mask_of_labels(*source_->mask, parameters.labels), progress);
+    parameters.threshold = result.threshold;
+    parameters.inside_below = result.inside_below;
+    return parameters;
+}
+
 Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
                                      const Progress& progress) {
     progress.report(0.0, "classifying the image");
@@ -292,7 +311,7 @@ Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
     const Field field = field_of(*source_, parameters, result, progress.part(0.1, 0.6));
     check_share(field, result);
     progress.check_cancelled();
-    if (parameters.cleaning.any()) result.after = voxel_topology(field.image, field.iso);
+    if (wants_topology(parameters)) result.after = voxel_topology(field.image, field.iso);
     progress.report(0.6, "extracting the surface");
     choose_body(field, parameters, result, progress);
     return result;

@@ -51,6 +51,7 @@ struct ExtractionParameters {
     std::optional<double> resample;  ///< edge of cubic voxels [mm]
     std::optional<Vec3> seed;        ///< the body at this point [mm], LPS
     Bodies bodies = Bodies::Largest;
+    bool with_topology = true;  ///< finds Extraction::before and after
 };
 
 /// A surface, and the decisions and findings on the way.
@@ -89,6 +90,12 @@ public:
     SurfaceExtractor(Image image, std::optional<Image> mask);
     ~SurfaceExtractor();
     SurfaceExtractor(SurfaceExtractor&&) noexcept;
+
+    /// The parameters with method, side and threshold decided as extract() would, so that another
+    /// image of the same content, such as a coarser one, is treated alike.
+    /// \throw as extract_surface
+    [[nodiscard]] ExtractionParameters decided(ExtractionParameters parameters,
+                                               const Progress& progress = {});
 
     /// \throw as extract_surface
     [[nodiscard]] Extraction extract(const ExtractionParameters& parameters,

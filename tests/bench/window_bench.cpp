@@ -1,20 +1,24 @@
 // Times the window without a display, and prints a row each: start-up, frames while a surface of
 // 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight,
-// models while the mouse drives their smoothing.
+// models while the mouse drives their smoothing, surfaces while the iso-value of an image slides.
 //   bench_window PROGRAM                        all of these
 //   bench_window PROGRAM --clicks SECONDS [SEEDS [FIRST]]   longest frames under random input
 //                                                           instead
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
 
+#include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
@@ -202,6 +206,75 @@ void time_driving(const Bench& bench) {
     print("the longest of them", *std::ranges::max_element(frames), "goal < 100");
 }
 
+/// A branching vessel of wavy tubes with noise around it, 256 x 256 x 128 voxels.
+Image vessel_image() {
+    Image image{.size = {256, 256, 128}};
+    image.index_to_patient = Eigen::Vector4d(0.4, 0.4, 0.4, 1.0).asDiagonal();
+    std::vector<float> voxels(image.voxel_count());
+    std::minstd_rand random(7);
+    std::normal_distribution<float> noise(0.0F, 15.0F);
+    for (int k = 0; k < image.size[2]; ++k)
+        for (int j = 0; j < image.size[1]; ++j)
+            for (int i = 0; i < image.size[0]; ++i) {
+                const double wave = 20.0 * std::sin(0.05 * k);
+                double inside = -1e3;
+                for (const double lean : {-0.7, -0.2, 0.3, 0.8})
+                    inside = std::max(inside, 12.0 - std::hypot(i - 128.0 - wave - lean * k,
+                                                                j - 128.0 + lean * wave));
+                const double share = std::clamp(0.5 + 0.25 * inside, 0.0, 1.0);
+                voxels[image.offset(i, j, k)] = static_cast<float>(300.0 * share) + noise(random);
+            }
+    image.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return image;
+}
+
+/// A press in the histogram of the form of extract-surface, and movements that slide the iso-value
+/// while the surface follows, is drawn, and outlined in three slices.
+void time_sliding(const Bench& bench) {
+    OffscreenShell shell(bench.options(), 1280, 720, report_error);
+    shell.frame();
+    const fs::path file = bench.home / "vessel.mha";
+    write_image(file.string(), vessel_image());
+    if (!open(shell, file)) return;
+    Workplace& place = shell.app().place();
+    place.choose("extract-surface");
+    shell.frame();
+    shell.click_item("form.live");
+    const Stopwatch first;
+    const auto is_whole = [&] {
+        return place.extraction().shown() && !place.extraction().outdated();
+    };
+    shell.run_until(is_whole, 1min);
+    std::printf("iso-value slid on 256 x 256 x 128 voxels\n");
+    print("from the tab to the whole surface", 1e3 * first.seconds(), "");
+    const ScreenRect rect = shell.app().ui().items().at("extraction.histogram").rect;
+    std::vector<double> frames;
+    shell.move_mouse(rect.middle_x(), rect.middle_y());
+    shell.press(MouseButton::Left);
+    shell.watch_frames([&](const FrameTime& time) { frames.push_back(1e3 * time.clock); });
+    const int drawn = shell.app().drawings();
+    int surfaces = 0;
+    auto seen = place.extraction().shown();
+    const Stopwatch watch;
+    for (int i = 0; watch.seconds() < kDriveSeconds; ++i) {
+        const float share = 0.55F + 0.25F * static_cast<float>(std::sin(0.05 * i));
+        shell.move_mouse(rect.x + share * rect.width, rect.middle_y());
+        surfaces += std::exchange(seen, place.extraction().shown()) != place.extraction().shown();
+    }
+    const double seconds = watch.seconds();
+    shell.watch_frames({});
+    std::printf("  %-56s %8.1f /s   goal > 10, %zu triangles\n", "surfaces found",
+                surfaces / seconds, seen->state.surface.triangle_count());
+    std::printf("  %-56s %8.1f /s\n", "pictures of them",
+                (shell.app().drawings() - drawn) / seconds);
+    print("a frame meanwhile", median(frames), "");
+    print("the longest of them", *std::ranges::max_element(frames), "goal < 100");
+    shell.release(MouseButton::Left);
+    const Stopwatch rest;
+    shell.run_until(is_whole, 1min);
+    print("from the release to the whole surface", 1e3 * rest.seconds(), "");
+}
+
 /// The longest frames, with what had been done just before.
 struct Longest {
     FrameTime frame;
@@ -245,6 +318,7 @@ void run(int count, char** words) {
     time_start(bench);
     time_case(bench);
     time_driving(bench);
+    time_sliding(bench);
 }
 
 }  // namespace

@@ -154,6 +154,22 @@ void failures(Photographer& p, const Home& home) {
     p.click("start.dismiss");
 }
 
+/// A slid iso-value, not applied.
+void extraction(Photographer& p) {
+    p.click("rail.source");
+    p.click("choose.extract-surface");
+    p.click("form.live");
+    p.wait();
+    const ScreenRect rect = p.shell.app().ui().items().at("extraction.histogram").rect;
+    p.shell.click(rect.x + 0.62F * rect.width, rect.middle_y());
+    p.wait();
+    p.rest_mouse();
+    p.take("live-extraction");
+    p.click("form.fields");
+    p.click("operation.back");
+    p.wait();
+}
+
 /// The surface as it comes from the image; the edit is undone afterwards.
 void live(Photographer& p) {
     p.click("rail.source");
@@ -187,6 +203,7 @@ void new_case(Photographer& p) {
     p.wait();
     p.rest_mouse();
     p.take("image");
+    extraction(p);
     live(p);
     p.click("tool.prepare");
     p.rest_mouse();

@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/operations/extract_surface/parameters.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
@@ -23,52 +24,6 @@ constexpr double kNoticeable = 0.05;
 const Image& image_of(const Scene& scene) {
     if (!scene.image) throw AlgorithmFailure("there is no image: use load-image first");
     return *scene.image;
-}
-
-std::optional<ExtractionMethod> method_from(const Arguments& arguments) {
-    const std::string& name = arguments.text("method");
-    if (name == "threshold") return ExtractionMethod::Threshold;
-    if (name == "labels") return ExtractionMethod::Labels;
-    if (name == "masked") return ExtractionMethod::Masked;
-    return std::nullopt;
-}
-
-std::vector<int> labels_from(const Arguments& arguments) {
-    std::vector<int> labels;
-    if (!arguments.has("labels")) return labels;
-    for (const double label : arguments.list("labels")) {
-        if (label != std::floor(label) || label < 1.0 || label > 1e6)
-            throw UsageError("extract-surface: labels are integers, 1 or above");
-        labels.push_back(static_cast<int>(label));
-    }
-    return labels;
-}
-
-Cleaning cleaning_from(const Arguments& arguments) {
-    return {.diffusion = static_cast<int>(arguments.integer("diffusion")),
-            .diffusion_contrast = arguments.optional_real("contrast"),
-            .gaussian = arguments.real("gaussian"),
-            .opening = static_cast<int>(arguments.integer("opening")),
-            .closing = static_cast<int>(arguments.integer("closing"))};
-}
-
-ExtractionParameters parameters_from(const Arguments& arguments, bool with_mask) {
-    ExtractionParameters parameters;
-    parameters.method = method_from(arguments);
-    if (arguments.has("iso") && arguments.has("threshold"))
-        throw UsageError("extract-surface: iso and threshold are synonyms: give one of them");
-    parameters.threshold = arguments.optional_real(arguments.has("iso") ? "iso" : "threshold");
-    if (const auto inside = arguments.optional_text("inside"))
-        parameters.inside_below = *inside == "below";
-    parameters.labels = labels_from(arguments);
-    const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
-    if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
-    parameters.dilation = static_cast<int>(arguments.integer("dilation"));
-    parameters.cleaning = cleaning_from(arguments);
-    parameters.resample = arguments.optional_real("resample");
-    parameters.seed = arguments.optional_point("seed");
-    parameters.bodies = arguments.text("component") == "all" ? Bodies::All : Bodies::Largest;
-    return parameters;
 }
 
 /// All decisions, so that a replay repeats them.
@@ -181,8 +136,8 @@ public:
 
 private:
     void use(const Arguments& arguments, Progress& progress) override {
-        Extraction extraction =
-            extractor_.extract(parameters_from(arguments, before_.mask.has_value()), progress);
+        Extraction extraction = extractor_.extract(
+            extraction_parameters(arguments, before_.mask.has_value()), progress);
         Arguments resolved = resolved_from(arguments, extraction);
         scene_ = with_surface(before_, extraction.surface);
         scene_.sampling = extraction.sampling;

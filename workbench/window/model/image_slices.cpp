@@ -62,15 +62,15 @@ void ImageSlices::clear() {
     space_.fill(false);
 }
 
-bool ImageSlices::update(const Scene* scene) {
+bool ImageSlices::update(const Scene* scene, const Surface* followed) {
     const bool had_image = has_image();
     if (scene != nullptr) {
         if (!scene->image || scene->image->empty())
             take_image({}, *scene);
         else if (!same_voxels(image_, *scene->image) || !same_mask(mask_, scene->mask))
             take_image(*scene->image, *scene);
-        take_surface(scene->surface);
-        show_first_image();
+        take_surface(followed != nullptr ? std::optional(*followed) : scene->surface);
+        show_first_image(scene->surface);
     }
     const bool changed = take_made();
     if (!task_.pending()) start();
@@ -78,15 +78,16 @@ bool ImageSlices::update(const Scene* scene) {
 }
 
 /// Of a case that has no surface yet; once, so that what the user hides stays hidden. The first
-/// surface is not hidden by the planes.
-void ImageSlices::show_first_image() {
+/// surface is not hidden by the planes; while one is only previewed, they step aside.
+void ImageSlices::show_first_image(const std::optional<Surface>& surface) {
     if (!has_image()) return;
     if (!std::exchange(was_shown_, true) && !surface_) {
         row_ = true;
         space_.fill(true);
         until_surface_ = true;
     }
-    if (surface_ && std::exchange(until_surface_, false)) space_.fill(false);
+    const bool there = surface && !surface->empty();
+    if (there && std::exchange(until_surface_, false)) space_.fill(false);
 }
 
 void ImageSlices::take_image(const Image& image, const Scene& scene) {
@@ -172,7 +173,7 @@ bool ImageSlices::take_made() {
 // --- what, where and how
 
 bool ImageSlices::any_in_space() const {
-    return has_image() && std::ranges::count(space_, true) > 0;
+    return std::ranges::any_of(kSlicePlanes, [this](SlicePlane plane) { return in_space(plane); });
 }
 
 void ImageSlices::set_cross(const Vec3& point) {

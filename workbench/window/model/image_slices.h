@@ -33,8 +33,9 @@ public:
     /// Follows the shown scene; once a frame. The image of a case that has just been opened without
     /// a surface is shown.
     /// \param scene null: keeps what is there
+    /// \param followed the surface in the view, if it is another one than the scene's
     /// \return true if content() or figures() has changed
-    bool update(const Scene* scene);
+    bool update(const Scene* scene, const Surface* followed = nullptr);
 
     /// Forgets everything: the case is closed.
     void clear();
@@ -74,7 +75,7 @@ public:
 
     /// Whether a plane is shown in the 3D view.
     [[nodiscard]] bool in_space(SlicePlane plane) const {
-        return space_[number(plane)] && has_image();
+        return space_[number(plane)] && has_image() && !(until_surface_ && surface_);
     }
 
     [[nodiscard]] bool any_in_space() const;
@@ -146,7 +147,7 @@ private:
     }
 
     [[nodiscard]] static Made made(Task task);
-    void show_first_image();
+    void show_first_image(const std::optional<Surface>& surface);
     void take_image(const Image& image, const Scene& scene);
     void take_surface(const std::optional<Surface>& surface);
     void take_figures(const ImageFigures& figures);

@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/window/model/later_edits.h"
 #include "workbench/window/model/readable.h"
 
 namespace vesselbench {
@@ -13,13 +14,6 @@ namespace {
 
 constexpr double kPatience = 0.25;   ///< with a question, before a newer one ends it [s]
 constexpr double kSameShape = 1e-5;  ///< by the diagonal: a device's rounding stays below it [-]
-
-/// The last edit of the shown variant behind a step; null: none.
-const HistoryEntry* edit_behind(const std::vector<HistoryEntry>& line, Step step) {
-    const auto found = std::ranges::find_if(
-        line, [&](const HistoryEntry& entry) { return entry.place.step > step; });
-    return found == line.end() ? nullptr : &*found;
-}
 
 std::map<std::string, double> numbers_in(const Arguments& arguments) {
     std::map<std::string, double> numbers;

@@ -31,7 +31,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
       slices_(options.wake),
       wake_(options.wake),
       live_(options.wake),
-      quality_(std::move(options.wake)) {}
+      quality_(options.wake),
+      extraction_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -51,11 +52,11 @@ bool Workplace::update() {
         if (applied_form_ == form_number_) end_applied_form();
     }
     tell_difference();
-    const bool new_slices = slices_.update(document.shown());
     const bool compared = comparison_ && document.is_open() && comparison_->update(document);
     const bool places = update_places();
     const bool view_data = view_data_.update(document, view, settings.layers);
     const bool live = update_live();
+    const bool new_slices = update_slices();
     return live || view_data || places || new_slices || compared || changed;
 }
 
@@ -66,7 +67,14 @@ bool Workplace::update_live() {
                                            .colouring = view.colouring};
     const bool live = live_.update(followed);
     const bool quality = quality_.update(followed, live_, is_driving());
-    return live || quality;
+    const bool extraction = extraction_.update(followed);
+    return live || quality || extraction;
+}
+
+/// The outline in the slices is that of the surface in the view.
+bool Workplace::update_slices() {
+    const auto& followed = extraction_.shown();
+    return slices_.update(document.shown(), followed ? &followed->state.surface : nullptr);
 }
 
 void Workplace::end_applied_form() {
@@ -258,6 +266,7 @@ void Workplace::reset_form() {
 void Workplace::leave_form() {
     looked_at_.reset();
     live_.follow(false);
+    extraction_.follow(false);
     applied_live_.reset();
     document.drop_preview();
     if (form_) document.forget_failure();
@@ -375,7 +384,7 @@ void Workplace::stop_comparing() {
 
 void Workplace::begin_drag() {
     before_drag_ = form_;
-    driving_ = false;
+    driving_ = sliding_ = false;
 }
 
 void Workplace::drag(const std::vector<FieldText>& texts) {
@@ -388,6 +397,7 @@ void Workplace::cancel_drag() {
     if (!form_ || !before) return;
     for (const FormField& field : before->fields()) set_field(field.parameter->name, field.text);
     if (std::exchange(driving_, false)) live_.cancel_drive();
+    if (std::exchange(sliding_, false)) extraction_.cancel_slide();
 }
 
 // --- smoothing by the mouse
@@ -407,6 +417,26 @@ void Workplace::begin_driving() {
 
 void Workplace::drive(const DriveReach& reach) {
     if (is_driving()) drag(live_.drive(*before_drag_, reach));
+}
+
+// --- sliding the iso-value
+
+void Workplace::follow_extraction(bool on) {
+    extraction_.follow(on);
+    if (extraction_.follows()) slices_.show_row(true);
+}
+
+void Workplace::begin_sliding() {
+    if (!form_ || !extraction_.can_follow() || !document.can(RequestKind::Preview)) return;
+    begin_drag();
+    sliding_ = true;
+    document.drop_preview();
+    extraction_.begin_slide();
+    slices_.show_row(true);
+}
+
+void Workplace::slide(double iso) {
+    if (is_sliding()) drag(extraction_.iso_texts(*before_drag_, iso));
 }
 
 // --- openings that are clicked

@@ -13,6 +13,7 @@
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/image_slices.h"
+#include "workbench/window/model/live_extraction.h"
 #include "workbench/window/model/live_smoothing.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
@@ -230,6 +231,26 @@ public:
     /// \param reach since begin_driving()
     void drive(const DriveReach& reach);
 
+    // --- sliding the iso-value
+
+    /// The surface of the image, which follows the form that extracts it.
+    [[nodiscard]] LiveExtraction& extraction() { return extraction_; }
+
+    [[nodiscard]] const LiveExtraction& extraction() const { return extraction_; }
+
+    /// Begins or ends to show what the form says, also in the slices.
+    void follow_extraction(bool on);
+
+    /// As begin_drag(), and the surface follows the form from now on.
+    void begin_sliding();
+
+    [[nodiscard]] bool is_sliding() const { return sliding_ && before_drag_; }
+
+    void slide(double iso);
+
+    /// True if a model or a surface can follow the form.
+    [[nodiscard]] bool has_live_form() const { return live_.has_form() || extraction_.has_form(); }
+
     // --- openings that are clicked
 
     /// Adds an opening to the form's openings, or takes it away; or asks for its role, if the form
@@ -268,6 +289,7 @@ public:
 private:
     void renew_lists();
     [[nodiscard]] bool update_live();
+    [[nodiscard]] bool update_slices();
     void end_applied_form();
     void tell_difference();
     [[nodiscard]] bool update_places();
@@ -305,6 +327,8 @@ private:
     std::optional<OperationForm> before_drag_;
     LiveSmoothing live_;
     QualityAnalysis quality_;
+    LiveExtraction extraction_;
+    bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called
     std::shared_ptr<const Positions> applied_to_;    ///< of the model at that time

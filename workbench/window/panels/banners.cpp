@@ -1,5 +1,7 @@
 #include "workbench/window/panels/banners.h"
 
+#include <algorithm>
+
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
@@ -166,6 +168,29 @@ void draw_live(PanelContext& c, ScreenRect& place) {
     if (draw_banner(c, "live", banner, place) == Answer::Close) c.place.live().follow(false);
 }
 
+std::string extraction_text(const PanelContext& c) {
+    const LiveExtraction& extraction = c.place.extraction();
+    if (!extraction.problem().empty()) return readable_sentence(extraction.problem());
+    if (!extraction.shown()) return "Extracting the surface";
+    return extraction.outdated() ? "Live preview, coarse" : "Live preview, not applied yet";
+}
+
+/// No wider than its words: the slices leave the view little height, and the vessel is seen beside
+/// it.
+void draw_extraction(PanelContext& c, ScreenRect& place) {
+    const bool failed = !c.place.extraction().problem().empty();
+    const Banner banner{failed ? icons::kWarning : icons::kPreview,
+                        failed ? c.ui.theme.warning : c.ui.theme.accent, extraction_text(c), "",
+                        true};
+    const float wide = ImGui::CalcTextSize(banner.text.c_str()).x + c.ui.em * 7;
+    const float spare = std::max(place.width - wide, 0.0F);
+    place.x += spare;
+    place.width -= spare;
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner.live", place);
+    if (draw_banner(c, "live", banner, place) == Answer::Close) c.place.follow_extraction(false);
+}
+
 }  // namespace
 
 void draw_banners(PanelContext& c, const ScreenRect& view) {
@@ -200,6 +225,8 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_preview(c, place);
     else if (c.place.live().follows())
         draw_live(c, place);
+    else if (c.place.extraction().follows())
+        draw_extraction(c, place);
 }
 
 }  // namespace vesselbench

@@ -9,6 +9,7 @@
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/extraction_panel.h"
 #include "workbench/window/panels/form_fields.h"
 #include "workbench/window/panels/live_panel.h"
 #include "workbench/window/panels/message_panel.h"
@@ -83,6 +84,10 @@ void draw_list(PanelContext& c, const ScreenRect& rect) {
     end_frame();
 }
 
+bool shows_live(const PanelContext& c) {
+    return c.place.has_live_form() && c.shown.form == FormTab::Live;
+}
+
 void draw_title(PanelContext& c, const OperationForm& form) {
     if (icon_button(c.ui, "operation.back", icons::kLeft, "Back to the operations"))
         return c.place.leave_form();
@@ -144,8 +149,11 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
-    if (c.place.live().has_form() && c.shown.form == FormTab::Live)
-        return wrapped(c.ui, "Drag in a graph, or with the right button in the view.",
+    if (shows_live(c))
+        return wrapped(c.ui,
+                       c.place.live().has_form()
+                           ? "Drag in a graph, or with the right button in the view."
+                           : "Drag in the histogram: the surface follows.",
                        c.ui.theme.muted);
     wrapped(c.ui,
             c.place.can_paint()
@@ -225,7 +233,7 @@ void draw_removal(PanelContext& c, EditId edit) {
 
 /// Of what explains fields: where none are seen, graphs need the room.
 float advice_height(const PanelContext& c) {
-    const bool graphs = c.place.live().has_form() && c.shown.form == FormTab::Live;
+    const bool graphs = shows_live(c);
     return c.ui.em * (graphs && !c.place.document.failure() ? 2.5F : 7.5F);
 }
 
@@ -262,14 +270,16 @@ void draw_tab(PanelContext& c, const std::string& name, const std::string& label
 
 /// What the form says, or what comes of it. \return the parameter to be explained; null: none
 const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
-    if (!c.place.live().has_form() || c.shown.form == FormTab::Fields)
-        return draw_form_fields(c, form);
-    draw_live_panel(c, form);
+    if (!shows_live(c)) return draw_form_fields(c, form);
+    if (c.place.live().has_form())
+        draw_live_panel(c, form);
+    else
+        draw_extraction_panel(c, form);
     return nullptr;
 }
 
 void draw_tabs(PanelContext& c) {
-    if (!c.place.live().has_form()) return;
+    if (!c.place.has_live_form()) return;
     draw_tab(c, "form.fields", "Parameters", FormTab::Fields);
     ImGui::SameLine();
     draw_tab(c, "form.live", "Live", FormTab::Live);

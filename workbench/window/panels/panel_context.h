@@ -29,7 +29,7 @@ struct NoteInProgress {
 /// Which parts of the window are shown.
 struct Shown {
     BottomTab bottom = BottomTab::History;
-    FormTab form = FormTab::Fields;  ///< of forms that smooth
+    FormTab form = FormTab::Fields;  ///< of forms that can be followed live
     QualityView quality = QualityView::Graphs;
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare

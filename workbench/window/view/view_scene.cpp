@@ -36,6 +36,13 @@ double line_width(const Ui& ui) {
     return std::max(1.0, ui.em / 15.0);
 }
 
+/// What follows a form; null: nothing does.
+std::shared_ptr<const Surface> followed_surface(const Workplace& place) {
+    if (const auto& live = place.live().shown()) return {live, &live->state.surface};
+    if (const auto& found = place.extraction().shown()) return {found, &found->state.surface};
+    return nullptr;
+}
+
 int pixels(float length) {
     return std::max(1, static_cast<int>(length));
 }
@@ -62,6 +69,7 @@ void ViewScene::forget(PanelContext& c) {
     image_box_.reset();
     seen_scenes_ = -1;
     live_.reset();
+    followed_.reset();
     target_.reset();
     texture_ = 0;
     drawn_.reset();
@@ -93,21 +101,23 @@ bool ViewScene::take_room(PanelContext& c, const ScreenRect& area) {
 /// \return true if another surface is shown
 bool ViewScene::take_model(PanelContext& c) {
     Document& document = c.place.document;
-    const auto live = c.place.live().shown();
-    if (seen_scenes_ != document.scene_changes() || (live_ && !live)) {
+    const auto followed = followed_surface(c.place);
+    if (seen_scenes_ != document.scene_changes() || (followed_ && !followed)) {
         seen_scenes_ = document.scene_changes();
         static_cast<void>(document.take_moves());
         model_.show(document.shown());
         drawn_.reset();
     }
     for (const SceneMove& move : document.take_moves()) model_.move(move);
-    if (live && live != live_) model_.reshape(live->state.surface);
-    live_ = live;
+    if (followed && followed != followed_) model_.reshape(*followed);
+    followed_ = followed;
+    live_ = c.place.live().shown();
     choose_colours(c);
+    const bool first = surface() == nullptr;
     if (!model_.update()) return false;
     drawn_.reset();
     ++models_;
-    return model_.is_new() && !live_;
+    return model_.is_new() && (!followed_ || first);
 }
 
 void ViewScene::choose_colours(PanelContext& c) {

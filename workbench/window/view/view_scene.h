@@ -147,7 +147,8 @@ private:
     bool inside_ = false;
     std::optional<std::uint32_t> lit_patch_;
     int seen_scenes_ = -1;
-    std::shared_ptr<const LiveModel> live_;  ///< that is shown; null: the document's scene
+    std::shared_ptr<const LiveModel> live_;    ///< that is smoothed; null: none
+    std::shared_ptr<const Surface> followed_;  ///< shown instead of the document's; null: none
     int models_ = 0;
     std::optional<RenderTarget> target_;
     unsigned texture_ = 0;

@@ -109,7 +109,8 @@ void draw_legend(const PanelContext& c, const ViewScene& scene) {
     if (!legend || scene.compared().hides_model()) return;
     ScreenRect place = scene.rect();
     if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;  // below its banner
-    if (c.place.live().follows()) place.y += c.ui.em * 3.5F;          // below its banner
+    const bool live = c.place.live().follows() || c.place.extraction().follows();
+    if (live) place.y += c.ui.em * 3.5F;  // below its banner
     draw_colour_legend(c.ui, place, *legend);
 }
 

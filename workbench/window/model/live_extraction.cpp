@@ -1,0 +1,172 @@
+#include "workbench/window/model/live_extraction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/window/model/later_edits.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr double kPatience = 0.25;  ///< with a question, before a newer one ends it [s]
+
+constexpr const char *kSide = "inside", *kBelow = "below";  ///< a parameter, and its value
+
+/// A value with the digits that a thousandth of a range asks for.
+std::string rounded_text(double value, double range) {
+    const double digits = std::ceil(3.0 - std::log10(std::max(range, 1e-12)));
+    const int decimals = static_cast<int>(std::clamp(digits, 0.0, 12.0));
+    return formatted(value, ("%." + std::to_string(decimals) + "f").c_str());
+}
+
+/// Makes the source's surface of an image that is loaded already.
+bool extracts(const Operation& operation) {
+    return operation.recipe.makes_source && !operation.recipe.loads;
+}
+
+/// The parameter that has the iso-value: of two synonyms the one that is given, else the first.
+std::string iso_parameter(const OperationForm& form) {
+    return form.field("iso").text.empty() ? "threshold" : "iso";
+}
+
+std::string reason_against(const LiveSmoothing::Followed& followed) {
+    const Document& document = followed.document;
+    const Scene* scene = document.current();
+    if (scene == nullptr || !scene->image || scene->image->empty()) return "there is no image yet";
+    if (!document.snapshot()) return "no case is open";
+    const auto line = document.snapshot()->history->line(document.variant());
+    const auto edit = followed.form->edit();
+    // The last edit leaves the image as it found it; another one's may have been changed since.
+    if (edit && (line.empty() || line.back().edit.id != *edit))
+        return "edits follow the one being changed: use Preview";
+    if (!edit && edit_behind(line, followed.step) != nullptr)
+        return "edits of later steps follow: use Preview";
+    return "";
+}
+
+std::shared_ptr<const std::vector<float>> voxels_of(const std::optional<Image>& image) {
+    return image ? image->voxels : nullptr;
+}
+
+}  // namespace
+
+LiveExtraction::LiveExtraction(std::function<void()> wake)
+    : models_(std::move(wake), live_extracting()) {}
+
+// --- following the form
+
+/// Another image, or another mask, has another number.
+void LiveExtraction::take_base(const Document& document) {
+    const Scene* scene = document.current();
+    const auto image = scene == nullptr ? nullptr : voxels_of(scene->image);
+    const auto mask = scene == nullptr ? nullptr : voxels_of(scene->mask);
+    if (image == base_image_ && mask == base_mask_) return;
+    base_image_ = image;
+    base_mask_ = mask;
+    ++base_;
+    histogram_.reset();
+    shown_.reset();
+    models_.forget();
+}
+
+bool LiveExtraction::update(const LiveSmoothing::Followed& followed) {
+    const Operation* operation = followed.form != nullptr && extracts(followed.form->operation())
+                                     ? &followed.form->operation()
+                                     : nullptr;
+    has_form_ = operation != nullptr;
+    if (std::exchange(operation_, operation) != operation || !has_form_) {
+        follow(false);
+        began_ = false;
+    }
+    if (!has_form_) {
+        why_not_.clear();
+        return models_.update();
+    }
+    take_base(followed.document);
+    why_not_ = reason_against(followed);
+    if (!why_not_.empty()) follow(false);
+    const bool changed = models_.update();
+    if (changed) take_findings();
+    if (on_) ask(followed);
+    const bool seen = on_ && !followed.document.previewed();
+    const auto before = std::exchange(shown_, seen ? models_.newest() : nullptr);
+    return changed || before != shown_;
+}
+
+/// What stays known while nothing is followed.
+void LiveExtraction::take_findings() {
+    if (!model()) return;
+    histogram_ = model()->histogram;
+    has_iso_ = model()->state.threshold.has_value();
+}
+
+bool LiveExtraction::begins() {
+    return can_follow() && !std::exchange(began_, true);
+}
+
+/// True while the coarse surface of the last question is about to come: values that change in every
+/// frame would otherwise keep all of them from being seen. What follows it gives way at once.
+bool LiveExtraction::is_worked_on() const {
+    const auto& newest = models_.newest();
+    const bool answered = newest && newest->question == question_;
+    return models_.pending() && !answered && since_asked_.seconds() < kPatience;
+}
+
+void LiveExtraction::ask(const LiveSmoothing::Followed& followed) {
+    const OperationForm& form = *followed.form;
+    const Asked now{base_, form.changes()};
+    if (now == asked_ || !form.valid() || is_worked_on()) return;
+    asked_ = now;
+    since_asked_ = {};
+    const Scene& scene = *followed.document.current();
+    question_ = models_.ask({.image = *scene.image,
+                             .mask = scene.mask,
+                             .base = base_,
+                             .arguments = checked_arguments(form.operation(), form.arguments())});
+}
+
+void LiveExtraction::follow(bool on) {
+    if (on_ == on || (on && !can_follow())) return;
+    on_ = on;
+    asked_ = {};
+    if (on) return;
+    shown_.reset();
+    models_.forget();
+}
+
+bool LiveExtraction::outdated() const {
+    return shown_ && (shown_->question != question_ || !shown_->state.whole);
+}
+
+// --- the iso-value
+
+std::optional<double> LiveExtraction::iso(const OperationForm& form) const {
+    if (const auto typed = number_of(form, iso_parameter(form))) return typed;
+    return model() ? model()->state.threshold : std::nullopt;
+}
+
+std::vector<FieldText> LiveExtraction::iso_texts(const OperationForm& form, double iso) const {
+    const double range = histogram_ ? histogram_->most - histogram_->least : 1.0;
+    std::vector<FieldText> texts = {{iso_parameter(form), rounded_text(iso, range)}};
+    if (form.field(kSide).text.empty() && is_below(form)) texts.push_back({kSide, kBelow});
+    return texts;
+}
+
+bool LiveExtraction::is_below(const OperationForm& form) const {
+    const std::string& side = form.field(kSide).text;
+    return side.empty() ? model() && model()->state.inside_below : side == kBelow;
+}
+
+void LiveExtraction::begin_slide() {
+    on_before_slide_ = on_;
+    follow(true);
+}
+
+void LiveExtraction::cancel_slide() {
+    if (!on_before_slide_) follow(false);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "workbench/window/panels/panel_context.h"
+
+namespace vesselbench {
+
+/// The form's tab in which the iso-value is slid over the image's histogram, and the surface
+/// follows.
+void draw_extraction_panel(PanelContext& context, const OperationForm& form);
+
+}  // namespace vesselbench
