@@ -179,6 +179,7 @@ SCENARIO("The surface follows other fields, and can be left alone", "[window][ex
     const auto window = window_on(Screen::None);
     if (!window) return;
     open_extraction(*window, 40);
+    window->app().place().slices().show_row(false);
     begin(*window);
     const auto first = extraction_of(*window).shown();
     CHECK(window->app().place().slices().in_row());
@@ -213,6 +214,10 @@ SCENARIO("The surface follows other fields, and can be left alone", "[window][ex
         choose(*window, "source", "extract-surface");
         window->frame();
         CHECK(extraction_of(*window).follows());
+    }
+    THEN("the slices are as they were when the form is left") {
+        window->app().place().leave_form();
+        CHECK_FALSE(window->app().place().slices().in_row());
     }
     THEN("an edit that others follow is not followed") {
         apply_form(*window);

@@ -58,7 +58,7 @@ void ImageSlices::clear() {
     had_ = {};
     problem_.clear();
     ++image_version_;
-    row_ = typed_grey_ = was_shown_ = until_surface_ = false;
+    row_ = lent_row_ = typed_grey_ = was_shown_ = until_surface_ = false;
     space_.fill(false);
 }
 

@@ -69,9 +69,15 @@ public:
     // --- what is shown
 
     /// Whether the row of 2D views is shown.
-    [[nodiscard]] bool in_row() const { return row_ && has_image(); }
+    [[nodiscard]] bool in_row() const { return (row_ || lent_row_) && has_image(); }
 
-    void show_row(bool shown) { row_ = shown; }
+    void show_row(bool shown) {
+        row_ = shown;
+        lent_row_ = false;
+    }
+
+    /// Shows the row for as long as a form needs it; afterwards it is as it was before.
+    void lend_row(bool shown) { lent_row_ = shown; }
 
     /// Whether a plane is shown in the 3D view.
     [[nodiscard]] bool in_space(SlicePlane plane) const {
@@ -165,6 +171,7 @@ private:
     std::array<std::optional<Wish>, 3> had_;  ///< what the contents were made for
     int image_version_ = 0, surface_version_ = 0;
     bool row_ = false;
+    bool lent_row_ = false;
     bool was_shown_ = false;      ///< the image of this case
     bool until_surface_ = false;  ///< the planes were not asked for
     std::array<bool, 3> space_ = {false, false, false};

@@ -77,7 +77,7 @@ std::vector<KeyRow> view_rows() {
             {group, "pan", "Middle or Shift+left drag"},
             {group, "zoom to the cursor", "Wheel"},
             {group, "set the centre", "Double click"},
-            {group, "in Smooth's form: drive two of its fields", "Right drag"},
+            {group, "in Smooth's form: drive two fields", "Right drag"},
             {group, "in Smooth's form: drive a third", "Shift+right drag"},
             {group,
              "from front, side, above",

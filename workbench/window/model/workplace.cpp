@@ -267,6 +267,7 @@ void Workplace::leave_form() {
     looked_at_.reset();
     live_.follow(false);
     extraction_.follow(false);
+    slices_.lend_row(false);
     applied_live_.reset();
     document.drop_preview();
     if (form_) document.forget_failure();
@@ -423,7 +424,7 @@ void Workplace::drive(const DriveReach& reach) {
 
 void Workplace::follow_extraction(bool on) {
     extraction_.follow(on);
-    if (extraction_.follows()) slices_.show_row(true);
+    if (extraction_.follows()) slices_.lend_row(true);
 }
 
 void Workplace::begin_sliding() {
@@ -432,7 +433,7 @@ void Workplace::begin_sliding() {
     sliding_ = true;
     document.drop_preview();
     extraction_.begin_slide();
-    slices_.show_row(true);
+    slices_.lend_row(true);
 }
 
 void Workplace::slide(double iso) {

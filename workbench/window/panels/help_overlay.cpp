@@ -52,19 +52,19 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     wrapped(ui, kFirstSteps, ui.theme.text, false);
     space(ui, 3);
     const float half = ImGui::GetContentRegionAvail().x / 2;
-    ImGui::BeginChild("editing", {half, 0});
+    ImGui::BeginGroup();
     draw_keys(ui, "Editing", KeyGroup::Editing);
     space(ui, 2);
     draw_keys(ui, "Brushes", KeyGroup::Brushes);
     space(ui, 2);
     draw_keys(ui, "Slices", KeyGroup::Slices);
-    ImGui::EndChild();
-    ImGui::SameLine(0, 0);
-    ImGui::BeginChild("viewing");
+    ImGui::EndGroup();
+    ImGui::SameLine(half);
+    ImGui::BeginGroup();
     draw_keys(ui, "View", KeyGroup::View);
     space(ui, 2);
     draw_keys(ui, "View modes", KeyGroup::Modes);
-    ImGui::EndChild();
+    ImGui::EndGroup();
     ImGui::EndChild();
     end_frame();
 }
