@@ -14,11 +14,10 @@ namespace {
 void draw_keys(const Ui& ui, const std::string& title, KeyGroup group) {
     group_heading(ui, title);
     space(ui, 1);
-    const float left = ImGui::GetCursorPosX();
     for (const KeyRow& row : key_table()) {
         if (row.group != group) continue;
         text(ui, keys_text(row), ui.theme.text);
-        ImGui::SameLine(left + ui.em * 12);
+        ImGui::SameLine(ui.em * 12);  // from the group's left
         text(ui, row.meaning, ui.theme.muted);
     }
 }
