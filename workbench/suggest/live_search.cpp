@@ -86,7 +86,7 @@ void LiveSearch::answer(const Arguments& given, ScoreSettings score, const Recei
     progress.check_cancelled();
     take_best(now, arguments, score);
     graphs_->set_score(score);
-    const auto send = [&](const LiveAnswer& answer) {
+    const auto send = [&](const StepwiseAnswer& answer) {
         Answer out{.analysis = answer.analysis,
                    .filter = arguments.text(operation_.search.filter_parameter),
                    .complete = answer.complete};

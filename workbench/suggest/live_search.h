@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "smoothing/quality/live_analysis.h"
+#include "smoothing/quality/stepwise_analysis.h"
 #include "workbench/suggest/search_subject.h"
 
 namespace vesselbench {
