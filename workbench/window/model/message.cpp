@@ -5,6 +5,7 @@
 
 #include "workbench/operations/table.h"
 #include "workbench/window/model/local_time.h"
+#include "workbench/window/model/readable.h"
 
 namespace vesselbench {
 
@@ -48,6 +49,7 @@ std::optional<Vec3> place_in(const std::string& text) {
 }
 
 Message make_message(MessageKind kind, std::string text, const std::string& failed) {
+    if (kind == MessageKind::Error) text = readable_sentence(std::move(text));
     Message message{.kind = kind, .text = std::move(text), .time = local_time("%H:%M:%S")};
     message.place = place_in(message.text);
     if (kind == MessageKind::Error || kind == MessageKind::Warning)

@@ -131,7 +131,7 @@ std::string need_of(const OperationForm& form) {
     for (const FormField& field : form.fields())
         if (field.parameter->required && field.text.empty())
             return readable(field.parameter->name) + " is needed: " + field.parameter->help + ".";
-    return form.error();
+    return readable_sentence(form.error());
 }
 
 /// Why the operation cannot run, or the help of a parameter: always in the same place.
