@@ -1,5 +1,6 @@
 #include "workbench/window/model/message.h"
 
+#include <algorithm>
 #include <cctype>
 #include <regex>
 
@@ -26,6 +27,13 @@ std::size_t find_word(const std::string& text, const std::string& word) {
     return std::string::npos;
 }
 
+/// Not with the name of a file or of an operation, which stay as they are.
+bool begins_with_word(const std::string& text) {
+    const std::string first = text.substr(0, text.find_first_of(" ,:"));
+    return std::ranges::all_of(
+        first, [](unsigned char letter) { return std::isalpha(letter) != 0 || letter == '\''; });
+}
+
 }  // namespace
 
 std::string remedy_in(const std::string& text, const std::string& failed) {
@@ -49,7 +57,8 @@ std::optional<Vec3> place_in(const std::string& text) {
 }
 
 Message make_message(MessageKind kind, std::string text, const std::string& failed) {
-    if (kind == MessageKind::Error) text = readable_sentence(std::move(text));
+    if (kind == MessageKind::Error && begins_with_word(text))
+        text = readable_sentence(std::move(text));
     Message message{.kind = kind, .text = std::move(text), .time = local_time("%H:%M:%S")};
     message.place = place_in(message.text);
     if (kind == MessageKind::Error || kind == MessageKind::Warning)
