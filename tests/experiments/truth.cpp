@@ -5,6 +5,13 @@
 //                                         isotropic remeshing to EDGE mm), taubin.vtp (the same
 //                                         with Taubin's filter)
 //   truth judge EXACT RESULT TRUTH.json   prints how near the result is to the exact surface
+//
+// and for scripts/experiments:
+//
+//   truth smooth WAY SURFACE IMAGE OUT    writes what VTK's windowed sinc (sinc) or InVesalius's
+//                                         context-aware smoothing (context) make of the surface of
+//                                         an image
+//   truth distance EXACT RESULT [TRUTH.json]   prints how far the surfaces are apart
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +30,7 @@
 #include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/whole_file.h"
@@ -30,6 +38,7 @@
 #include "geometry/vessel/openings/crop_surface.h"
 #include "smoothing/filters/taubin.h"
 #include "tests/bench/peer_meshes.h"
+#include "tests/bench/reference_context_smoothing.h"
 #include "tests/bench/reference_remeshing.h"
 
 namespace vesselbench {
@@ -95,6 +104,21 @@ void write_peers(const std::string& image, double level, double edge, const std:
     write_surface(bench::cgal_isotropic(even, edge).surface, folder + "/taubin.vtp");
 }
 
+Surface context_aware(const Surface& surface, const Image& image) {
+    const Eigen::Matrix3d steps = image.index_to_patient.topLeftCorner<3, 3>();
+    const auto weights = bench::context_weights(surface, steps.colwise().normalized());
+    return surface.with_positions(
+        bench::context_smoothed(surface, weights, bench::ContextSmoothing{}.steps));
+}
+
+void write_smoothed(const std::string& way, const std::string& surface, const std::string& image,
+                    const std::string& out) {
+    const Surface raw = read_surface(surface, LengthUnit::Millimetre).surface;
+    if (way != "sinc" && way != "context")
+        throw InvalidInput("way '" + way + "' is unknown: use sinc or context");
+    write_surface(way == "sinc" ? windowed_sinc(raw) : context_aware(raw, read_image(image)), out);
+}
+
 /// What the truth's file says beside the exact surface.
 struct Truth {
     struct Ball {
@@ -105,6 +129,8 @@ struct Truth {
     std::vector<Ball> ends;                                 ///< that do not count
     std::optional<Ball> sac;                                ///< around it
     Vec3 neck = Vec3::Zero(), neck_normal = Vec3::UnitZ();  ///< plane, normal to the sac
+
+    Truth() = default;
 
     explicit Truth(const Json& json) {
         const auto vec = [](const Json& n) { return Vec3(n.at(0), n.at(1), n.at(2)); };
@@ -203,11 +229,22 @@ Json sac_json(const Surface& surface, const Truth& truth) {
             {"neck", inside(in_plane) * step * step}};
 }
 
+Truth truth_in(const std::string& file) {
+    return Truth(Json::parse(file_content(file)));
+}
+
+void print_distances(const std::string& exact_file, const std::string& result_file,
+                     const Truth& truth) {
+    const Surface exact = read_surface(exact_file, LengthUnit::Millimetre).surface;
+    const Surface result = read_surface(result_file, LengthUnit::Millimetre).surface;
+    std::puts(distances_json(exact, result, truth).dump(2).c_str());
+}
+
 void judge(const std::string& exact_file, const std::string& result_file,
            const std::string& truth_file) {
     const Surface exact = read_surface(exact_file, LengthUnit::Millimetre).surface;
     const Surface result = read_surface(result_file, LengthUnit::Millimetre).surface;
-    const Truth truth(Json::parse(file_content(truth_file)));
+    const Truth truth = truth_in(truth_file);
     Json found = {{"distance", distances_json(exact, result, truth)},
                   {"radius", radius_json(exact, result, truth)},
                   {"edge", mean_edge_length(result)}};
@@ -216,24 +253,35 @@ void judge(const std::string& exact_file, const std::string& result_file,
     std::puts(found.dump(2).c_str());
 }
 
+/// False if the words are none of the commands above.
+bool obey(const std::vector<std::string>& words) {
+    const std::string command = words.empty() ? "" : words[0];
+    if (command == "peers" && words.size() == 5)
+        write_peers(words[1], std::stod(words[2]), std::stod(words[3]), words[4]);
+    else if (command == "judge" && words.size() == 4)
+        judge(words[1], words[2], words[3]);
+    else if (command == "smooth" && words.size() == 5)
+        write_smoothed(words[1], words[2], words[3], words[4]);
+    else if (command == "distance" && (words.size() == 3 || words.size() == 4))
+        print_distances(words[1], words[2], words.size() == 4 ? truth_in(words[3]) : Truth());
+    else
+        return false;
+    return true;
+}
+
 }  // namespace
 
 }  // namespace vesselbench
 
 int main(int argc, char** argv) {
-    const std::vector<std::string> words(argv + 1, argv + argc);
     try {
-        if (words.size() == 5 && words[0] == "peers")
-            vesselbench::write_peers(words[1], std::stod(words[2]), std::stod(words[3]), words[4]);
-        else if (words.size() == 4 && words[0] == "judge")
-            vesselbench::judge(words[1], words[2], words[3]);
-        else
-            return std::fputs(
-                       "truth peers IMAGE LEVEL EDGE FOLDER | judge EXACT RESULT TRUTH.json\n",
-                       stderr),
-                   2;
+        if (vesselbench::obey({argv + 1, argv + argc})) return 0;
+        std::fputs(
+            "truth peers IMAGE LEVEL EDGE FOLDER | judge EXACT RESULT TRUTH.json | smooth "
+            "sinc|context SURFACE IMAGE OUT | distance EXACT RESULT [TRUTH.json]\n",
+            stderr);
+        return 2;
     } catch (const std::exception& error) {
         return std::fprintf(stderr, "%s\n", error.what()), 1;
     }
-    return 0;
 }
