@@ -3,6 +3,7 @@
 //   window_screenshots PROGRAM FOLDER [WORD]...   only the screens whose names contain a word
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
 #include "tests/window/random_user.h"
@@ -110,6 +112,27 @@ public:
         shell.settle(10s);
     }
 
+    /// Makes a spot of the place of the model that is seen where a point is.
+    void click_model(const Vec3& point) {
+        const auto& items = shell.app().ui().items();
+        ScreenRect room = items.at("view.area").rect;
+        room.width = items.at("gallery.cell.0").rect.x - room.x;
+        if (const auto at = on_screen(shell.app().camera(), room).place(point))
+            shell.click(static_cast<float>(at->x()), static_cast<float>(at->y()));
+        shell.settle(10s);
+    }
+
+    /// The place of the model nearest to the eye at a share of its height.
+    Vec3 front_at(double share) {
+        const Surface& surface = *shell.app().place().document.current()->surface;
+        const Bounds box = bounds(surface);
+        const double z = box.min.z() + share * (box.max.z() - box.min.z());
+        const auto depth = [&](const Vec3& point) {
+            return std::abs(point.z() - z) > 1.0 ? 1e9 : point.dot(shell.app().camera().view);
+        };
+        return *std::ranges::min_element(surface.points(), {}, depth);
+    }
+
     void rest_mouse() { shell.move_mouse(-1e4F, -1e4F); }
 
     OffscreenShell shell;
@@ -170,6 +193,24 @@ void extraction(Photographer& p) {
     p.wait();
 }
 
+/// Suggestions side by side, and a spot magnified under each; the form's values stay.
+void gallery(Photographer& p) {
+    p.click("live.gallery");
+    p.wait();
+    p.rest_mouse();
+    p.take("gallery");
+    p.click("live.spots");
+    for (const double share : {0.25, 0.7}) {
+        if (!p.shell.app().place().gallery().picks()) p.click("spot.pick");
+        p.click_model(p.front_at(share));
+    }
+    p.fill("spot.name.1", "fork");
+    p.wait();
+    p.rest_mouse();
+    p.take("spots");
+    p.click("live.spots");
+}
+
 /// The surface as it comes from the image; the edit is undone afterwards.
 void live(Photographer& p) {
     p.click("rail.source");
@@ -191,6 +232,7 @@ void live(Photographer& p) {
     p.click("quality.view");
     p.click("quality.view=Graphs");
     p.click("view.deviation");
+    gallery(p);
     p.click("form.fields");
     p.click("operation.back");
     p.click("tool.undo");

@@ -45,6 +45,8 @@ enum class KeyCommand {
     Picture,
     NextWorst,
     PreviousWorst,
+    Gallery,
+    Spots,
     SwitchComparison,
     // the flight through a vessel
     Flight,

@@ -32,6 +32,7 @@ Workplace::Workplace(DocumentOptions options, Settings remembered)
       wake_(options.wake),
       live_(options.wake),
       quality_(options.wake),
+      gallery_(options.wake),
       extraction_(std::move(options.wake)) {}
 
 bool Workplace::update() {
@@ -45,6 +46,7 @@ bool Workplace::update() {
         choose_step(Step::Source);
         comparison_.reset();
         view = {};
+        gallery_.spots.open(document.project(), document.snapshot()->read_only_reason);
     }
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
     if (seen_entered_ != document.entered()) {
@@ -66,9 +68,12 @@ bool Workplace::update_live() {
                                            .step = step_,
                                            .colouring = view.colouring};
     const bool live = live_.update(followed);
-    const bool quality = quality_.update(followed, live_, is_driving());
+    if (view.flies) end_models_gallery();
+    const bool gallery = gallery_.update(followed, live_);
+    // Three suggestions that are waited for come first.
+    const bool quality = quality_.update(followed, live_, is_driving() || gallery_.searches());
     const bool extraction = extraction_.update(followed);
-    return live || quality || extraction;
+    return live || gallery || quality || extraction;
 }
 
 /// The outline in the slices is that of the surface in the view.
@@ -168,6 +173,8 @@ void Workplace::close() {
     stop_comparing();
     view = {};
     picture_file_.clear();
+    gallery_.show(GalleryMode::Off);
+    gallery_.spots.close();
     document.close();
     slices_.clear();
     settings.refresh();
@@ -292,6 +299,7 @@ bool Workplace::preview_is_current() const {
 
 void Workplace::preview() {
     if (!form_ || !form_->valid() || !document.can(RequestKind::Preview)) return;
+    end_models_gallery();
     previewed_changes_ = form_->changes();
     if (form_->edit())
         document.preview_change(*form_->edit(), form_->arguments());
@@ -345,6 +353,7 @@ std::string Workplace::command() const {
 void Workplace::arm(const std::string& parameter) {
     if (armed_ == parameter) return disarm();
     armed_ = parameter;
+    end_models_gallery();
     const std::optional<PickTarget> target = armed_target();
     if (target && is_in_slices(*target)) slices_.show_row(true);
     document.drop_preview();
@@ -373,6 +382,7 @@ void Workplace::pick_label(int label) {
 void Workplace::compare(StateId reference) {
     const bool again = comparison_ && comparison_->reference() == reference;
     stop_comparing();
+    gallery_.show(GalleryMode::Off);
     if (!again && document.is_open()) comparison_.emplace(reference, compare_mode_, wake_);
 }
 
@@ -410,6 +420,7 @@ bool Workplace::can_drive() const {
 
 void Workplace::begin_driving() {
     if (!can_drive()) return;
+    end_models_gallery();
     begin_drag();
     driving_ = true;
     document.drop_preview();
@@ -418,6 +429,34 @@ void Workplace::begin_driving() {
 
 void Workplace::drive(const DriveReach& reach) {
     if (is_driving()) drag(live_.drive(*before_drag_, reach));
+}
+
+// --- the gallery of suggestions
+
+void Workplace::show_gallery(GalleryMode mode) {
+    gallery_.toggle(mode);
+    if (gallery_.mode() == GalleryMode::Off) return;
+    stop_comparing();
+    view.flies = false;
+    if (mode != GalleryMode::Models) return;
+    disarm();
+    view.tool = MeasureTool::None;
+    document.drop_preview();
+}
+
+/// Whole models leave no room for what the view is asked to show.
+void Workplace::end_models_gallery() {
+    if (gallery_.mode() == GalleryMode::Models) gallery_.show(GalleryMode::Off);
+}
+
+void Workplace::take_suggestion(std::size_t i) {
+    const auto suggestion = gallery_.suggestion(i);
+    if (!form_ || !suggestion) return;
+    for (const FieldText& field : SuggestionGallery::texts(*form_, *suggestion))
+        set_field(field.parameter, field.text);
+    gallery_.took(*form_);
+    gallery_.show(GalleryMode::Off);
+    live_.follow(true);
 }
 
 // --- sliding the iso-value

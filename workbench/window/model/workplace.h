@@ -21,6 +21,7 @@
 #include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
+#include "workbench/window/model/suggestion_gallery.h"
 #include "workbench/window/model/unit_question.h"
 #include "workbench/window/model/view_data.h"
 #include "workbench/window/model/worst_places.h"
@@ -231,6 +232,19 @@ public:
     /// \param reach since begin_driving()
     void drive(const DriveReach& reach);
 
+    // --- the gallery of suggestions
+
+    [[nodiscard]] SuggestionGallery& gallery() { return gallery_; }
+
+    [[nodiscard]] const SuggestionGallery& gallery() const { return gallery_; }
+
+    /// Shows it, or ends it if it is shown in this mode; ends what else the view may show instead.
+    void show_gallery(GalleryMode mode);
+
+    /// Fills in the values of a suggestion, ends the gallery, and the model follows. Ignored while
+    /// it is not known.
+    void take_suggestion(std::size_t i);
+
     // --- sliding the iso-value
 
     /// The surface of the image, which follows the form that extracts it.
@@ -290,6 +304,7 @@ private:
     void renew_lists();
     [[nodiscard]] bool update_live();
     [[nodiscard]] bool update_slices();
+    void end_models_gallery();
     void end_applied_form();
     void tell_difference();
     [[nodiscard]] bool update_places();
@@ -327,6 +342,7 @@ private:
     std::optional<OperationForm> before_drag_;
     LiveSmoothing live_;
     QualityAnalysis quality_;
+    SuggestionGallery gallery_;
     LiveExtraction extraction_;
     bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse

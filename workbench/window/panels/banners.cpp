@@ -11,6 +11,7 @@
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/panels/unit_banner.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/gallery_view.h"
 #include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
@@ -191,6 +192,12 @@ void draw_extraction(PanelContext& c, ScreenRect& place) {
     if (draw_banner(c, "live", banner, place) == Answer::Close) c.place.follow_extraction(false);
 }
 
+/// Below the view's buttons: the magnified spots leave no room beside them.
+ScreenRect beside_spots(const Ui& ui, const ScreenRect& view, float gap) {
+    return {view.x + gap, view.y + 2 * gap + ImGui::GetFrameHeight() + ui.grid(1),
+            view.width - magnified_width(view) - 2 * gap, 0};
+}
+
 }  // namespace
 
 void draw_banners(PanelContext& c, const ScreenRect& view) {
@@ -199,6 +206,7 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
     const float gap = c.ui.grid(1.5F);
     const float tools = c.ui.em * 19.5F;  // the view's buttons
     ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
+    if (c.place.gallery().mode() == GalleryMode::Spots) place = beside_spots(c.ui, view, gap);
     if (document.failure() && !is_about_form(c)) {
         draw_failure(c, place);
         place.y += place.height + gap;
@@ -221,6 +229,7 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_pending(c, place, pending);
         place.y += place.height + gap;
     }
+    if (c.place.gallery().mode() == GalleryMode::Models) return;  // what they say is not seen
     if (document.previewed())
         draw_preview(c, place);
     else if (c.place.live().follows())

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/gallery_panel.h"
 #include "workbench/window/panels/quality_graphs.h"
 #include "workbench/window/widgets/controls.h"
 
@@ -55,6 +56,8 @@ void draw_live_panel(PanelContext& c, const OperationForm& form) {
     if (checkbox(c.ui, "live.follow", "The model follows the fields", on))
         c.place.live().follow(on);
     space(c.ui, 0.5F);
+    draw_gallery_panel(c);
+    space(c.ui, 1);
     draw_quality(c, form);
     space(c.ui, 1);
     draw_mouse(c, form);

@@ -52,6 +52,16 @@ KeyCommands pressed_keys(const PanelContext& c) {
     return keys;
 }
 
+/// \return false if there is none
+bool leave_gallery(SuggestionGallery& gallery) {
+    if (gallery.mode() == GalleryMode::Off) return false;
+    if (gallery.picks() && !gallery.spots.all().empty())
+        gallery.pick(false);
+    else
+        gallery.show(GalleryMode::Off);
+    return true;
+}
+
 void handle_escape(PanelContext& c) {
     if (c.shown.help || c.shown.prepare || c.shown.note) {
         c.shown.help = c.shown.prepare = false;
@@ -72,6 +82,8 @@ void handle_escape(PanelContext& c) {
         return;
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
+    } else if (leave_gallery(c.place.gallery())) {
+        return;
     } else if (c.place.comparison()) {
         c.place.stop_comparing();
     } else {
@@ -123,6 +135,8 @@ void handle_shortcuts(PanelContext& c) {
     handle_files(c);
     if (keys.has(KeyCommand::Preview)) c.place.preview();
     if (keys.has(KeyCommand::Apply)) c.place.apply();
+    if (keys.has(KeyCommand::Gallery)) c.place.show_gallery(GalleryMode::Models);
+    if (keys.has(KeyCommand::Spots)) c.place.show_gallery(GalleryMode::Spots);
     handle_image(c);
     handle_view_keys(c);
 }

@@ -50,17 +50,24 @@ int pixels(float length) {
 }  // namespace
 
 ViewScene::ViewScene(const std::function<void()>& wake, DrawingGuard& guard)
-    : guard_(guard), model_(wake), compared_(wake), branch_(wake), clip_(wake), overlays_(wake) {}
+    : guard_(guard),
+      model_(wake),
+      compared_(wake),
+      gallery_(wake),
+      branch_(wake),
+      clip_(wake),
+      overlays_(wake) {}
 
 bool ViewScene::pending() const {
-    return model_.pending() || compared_.pending() || branch_.pending() || clip_.pending() ||
-           overlays_.pending();
+    return model_.pending() || compared_.pending() || gallery_.pending() || branch_.pending() ||
+           clip_.pending() || overlays_.pending();
 }
 
 void ViewScene::forget(PanelContext& c) {
     model_.show(nullptr);
     static_cast<void>(model_.update());
     compared_.forget();
+    gallery_.forget();
     branch_.update(nullptr, nullptr, {});
     clip_.forget();
     overlays_.forget();
@@ -83,18 +90,21 @@ ViewScene::Change ViewScene::update(PanelContext& c, const ScreenRect& area) {
     guard_.run([&] { take_planes(c); });
     guard_.note(model_.problem());
     guard_.note(compared_.problem());
+    guard_.note(gallery_.problem());
     const bool image = image_box_ && surface() == nullptr && !model_.pending();
     if (another || image) return Change::Model;
     return room ? Change::Room : Change::None;
 }
 
-/// What is compared. \return true if it leaves another room to the model in the same view
+/// What is compared, or offered. \return true if it leaves another room to the model in the same
+/// view
 bool ViewScene::take_room(PanelContext& c, const ScreenRect& area) {
     compared_.update(c);
+    guard_.run([&] { gallery_.update(c, area); });
     const bool resized = area.width != area_.width;
     const float before = rect_.width;
     area_ = area;
-    rect_ = compared_.room_for_model(area);
+    rect_ = gallery_.is_on() ? gallery_.room_for_model() : compared_.room_for_model(area);
     return before != rect_.width && !resized;
 }
 
@@ -204,6 +214,7 @@ ViewScene::DrawnAs ViewScene::now(const Ui& ui) const {
             .branch = branch_.version(),
             .slices = planes_.space_version(),
             .compared = compared_.version(),
+            .gallery = gallery_.version(),
             .range = model_.colour_range(),
             .clip = clip_.version(),
             .overlays = overlays_.version(),
@@ -225,8 +236,9 @@ void ViewScene::draw_picture(Renderer& renderer, const Ui& ui) {
     target_->bind();
     SceneView view = scene_view(ui);
     view.rectangle.x = static_cast<int>(rect_.x - area_.x);
-    if (!compared_.hides_model()) renderer.draw(view, layers(ui));
+    if (!hides_model()) renderer.draw(view, layers(ui));
     compared_.draw(renderer, view, look_, line_width(ui));
+    gallery_.draw(renderer, view, look_, line_width(ui));
     texture_ = target_->resolve();
     drawn_ = wanted;
     ++drawings_;

@@ -11,6 +11,7 @@
 #include "workbench/window/view/clip_section.h"
 #include "workbench/window/view/comparison_view.h"
 #include "workbench/window/view/drawing_guard.h"
+#include "workbench/window/view/gallery_view.h"
 #include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/overlay_layers.h"
 #include "workbench/window/view/region_drawing.h"
@@ -74,12 +75,24 @@ public:
     [[nodiscard]] const ScreenRect& rect() const { return rect_; }
 
     /// From a place of the view to where the shown model would be seen there [pixels]: not 0 over
-    /// the reference of a comparison.
-    [[nodiscard]] float shift_at(float x) const { return compared_.shift_to_model(area_, x); }
+    /// the reference of a comparison,
+    /// or over the gallery's further models.
+    [[nodiscard]] float shift_at(float x) const {
+        return gallery_.is_on() ? gallery_.shift_to_model(x) : compared_.shift_to_model(area_, x);
+    }
+
+    /// True if others are drawn in place of the shown model.
+    [[nodiscard]] bool hides_model() const {
+        return compared_.hides_model() || gallery_.hides_model();
+    }
 
     [[nodiscard]] const ModelDrawing& model() const { return model_; }
 
     [[nodiscard]] const ComparisonView& compared() const { return compared_; }
+
+    [[nodiscard]] const GalleryView& gallery() const { return gallery_; }
+
+    [[nodiscard]] GalleryView& gallery() { return gallery_; }
 
     [[nodiscard]] const ClipSection& clip() const { return clip_; }
 
@@ -116,6 +129,7 @@ private:
         int branch = 0;    ///< version of the highlight
         int slices = 0;    ///< version of the image's planes
         int compared = 0;  ///< version of the comparison's reference
+        int gallery = 0;   ///< version of the suggestions
         ValueRange range;
         int clip = 0;      ///< version of the clip plane and its section
         int overlays = 0;  ///< version of theirs
@@ -134,6 +148,7 @@ private:
     DrawingGuard& guard_;
     ModelDrawing model_;
     ComparisonView compared_;
+    GalleryView gallery_;
     BranchHighlight branch_;
     ClipSection clip_;
     OverlayLayers overlays_;

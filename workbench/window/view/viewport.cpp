@@ -15,6 +15,7 @@
 #include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/role_card.h"
 #include "workbench/window/view/slice_row.h"
+#include "workbench/window/view/spot_picker.h"
 #include "workbench/window/view/view_handles.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/view/view_picture.h"
@@ -44,6 +45,7 @@ struct Viewport::Impl {
           camera(renderer),
           brush(renderer),
           places(renderer, wake),
+          spots(renderer, wake),
           handles(wake),
           measuring(renderer, wake),
           picture(wake) {}
@@ -56,6 +58,7 @@ struct Viewport::Impl {
     void handle_input(PanelContext& c, const ViewMouse& mouse);
     void handle_brush(PanelContext& c);
     void handle_mouse(PanelContext& c);
+    [[nodiscard]] bool handle_gallery(PanelContext& c);
     void choose(PanelContext& c);
     void pick_places(PanelContext& c, const ViewMouse& mouse);
     void draw_overlays(PanelContext& c, bool over_view);
@@ -84,11 +87,13 @@ struct Viewport::Impl {
     CameraControl camera;
     BrushPointer brush;
     ViewPlaces places;
+    SpotPicker spots;
     ViewHandles handles;
     DriveControl drive;
     MeasuringTool measuring;
     ViewPicture picture;
     SliceRow slice_row;
+    bool pressed_spot = false;  ///< the mouse was pressed in a magnified spot
 };
 
 Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wake)) {}
@@ -98,8 +103,8 @@ Viewport::~Viewport() = default;
 bool Viewport::pending() const {
     const Impl& view = *impl_;
     return view.scene.pending() || view.camera.pending() || view.brush.pending() ||
-           view.places.pending() || view.handles.pending() || view.measuring.pending() ||
-           view.picture.pending();
+           view.places.pending() || view.spots.pending() || view.handles.pending() ||
+           view.measuring.pending() || view.picture.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -120,6 +125,7 @@ void Viewport::Impl::rest(PanelContext& c) {
     camera.forget();
     brush.forget();
     places.forget();
+    spots.forget();
     handles.forget();
     drive.forget();
     measuring.forget();
@@ -136,9 +142,10 @@ ViewMouse Viewport::Impl::take_mouse(PanelContext& c, const ScreenRect& area) co
     c.ui.item("view.area");
     const bool over = ImGui::IsItemHovered();
     const bool reference = scene.shift_at(ImGui::GetIO().MousePos.x) != 0;
+    const bool beside = reference || scene.gallery().cell_at_mouse();
     return {
         .over = over,
-        .over_model = over && !scene.compared().hides_model() && !reference,
+        .over_model = over && !scene.hides_model() && !beside,
         .released = ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left)};
 }
 
@@ -168,14 +175,29 @@ void Viewport::Impl::handle_input(PanelContext& c, const ViewMouse& mouse) {
 }
 
 void Viewport::Impl::handle_brush(PanelContext& c) {
-    if (scene.surface() == nullptr || !scene.is_drawn() || scene.compared().hides_model())
+    if (scene.surface() == nullptr || !scene.is_drawn() || scene.hides_model())
         return brush.rest(c);
     const SceneView view = scene.scene_view(c.ui);
     const Layers shown = scene.layers(c.ui);
     brush.update(c, {view, shown, *scene.surface(), screen()});
 }
 
+/// A double click takes a suggestion, and the wheel magnifies a spot.
+/// \return true if the mouse is not for the camera
+bool Viewport::Impl::handle_gallery(PanelContext& c) {
+    GalleryView& gallery = scene.gallery();
+    const auto cell = gallery.cell_at_mouse();
+    if (ImGui::IsItemActivated()) pressed_spot = gallery.magnifies() && cell;
+    if (!ImGui::IsItemActive()) pressed_spot = false;
+    const bool over = cell && ImGui::IsItemHovered();
+    if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
+    const bool taken = over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (taken) c.place.take_suggestion(*cell);
+    return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
+}
+
 void Viewport::Impl::handle_mouse(PanelContext& c) {
+    if (handle_gallery(c)) return;
     camera.handle_drag(screen(), mouse_on_model(), !brush.holds_left() && !handles.holds_left());
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
@@ -210,6 +232,7 @@ void Viewport::Impl::pick_places(PanelContext& c, const ViewMouse& mouse) {
                          .over = free && !ImGui::IsAnyMouseDown(),
                          .clicked = free && mouse.released && still && !io.KeyShift};
     places.update(c, seen);
+    spots.update(c, seen);
     measuring.update(c, seen);
 }
 
@@ -220,7 +243,8 @@ void Viewport::Impl::draw_controls(PanelContext& c, const ScreenRect& area) {
     if (asked.frame) camera.frame(content());
     if (asked.switch_perspective) camera.switch_perspective();
     if (scene.surface() == nullptr) return draw_empty_view(c, scene);
-    ViewStrips strips(scene.rect());
+    ViewStrips strips(scene.gallery().hides_model() ? scene.gallery().above_plates(area)
+                                                    : scene.rect());
     scene.clip().draw_strip(c, strips);
     camera.draw_strip(c, strips);
     measuring.draw_strip(c, strips);
@@ -232,12 +256,14 @@ void Viewport::Impl::draw_model_marks(PanelContext& c, const PixelView& screen, 
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
+    if (scene.gallery().hides_model()) return;
     const PixelView view = screen();
     if (scene.surface() != nullptr) scene.overlays().draw_marks(c, view);
     if (scene.has_content()) {
         places.draw(c, view);
         handles.draw(c, view);
-        drive.draw(c, scene.rect(), over_view);
+        spots.draw(c, view);
+        if (!c.place.gallery().picks()) drive.draw(c, scene.rect(), over_view);
     }
     if (scene.surface() != nullptr) draw_model_marks(c, view, over_view);
 }
@@ -249,8 +275,10 @@ void Viewport::Impl::draw_frame(PanelContext& c, const ScreenRect& area) {
         brush.draw(c, screen());
         draw_role_card(c, screen());
     }
-    if (!camera.is_inside()) draw_scale_bar(c.ui, scene.rect(), camera.camera());
-    if (const auto side = draw_orientation(c.ui, scene.rect(), camera.camera())) camera.face(*side);
+    scene.gallery().draw_plates(c);
+    const ScreenRect rect = scene.gallery().above_plates(scene.rect());
+    if (!camera.is_inside()) draw_scale_bar(c.ui, rect, camera.camera());
+    if (const auto side = draw_orientation(c.ui, rect, camera.camera())) camera.face(*side);
     scene.compared().draw_labels(c.ui, area);
     draw_legend(c, scene);
 }
@@ -274,7 +302,8 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
 }
 
 void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
-    const bool sliced = c.place.slices().in_row();
+    // The gallery needs the height.
+    const bool sliced = c.place.slices().in_row() && c.place.gallery().mode() == GalleryMode::Off;
     const ScreenRect row = slice_row_rect(whole);
     impl_->draw(c, {whole.x, whole.y, whole.width, sliced ? row.y - 1 - whole.y : whole.height});
     if (sliced)

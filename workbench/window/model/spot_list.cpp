@@ -1,0 +1,105 @@
+#include "workbench/window/model/spot_list.h"
+
+#include <algorithm>
+#include <exception>
+
+namespace vesselbench {
+
+namespace {
+
+/// The first "Spot 1", "Spot 2" ... that is free.
+std::string free_name(const std::vector<Spot>& spots) {
+    for (std::size_t number = 1;; ++number) {
+        std::string name = "Spot " + std::to_string(number);
+        if (std::ranges::find(spots, name, &Spot::name) == spots.end()) return name;
+    }
+}
+
+}  // namespace
+
+SpotList::SpotList(std::function<void()> wake) : wake_(std::move(wake)) {
+    reading_.emplace(wake_);
+    storing_.emplace(wake_);
+}
+
+SpotList::~SpotList() {
+    finish();
+}
+
+// --- the project
+
+void SpotList::open(const std::filesystem::path& project, std::string read_only) {
+    close();
+    project_ = project;
+    blocked_ = std::move(read_only);
+    reading_->begin([project](const Progress&) { return stored_spots(project); });
+}
+
+void SpotList::close() {
+    finish();
+    reading_.emplace(wake_);
+    storing_.emplace(wake_);
+    project_.clear();
+    blocked_.clear();
+    failure_.clear();
+    spots_.clear();
+    chosen_ = 0;
+}
+
+bool SpotList::update() {
+    auto read = reading_->take();
+    const bool stored = storing_->take().has_value();
+    const std::string unread = reading_->take_problem(), problem = storing_->take_problem();
+    if (read) spots_ = std::move(*read);
+    if (stored && !storing_->pending()) unsaved_ = false;
+    if (stored || !problem.empty()) failure_ = problem;
+    // What cannot be read is not written over.
+    if (!unread.empty()) blocked_ = "the stored spots cannot be read: " + unread;
+    return read || stored || !unread.empty() || !problem.empty();
+}
+
+void SpotList::keep() {
+    if (project_.empty() || !blocked_.empty()) return;
+    unsaved_ = true;
+    storing_->begin([project = project_, spots = spots_](const Progress&) {
+        store_spots(project, spots);
+        return true;
+    });
+}
+
+/// What was asked for last may still wait.
+void SpotList::finish() {
+    reading_.reset();
+    storing_.reset();
+    if (!std::exchange(unsaved_, false)) return;
+    try {
+        store_spots(project_, spots_);
+    } catch (const std::exception&) {  // the project is gone
+    }
+}
+
+// --- the spots
+
+const Spot* SpotList::chosen() const {
+    return spots_.empty() ? nullptr : &spots_[std::min(chosen_, spots_.size() - 1)];
+}
+
+void SpotList::add(const Vec3& point, const Vec3& normal) {
+    spots_.push_back({free_name(spots_), point, normal});
+    chosen_ = spots_.size() - 1;
+    keep();
+}
+
+void SpotList::rename(std::size_t spot, const std::string& name) {
+    if (spots_.at(spot).name == name) return;
+    spots_[spot].name = name;
+    keep();
+}
+
+void SpotList::remove(std::size_t spot) {
+    spots_.erase(spots_.begin() + static_cast<std::ptrdiff_t>(spot));
+    if (chosen_ > spot || (chosen_ > 0 && chosen_ == spots_.size())) --chosen_;
+    keep();
+}
+
+}  // namespace vesselbench
