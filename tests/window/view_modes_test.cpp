@@ -353,3 +353,26 @@ SCENARIO("A picture of the view is saved", "[window][view]") {
         CHECK(std::filesystem::exists(file.parent_path() / "tube-2.png"));
     }
 }
+
+SCENARIO("The surface before is a wireframe over the model that is smoothed live",
+         "[window][view][live]") {
+    Seen seen;
+    if (!seen.shell) return;
+    seen.place().choose("smooth");
+    seen.place().set_field("iterations", "30");
+    seen.shell->frame();
+    seen.place().live().follow(true);
+    REQUIRE(seen.shell->run_until(
+        [&] { return seen.place().live().shown() && !seen.place().live().outdated(); }, 60s));
+    REQUIRE(seen.shell->settle(60s));
+    const auto plain = seen.pixels();
+    seen.key('W');
+    CHECK(seen.pixels() != plain);
+    THEN("it goes with the live model") {
+        seen.place().leave_form();
+        REQUIRE(seen.shell->settle(60s));
+        const auto with = seen.pixels();
+        seen.key('W');
+        CHECK(seen.pixels() == with);
+    }
+}

@@ -134,8 +134,8 @@ void draw_preview(PanelContext& c, ScreenRect& place) {
 std::string figures_of(const LiveModel& model) {
     const auto& change = model.state.change;
     if (!change) return "";
-    return "Distance " + formatted(change->error.mean) + " mm on average, at most " +
-           formatted(change->error.largest) + " mm; volume " +
+    return "Vertices are off the surface before by " + formatted(change->error.mean) +
+           " mm on average, at most " + formatted(change->error.largest) + " mm; volume " +
            formatted(change->volume_change_percent, "%+.2f %%") + "; normal curvature " +
            formatted(change->normal_curvature_before_deg) + " to " +
            formatted(change->normal_curvature_after_deg) + " deg";

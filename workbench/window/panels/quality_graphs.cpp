@@ -21,14 +21,18 @@ constexpr double kMostShown = 1.5;  ///< of a graph's measures, by the strong ch
 
 struct MeasureLook {
     QualityMeasure measure;
-    const char* name;
+    const char *name, *help;
     Paint dark, light;  ///< themes
 };
 
 constexpr std::array<MeasureLook, 3> kLooks = {
-    {{QualityMeasure::Curvature, "curvature", paint(0x5B9BE0), paint(0x1B6CA8)},
-     {QualityMeasure::Error, "error", paint(0xE8806E), paint(0xC8442B)},
-     {QualityMeasure::Volume, "volume", paint(0x5FB87A), paint(0x2E8B57)}}};
+    {{QualityMeasure::Curvature, "curvature",
+      "Mean curvature, summed over the surface; 100 %: unsmoothed, 0 %: ", paint(0x5B9BE0),
+      paint(0x1B6CA8)},
+     {QualityMeasure::Error, "error",
+      "Distance from the unsmoothed surface; 100 %: ", paint(0xE8806E), paint(0xC8442B)},
+     {QualityMeasure::Volume, "volume", "Change of volume; 100 %: ", paint(0x5FB87A),
+      paint(0x2E8B57)}}};
 
 Paint colour_of(const Ui& ui, const MeasureLook& look) {
     return ui.theme.dark ? look.dark : look.light;
@@ -180,6 +184,20 @@ void draw_value_line(const PanelContext& c, const Axis& axis, double now) {
     draw_list().AddCircleFilled({x, axis.rect.y}, c.ui.em * 0.28F, c.ui.theme.text);
 }
 
+/// The measures where the cursor is: small ones cannot be read off the graph.
+std::string values_at(const QualityCurve& curve, double value) {
+    const auto nearest = std::ranges::min_element(
+        curve.points, {}, [&](const CurvePoint& point) { return std::abs(point.value - value); });
+    if (nearest == curve.points.end()) return "";
+    const std::string title = readable(curve.name) + " " + formatted(nearest->value, "%.4g");
+    if (!nearest->measures) return title + " cannot be combined with the other values";
+    std::vector<std::string> words;
+    for (const MeasureLook& look : kLooks)
+        words.push_back(look.name +
+                        formatted(100.0 * nearest->scaled.of(look.measure), " %.2g %%"));
+    return title + ": " + joined(words);
+}
+
 void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
     const double now = value_now(c, form, curve);
     draw_title(c, curve, now);
@@ -194,6 +212,7 @@ void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& 
     ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
+    help_on_hover(c.ui, values_at(curve, axis.value(ImGui::GetIO().MousePos.x)));
     handle_press(c, form, curve, axis);
     draw_suggestion(c, form, curve, {axis.x(curve.suggested), axis.rect.y + high});
     ImGui::SetCursorScreenPos({from.x, axis.rect.y + high});
@@ -204,11 +223,8 @@ void draw_legend(const PanelContext& c, const QualityScale& scale) {
     for (const MeasureLook& look : kLooks) {
         if (&look != kLooks.data()) ImGui::SameLine(0, c.ui.grid(1.5F));
         small_text(c.ui, look.name, colour_of(c.ui, look));
+        help_on_hover(c.ui, look.help + scale.strong);
     }
-    help_on_hover(c.ui,
-                  "Curvature: 100 % is the unsmoothed surface. Error and volume change: "
-                  "100 % is that of " +
-                      scale.strong);
 }
 
 // --- bars
@@ -273,12 +289,16 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
             by_parameter ? title_of(curve) : readable_sentence(name_of(bar.measure));
         if (own != group) {
             if (!group.empty()) space(c.ui, 0.75F);
-            text(c.ui, own, c.ui.theme.text);
+            if (by_parameter)
+                draw_title(c, curve, value_now(c, form, curve));
+            else
+                text(c.ui, own, c.ui.theme.text);
         }
         group = own;
         draw_bar(c, form, curve, bar, by_parameter ? name_of(bar.measure) : title_of(curve));
     }
-    small_text(c.ui, "bright: better", c.ui.theme.muted);
+    small_text(c.ui, "bright: better; plain: cannot be combined with the other values",
+               c.ui.theme.muted);
 }
 
 // --- suggestions
@@ -292,17 +312,21 @@ void draw_target(PanelContext& c) {
     const float wide = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, c.ui.grid(1));
-        if (button(c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
-                   {.width = wide, .help = formatted(kPresetTaus[i], "Target smoothness %g")}))
+        if (button(
+                c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
+                {.width = wide, .help = formatted(kPresetTaus[i], "Aims at target smoothness %g")}))
             tau = kPresetTaus[i];
     }
 }
 
-std::string best_text(const Arguments& best) {
-    std::vector<std::string> words;
+/// What would be filled in, and what would stay.
+std::string best_text(const Arguments& best, const SensitivityAnalysis& analysis) {
+    std::vector<std::string> words, kept;
     for (const auto& [name, value] : best.values())
         words.push_back(readable(name) + " " + formatted(best.real(name)));
-    return joined(words);
+    for (const QualityCurve& curve : analysis.curves)
+        if (!best.has(curve.name)) kept.push_back(readable(curve.name));
+    return joined(words) + (kept.empty() ? "" : "; as it is: " + joined(kept));
 }
 
 void draw_best(PanelContext& c, const OperationForm& form) {
@@ -314,8 +338,8 @@ void draw_best(PanelContext& c, const OperationForm& form) {
         c.place.live().follow(true);
         for (const auto& [name, value] : best.values()) set_value(c, form, name, best.real(name));
     }
-    const std::string words = known ? best_text(*answer->best) : "Searching";
-    wrapped(c.ui, words, c.ui.theme.muted);
+    const std::string words = known ? best_text(*answer->best, answer->analysis) : "Searching";
+    wrapped(c.ui, known && !answer->complete ? "So far: " + words : words, c.ui.theme.muted);
 }
 
 void draw_view_choice(PanelContext& c) {

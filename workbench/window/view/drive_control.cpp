@@ -1,5 +1,7 @@
 #include "workbench/window/view/drive_control.h"
 
+#include <optional>
+
 #include <imgui.h>
 
 #include "workbench/window/model/readable.h"
@@ -10,11 +12,13 @@ namespace vesselbench {
 
 namespace {
 
-/// "move the mouse sideways: Iterations, up and down: Lambda, with Shift: Beta min"
-std::string movements(const DriveAxes& axes) {
+/// "sideways: Iterations 20, up and down: Lambda, Shift: Beta min"; values that are given
+std::string movements(const DriveAxes& axes, const std::optional<OperationForm>& form) {
     std::string words;
     const auto add = [&](const char* how, const std::string& name) {
-        if (!name.empty()) words += (words.empty() ? "" : ", ") + (how + readable(name));
+        if (name.empty()) return;
+        words += (words.empty() ? "" : ", ") + (how + readable(name));
+        if (form && !form->field(name).text.empty()) words += " " + form->field(name).text;
     };
     add("sideways: ", axes.across);
     add("up and down: ", axes.up);
@@ -59,7 +63,7 @@ void DriveControl::update(PanelContext& c, bool over) {
 }
 
 void DriveControl::draw(const PanelContext& c, const ScreenRect& view, bool over) const {
-    const std::string words = movements(c.place.live().axes());
+    const std::string words = movements(c.place.live().axes(), c.place.form());
     if (words.empty()) return;
     if (state_ == State::Driving)
         draw_hint(c.ui, view, words + "    Esc: restore");

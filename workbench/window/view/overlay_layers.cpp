@@ -23,6 +23,16 @@ Polyline circle_at(const CenterlineBranch& branch, double abscissa) {
             .closed = true};
 }
 
+/// The source; of a model that is smoothed live while it still is the source, that before it.
+/// \return null: none
+const Surface* wireframe_of(const PanelContext& c) {
+    const Document& document = c.place.document;
+    if (document.source()) return &*document.source();
+    const Scene* scene = document.shown();
+    return c.place.live().shown() && scene != nullptr && scene->surface ? &*scene->surface
+                                                                        : nullptr;
+}
+
 }  // namespace
 
 std::vector<Polyline> centerline_drawing(const CenterlineGraph& graph) {
@@ -66,8 +76,8 @@ void OverlayLayers::forget() {
 }
 
 void OverlayLayers::update_source(const PanelContext& c) {
-    const auto& surface = c.place.document.source();
-    const bool wanted = c.place.settings.layers.source && surface && !surface->empty();
+    const Surface* surface = wireframe_of(c);
+    const bool wanted = c.place.settings.layers.source && surface != nullptr && !surface->empty();
     const auto positions = wanted ? surface->positions : nullptr;
     if (positions != asked_source_) {
         asked_source_ = positions;
