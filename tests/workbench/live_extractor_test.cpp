@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr std::size_t kFew = 20'000;  ///< voxels of the coarse image
+constexpr std::size_t kFew = 25'000;  ///< voxels of the coarse image
 
 CheckedArguments given(const Arguments& arguments) {
     return checked_arguments(find_operation("extract-surface"), arguments);

@@ -1,6 +1,6 @@
 #include "workbench/window/view/drive_control.h"
 
-#include <optional>
+#include <algorithm>
 
 #include <imgui.h>
 
@@ -13,12 +13,14 @@ namespace vesselbench {
 namespace {
 
 /// "sideways: Iterations 20, up and down: Lambda, Shift: Beta min"; values that are given
-std::string movements(const DriveAxes& axes, const std::optional<OperationForm>& form) {
+std::string movements(const DriveAxes& axes, const OperationForm& form) {
     std::string words;
     const auto add = [&](const char* how, const std::string& name) {
         if (name.empty()) return;
         words += (words.empty() ? "" : ", ") + (how + readable(name));
-        if (form && !form->field(name).text.empty()) words += " " + form->field(name).text;
+        const auto field = std::ranges::find_if(
+            form.fields(), [&](const FormField& at) { return at.parameter->name == name; });
+        if (field != form.fields().end() && !field->text.empty()) words += " " + field->text;
     };
     add("sideways: ", axes.across);
     add("up and down: ", axes.up);
@@ -63,7 +65,8 @@ void DriveControl::update(PanelContext& c, bool over) {
 }
 
 void DriveControl::draw(const PanelContext& c, const ScreenRect& view, bool over) const {
-    const std::string words = movements(c.place.live().axes(), c.place.form());
+    if (!c.place.form()) return;
+    const std::string words = movements(c.place.live().axes(), *c.place.form());
     if (words.empty()) return;
     if (state_ == State::Driving)
         draw_hint(c.ui, view, words + "    Esc: restore");
