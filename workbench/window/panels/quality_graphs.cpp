@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "gpu/colours.h"
 #include "workbench/suggest/suggestion_search.h"
+#include "workbench/window/model/quality_words.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/slider.h"
@@ -21,18 +22,17 @@ constexpr double kMostShown = 1.5;  ///< of a graph's measures, by the strong ch
 
 struct MeasureLook {
     QualityMeasure measure;
-    const char *name, *help;
+    const char* help;
     Paint dark, light;  ///< themes
 };
 
 constexpr std::array<MeasureLook, 3> kLooks = {
-    {{QualityMeasure::Curvature, "curvature",
+    {{QualityMeasure::Curvature,
       "Mean curvature, summed over the surface; 100 %: unsmoothed, 0 %: ", paint(0x5B9BE0),
       paint(0x1B6CA8)},
-     {QualityMeasure::Error, "error",
-      "Distance from the unsmoothed surface; 100 %: ", paint(0xE8806E), paint(0xC8442B)},
-     {QualityMeasure::Volume, "volume", "Change of volume; 100 %: ", paint(0x5FB87A),
-      paint(0x2E8B57)}}};
+     {QualityMeasure::Error, "Distance from the unsmoothed surface; 100 %: ", paint(0xE8806E),
+      paint(0xC8442B)},
+     {QualityMeasure::Volume, "Change of volume; 100 %: ", paint(0x5FB87A), paint(0x2E8B57)}}};
 
 Paint colour_of(const Ui& ui, const MeasureLook& look) {
     return ui.theme.dark ? look.dark : look.light;
@@ -184,20 +184,6 @@ void draw_value_line(const PanelContext& c, const Axis& axis, double now) {
     draw_list().AddCircleFilled({x, axis.rect.y}, c.ui.em * 0.28F, c.ui.theme.text);
 }
 
-/// The measures where the cursor is: small ones cannot be read off the graph.
-std::string values_at(const QualityCurve& curve, double value) {
-    const auto nearest = std::ranges::min_element(
-        curve.points, {}, [&](const CurvePoint& point) { return std::abs(point.value - value); });
-    if (nearest == curve.points.end()) return "";
-    const std::string title = readable(curve.name) + " " + formatted(nearest->value, "%.4g");
-    if (!nearest->measures) return title + " cannot be combined with the other values";
-    std::vector<std::string> words;
-    for (const MeasureLook& look : kLooks)
-        words.push_back(look.name +
-                        formatted(100.0 * nearest->scaled.of(look.measure), " %.2g %%"));
-    return title + ": " + joined(words);
-}
-
 void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
     const double now = value_now(c, form, curve);
     draw_title(c, curve, now);
@@ -212,7 +198,8 @@ void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& 
     ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
-    help_on_hover(c.ui, values_at(curve, axis.value(ImGui::GetIO().MousePos.x)));
+    if (!ImGui::IsItemActive())
+        help_on_hover(c.ui, values_at(curve, axis.value(ImGui::GetIO().MousePos.x)));
     handle_press(c, form, curve, axis);
     draw_suggestion(c, form, curve, {axis.x(curve.suggested), axis.rect.y + high});
     ImGui::SetCursorScreenPos({from.x, axis.rect.y + high});
@@ -222,7 +209,7 @@ void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& 
 void draw_legend(const PanelContext& c, const QualityScale& scale) {
     for (const MeasureLook& look : kLooks) {
         if (&look != kLooks.data()) ImGui::SameLine(0, c.ui.grid(1.5F));
-        small_text(c.ui, look.name, colour_of(c.ui, look));
+        small_text(c.ui, measure_name(look.measure), colour_of(c.ui, look));
         help_on_hover(c.ui, look.help + scale.strong);
     }
 }
@@ -258,10 +245,6 @@ void draw_value_frame(const Ui& ui, const Axis& axis, double now) {
     draw_list().AddRect(from, to, paint(0xFFFFFF), 0, 0, 1);
 }
 
-std::string name_of(QualityMeasure measure) {
-    return std::ranges::find(kLooks, measure, &MeasureLook::measure)->name;
-}
-
 void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
               const QualityBar& bar, const std::string& words) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -272,7 +255,7 @@ void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& cu
     draw_fields(curve, bar, axis, c.ui);
     draw_value_frame(c.ui, axis, value_now(c, form, curve));
     ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
-    const std::string name = curve.name + "." + name_of(bar.measure);
+    const std::string name = curve.name + "." + measure_name(bar.measure);
     ImGui::InvisibleButton(("bar." + name).c_str(), {wide, high});
     c.ui.item("quality.bar." + name);
     handle_press(c, form, curve, axis);
@@ -286,7 +269,7 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
         const QualityCurve& curve = analysis.curves[bar.curve];
         const bool by_parameter = order == BarOrder::Parameter;
         const std::string own =
-            by_parameter ? title_of(curve) : readable_sentence(name_of(bar.measure));
+            by_parameter ? title_of(curve) : readable_sentence(measure_name(bar.measure));
         if (own != group) {
             if (!group.empty()) space(c.ui, 0.75F);
             if (by_parameter)
@@ -295,7 +278,7 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
                 text(c.ui, own, c.ui.theme.text);
         }
         group = own;
-        draw_bar(c, form, curve, bar, by_parameter ? name_of(bar.measure) : title_of(curve));
+        draw_bar(c, form, curve, bar, by_parameter ? measure_name(bar.measure) : title_of(curve));
     }
     small_text(c.ui, "bright: better; plain: cannot be combined with the other values",
                c.ui.theme.muted);
@@ -319,16 +302,6 @@ void draw_target(PanelContext& c) {
     }
 }
 
-/// What would be filled in, and what would stay.
-std::string best_text(const Arguments& best, const SensitivityAnalysis& analysis) {
-    std::vector<std::string> words, kept;
-    for (const auto& [name, value] : best.values())
-        words.push_back(readable(name) + " " + formatted(best.real(name)));
-    for (const QualityCurve& curve : analysis.curves)
-        if (!best.has(curve.name)) kept.push_back(readable(curve.name));
-    return joined(words) + (kept.empty() ? "" : "; as it is: " + joined(kept));
-}
-
 void draw_best(PanelContext& c, const OperationForm& form) {
     const LiveSearch::Answer* const answer = c.place.quality().answer();
     const bool known = answer != nullptr && answer->best;
@@ -338,7 +311,8 @@ void draw_best(PanelContext& c, const OperationForm& form) {
         c.place.live().follow(true);
         for (const auto& [name, value] : best.values()) set_value(c, form, name, best.real(name));
     }
-    const std::string words = known ? best_text(*answer->best, answer->analysis) : "Searching";
+    const std::string words =
+        known ? suggestion_words(*answer->best, answer->analysis) : "Searching";
     wrapped(c.ui, known && !answer->complete ? "So far: " + words : words, c.ui.theme.muted);
 }
 
