@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/whole_file.h"
 #include "tests/support/paths.h"
@@ -95,6 +96,22 @@ SCENARIO("What happens while a case is opened is told once, in the window's word
     const auto warns = [](const Message& message) { return message.kind == MessageKind::Warning; };
     CHECK(std::ranges::count_if(messages, warns) == 1);
     for (const Message& message : messages) CHECK_THAT(message.text, !Contains("load-surface"));
+}
+
+SCENARIO("A surface that is inside out is said to be, until it is repaired",
+         "[window][obstacles]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string file = temporary_folder() + "/tube.vtp";
+    write_surface(flipped(fine_tube(4.0, 30.0, 24)), file);
+    open_and_wait(*shell, file);
+    REQUIRE(shell->settle(60s));
+    CHECK(shell->has("status.inside_out"));
+    shell->app().place().choose("repair");
+    shell->app().place().apply();
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(shell->settle(60s));
+    CHECK_FALSE(shell->has("status.inside_out"));
 }
 
 SCENARIO("A recipe's lines are put in the window's words", "[window][obstacles]") {

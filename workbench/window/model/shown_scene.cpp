@@ -172,6 +172,8 @@ void ShownScene::request_figures(SessionRunner& runner) {
         ShownFigures figures;
         if (!scene.surface || scene.surface->empty()) return figures;
         figures.volume = volume(*scene.surface);
+        figures.inside_out =
+            *figures.volume < 0.0 && scene.surface->topology->boundary_loops().empty();
         if (source)
             figures.deviation = from_source(session, *source, variant, *scene.surface, progress);
         return figures;

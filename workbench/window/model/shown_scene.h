@@ -15,6 +15,7 @@ namespace vesselbench {
 /// Figures of the shown scene.
 struct ShownFigures {
     std::optional<double> volume;  ///< [mm^3]
+    bool inside_out = false;       ///< closed, and its normals point inward
     /// From the source, of the wall without what was made at its ends; none: it is the source.
     std::optional<PointDeviation> deviation;
 };

@@ -34,7 +34,16 @@ void figure(const Ui& ui, const std::string& name, const std::string& value,
     ImGui::SameLine(0, ui.grid(3));
 }
 
-void draw_figures(const PanelContext& c) {
+void draw_inside_out(Ui& ui) {
+    text(ui, "Inside out", ui.theme.warning);
+    help_on_hover(ui,
+                  "The normals of the surface point inward, and colours are not seen on it. "
+                  "Repair turns it");
+    ui.item("status.inside_out");
+    ImGui::SameLine(0, ui.grid(3));
+}
+
+void draw_figures(PanelContext& c) {
     const Document& document = c.place.document;
     const Scene* scene = document.shown();
     if (scene == nullptr) return;
@@ -46,6 +55,7 @@ void draw_figures(const PanelContext& c) {
         document.previewed() ? &document.previewed()->result().change : nullptr;
     const auto volume = change != nullptr ? change->volume_after : figures.volume;
     if (volume) figure(c.ui, "Volume", formatted(*volume, "%.1f mm\u00B3"));
+    if (change == nullptr && figures.inside_out) draw_inside_out(c.ui);
     if (change != nullptr && change->largest_deviation)
         figure(c.ui, "Preview differs by up to", formatted(*change->largest_deviation, "%.3f mm"));
     else if (figures.deviation)
