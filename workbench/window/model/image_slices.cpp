@@ -69,7 +69,10 @@ bool ImageSlices::update(const Scene* scene, const Surface* followed) {
             take_image({}, *scene);
         else if (!same_voxels(image_, *scene->image) || !same_mask(mask_, scene->mask))
             take_image(*scene->image, *scene);
-        take_surface(followed != nullptr ? std::optional(*followed) : scene->surface);
+        if (followed != nullptr)
+            take_surface(*followed);
+        else
+            take_surface(scene->surface);
         show_first_image(scene->surface);
     }
     const bool changed = take_made();

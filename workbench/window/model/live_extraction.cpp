@@ -11,8 +11,6 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kPatience = 0.25;  ///< with a question, before a newer one ends it [s]
-
 constexpr const char *kSide = "inside", *kBelow = "below";  ///< a parameter, and its value
 
 /// A value with the digits that a thousandth of a range asks for.
@@ -54,11 +52,10 @@ std::shared_ptr<const std::vector<float>> voxels_of(const std::optional<Image>& 
 }  // namespace
 
 LiveExtraction::LiveExtraction(std::function<void()> wake)
-    : models_(std::move(wake), live_extracting()) {}
+    : LiveForm(std::move(wake), live_extracting()) {}
 
 // --- following the form
 
-/// Another image, or another mask, has another number.
 void LiveExtraction::take_base(const Document& document) {
     const Scene* scene = document.current();
     const auto image = scene == nullptr ? nullptr : voxels_of(scene->image);
@@ -66,34 +63,22 @@ void LiveExtraction::take_base(const Document& document) {
     if (image == base_image_ && mask == base_mask_) return;
     base_image_ = image;
     base_mask_ = mask;
-    ++base_;
     histogram_.reset();
-    shown_.reset();
-    models_.forget();
+    take_new_base();
 }
 
 bool LiveExtraction::update(const LiveSmoothing::Followed& followed) {
     const Operation* operation = followed.form != nullptr && extracts(followed.form->operation())
                                      ? &followed.form->operation()
                                      : nullptr;
-    has_form_ = operation != nullptr;
-    if (std::exchange(operation_, operation) != operation || !has_form_) {
-        follow(false);
-        began_ = false;
-    }
-    if (!has_form_) {
-        why_not_.clear();
-        return models_.update();
-    }
+    if (take_operation(operation) || !has_form()) began_ = false;
+    if (!has_form()) return take_models();
     take_base(followed.document);
-    why_not_ = reason_against(followed);
-    if (!why_not_.empty()) follow(false);
-    const bool changed = models_.update();
+    take_reason(reason_against(followed));
+    const bool changed = take_models();
     if (changed) take_findings();
-    if (on_) ask(followed);
-    const bool seen = on_ && !followed.document.previewed();
-    const auto before = std::exchange(shown_, seen ? models_.newest() : nullptr);
-    return changed || before != shown_;
+    if (follows()) ask_for(followed);
+    return show(!followed.document.previewed()) || changed;
 }
 
 /// What stays known while nothing is followed.
@@ -107,38 +92,18 @@ bool LiveExtraction::begins() {
     return can_follow() && !std::exchange(began_, true);
 }
 
-/// True while the coarse surface of the last question is about to come: values that change in every
-/// frame would otherwise keep all of them from being seen. What follows it gives way at once.
-bool LiveExtraction::is_worked_on() const {
-    const auto& newest = models_.newest();
-    const bool answered = newest && newest->question == question_;
-    return models_.pending() && !answered && since_asked_.seconds() < kPatience;
-}
-
-void LiveExtraction::ask(const LiveSmoothing::Followed& followed) {
+/// The last question's coarse surface is waited for; what follows it gives way at once.
+void LiveExtraction::ask_for(const LiveSmoothing::Followed& followed) {
     const OperationForm& form = *followed.form;
-    const Asked now{base_, form.changes()};
-    if (now == asked_ || !form.valid() || is_worked_on()) return;
-    asked_ = now;
-    since_asked_ = {};
-    const Scene& scene = *followed.document.current();
-    question_ = models_.ask({.image = *scene.image,
-                             .mask = scene.mask,
-                             .base = base_,
-                             .arguments = checked_arguments(form.operation(), form.arguments())});
-}
-
-void LiveExtraction::follow(bool on) {
-    if (on_ == on || (on && !can_follow())) return;
-    on_ = on;
-    asked_ = {};
-    if (on) return;
-    shown_.reset();
-    models_.forget();
-}
-
-bool LiveExtraction::outdated() const {
-    return shown_ && (shown_->question != question_ || !shown_->state.whole);
+    if (!form.valid()) return;
+    ask({base_number(), form.changes()}, is_answered(), [&] {
+        const Scene& scene = *followed.document.current();
+        return ExtractionQuestion{
+            .image = *scene.image,
+            .mask = scene.mask,
+            .base = base_number(),
+            .arguments = checked_arguments(form.operation(), form.arguments())};
+    });
 }
 
 // --- the iso-value
@@ -158,15 +123,6 @@ std::vector<FieldText> LiveExtraction::iso_texts(const OperationForm& form, doub
 bool LiveExtraction::is_below(const OperationForm& form) const {
     const std::string& side = form.field(kSide).text;
     return side.empty() ? model() && model()->state.inside_below : side == kBelow;
-}
-
-void LiveExtraction::begin_slide() {
-    on_before_slide_ = on_;
-    follow(true);
-}
-
-void LiveExtraction::cancel_slide() {
-    if (!on_before_slide_) follow(false);
 }
 
 }  // namespace vesselbench

@@ -12,7 +12,6 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kPatience = 0.25;   ///< with a question, before a newer one ends it [s]
 constexpr double kSameShape = 1e-5;  ///< by the diagonal: a device's rounding stays below it [-]
 
 std::map<std::string, double> numbers_in(const Arguments& arguments) {
@@ -28,7 +27,7 @@ std::map<std::string, double> numbers_in(const Arguments& arguments) {
 }  // namespace
 
 LiveSmoothing::LiveSmoothing(std::function<void()> wake)
-    : models_(std::move(wake), live_modelling()) {}
+    : LiveForm(std::move(wake), live_modelling()) {}
 
 // --- following the form
 
@@ -45,15 +44,12 @@ std::string LiveSmoothing::reason_against(const Followed& followed) const {
     return "";
 }
 
-/// Another model to be smoothed has another number.
 void LiveSmoothing::take_base(const Followed& followed) {
     const Scene* scene = followed.document.current();
     const auto positions = scene != nullptr && scene->surface ? scene->surface->positions : nullptr;
     if (positions == base_positions_) return;
     base_positions_ = positions;
-    ++base_;
-    shown_.reset();
-    models_.forget();
+    take_new_base();
 }
 
 bool LiveSmoothing::update(const Followed& followed) {
@@ -61,74 +57,40 @@ bool LiveSmoothing::update(const Followed& followed) {
         followed.form != nullptr && followed.form->operation().search.smoothing != nullptr
             ? &followed.form->operation()
             : nullptr;
-    has_form_ = operation != nullptr;
-    if (std::exchange(operation_, operation) != operation || !has_form_) follow(false);
-    if (!has_form_) {
-        why_not_.clear();
-        return models_.update();
-    }
+    take_operation(operation);
+    if (!has_form()) return take_models();
     take_base(followed);
-    why_not_ = reason_against(followed);
+    take_reason(reason_against(followed));
     axes_ = usable_axes(*followed.form, wanted_axes_);
-    if (!why_not_.empty()) follow(false);
-    const bool changed = models_.update();
-    if (on_) ask(followed);
-    const bool seen = on_ && !followed.document.previewed();
-    const auto before = std::exchange(shown_, seen ? models_.newest() : nullptr);
-    return changed || before != shown_;
+    const bool changed = take_models();
+    if (follows()) ask_for(followed);
+    return show(!followed.document.previewed()) || changed;
 }
 
-/// True while the figures of the last question are about to come: values that change in every frame
-/// would otherwise keep all of them from being seen.
-bool LiveSmoothing::is_worked_on() const {
-    const auto& newest = models_.newest();
-    const bool answered = newest && newest->question == question_ && newest->state.change;
-    return models_.pending() && !answered && since_asked_.seconds() < kPatience;
-}
-
-void LiveSmoothing::ask(const Followed& followed) {
+/// The last question's figures are waited for.
+void LiveSmoothing::ask_for(const Followed& followed) {
     const OperationForm& form = *followed.form;
-    const Asked now{base_, form.changes(), followed.colouring};
-    if (now == asked_ || !form.valid() || is_worked_on()) return;
-    asked_ = now;
-    since_asked_ = {};
-    question_ = models_.ask({.scene = *followed.document.current(),
-                             .base = base_,
-                             .arguments = checked_arguments(form.operation(), form.arguments()),
-                             .colouring = followed.colouring});
-}
-
-void LiveSmoothing::follow(bool on) {
-    if (on_ == on || (on && !can_follow())) return;
-    on_ = on;
-    asked_ = {};
-    if (on) return;
-    shown_.reset();
-    models_.forget();
-}
-
-bool LiveSmoothing::outdated() const {
-    return shown_ && (shown_->question != question_ || !shown_->state.whole);
+    if (!form.valid()) return;
+    ask({base(), form.changes(), followed.colouring}, is_answered() && model()->state.change, [&] {
+        return LiveQuestion{.scene = *followed.document.current(),
+                            .base = base(),
+                            .arguments = checked_arguments(form.operation(), form.arguments()),
+                            .colouring = followed.colouring};
+    });
 }
 
 // --- the mouse
 
 void LiveSmoothing::begin_drive() {
     starts_.clear();
-    on_before_drive_ = on_;
-    follow(true);
-    if (shown_ && !outdated()) starts_ = numbers_in(shown_->state.resolved);
+    begin_drag();
+    if (shown() && !outdated()) starts_ = numbers_in(shown()->state.resolved);
 }
 
 std::vector<FieldText> LiveSmoothing::drive(const OperationForm& before, const DriveReach& reach) {
     // What a driven parameter decides by the way is not taken for its start.
-    if (starts_.empty() && model() && model()->question == question_)
-        starts_ = numbers_in(model()->state.resolved);
+    if (starts_.empty() && is_answered()) starts_ = numbers_in(model()->state.resolved);
     return driven_texts(before, starts_, axes_, reach);
-}
-
-void LiveSmoothing::cancel_drive() {
-    if (!on_before_drive_) follow(false);
 }
 
 std::string difference_text(const Surface& shown, const Surface& applied) {

@@ -6,18 +6,26 @@
 #include <string>
 #include <vector>
 
-#include "geometry/kernel/stopwatch.h"
 #include "workbench/window/model/document.h"
+#include "workbench/window/model/live_form.h"
 #include "workbench/window/model/live_model.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/parameter_drive.h"
 
 namespace vesselbench {
 
+/// What a live model was asked for.
+struct SmoothingKey {
+    int base = 0, changes = 0;
+    ColouringKind colouring = ColouringKind::Patches;
+
+    bool operator==(const SmoothingKey&) const = default;
+};
+
 /// The form of an operation that smooths, as the model in the view follows it live: whatever its
 /// fields say is computed and shown, without an edit, while the mouse drives some of them. Used by
 /// the frame's thread.
-class LiveSmoothing {
+class LiveSmoothing : public LiveForm<LiveQuestion, LiveModel, SmoothingKey> {
 public:
     /// \param wake called by another thread when update() has something to do
     explicit LiveSmoothing(std::function<void()> wake);
@@ -33,35 +41,8 @@ public:
     /// Once a frame. \return true if what is shown has changed
     bool update(const Followed& followed);
 
-    /// True if the form is of an operation that smooths.
-    [[nodiscard]] bool has_form() const { return has_form_; }
-
-    /// Why the model cannot follow the form; empty: it can.
-    [[nodiscard]] const std::string& why_not() const { return why_not_; }
-
-    [[nodiscard]] bool can_follow() const { return has_form_ && why_not_.empty(); }
-
-    /// Begins or ends to show what the form says.
-    void follow(bool on);
-
-    [[nodiscard]] bool follows() const { return on_; }
-
     /// Number of the model that is smoothed: equal ones are the same.
-    [[nodiscard]] int base() const { return base_; }
-
-    /// What the view shows instead of the document's scene; null: nothing.
-    [[nodiscard]] const std::shared_ptr<const LiveModel>& shown() const { return shown_; }
-
-    /// The last model, also while something else is shown; null: none.
-    [[nodiscard]] const std::shared_ptr<const LiveModel>& model() const { return models_.newest(); }
-
-    /// True while shown() does not answer the form as it is now.
-    [[nodiscard]] bool outdated() const;
-
-    /// Why the form cannot be answered; empty: no problem.
-    [[nodiscard]] const std::string& problem() const { return models_.problem(); }
-
-    [[nodiscard]] bool pending() const { return on_ && models_.pending(); }
+    [[nodiscard]] int base() const { return base_number(); }
 
     // --- the mouse
 
@@ -78,33 +59,12 @@ public:
     [[nodiscard]] std::vector<FieldText> drive(const OperationForm& before,
                                                const DriveReach& reach);
 
-    /// The drag is cancelled: what was not followed before it is no longer.
-    void cancel_drive();
-
 private:
     void take_base(const Followed& followed);
-    void ask(const Followed& followed);
-    [[nodiscard]] bool is_worked_on() const;
+    void ask_for(const Followed& followed);
     [[nodiscard]] std::string reason_against(const Followed& followed) const;
 
-    /// What a question was asked for.
-    struct Asked {
-        int base = -1, changes = -1;
-        ColouringKind colouring = ColouringKind::Patches;
-
-        bool operator==(const Asked&) const = default;
-    };
-
-    LiveModels models_;
-    std::shared_ptr<const LiveModel> shown_;
-    bool on_ = false, has_form_ = false, on_before_drive_ = false;
-    std::string why_not_;
     std::shared_ptr<const Positions> base_positions_;
-    int base_ = 0;
-    const Operation* operation_ = nullptr;
-    Asked asked_;
-    std::uint64_t question_ = 0;
-    Stopwatch since_asked_;
     DriveAxes wanted_axes_{"iterations", "lambda", "beta_min"}, axes_;
     std::map<std::string, double> starts_;  ///< of a drag, of parameters that are not given
 };

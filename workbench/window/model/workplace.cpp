@@ -407,8 +407,8 @@ void Workplace::cancel_drag() {
     const std::optional<OperationForm> before = std::exchange(before_drag_, std::nullopt);
     if (!form_ || !before) return;
     for (const FormField& field : before->fields()) set_field(field.parameter->name, field.text);
-    if (std::exchange(driving_, false)) live_.cancel_drive();
-    if (std::exchange(sliding_, false)) extraction_.cancel_slide();
+    if (std::exchange(driving_, false)) live_.cancel_drag();
+    if (std::exchange(sliding_, false)) extraction_.cancel_drag();
 }
 
 // --- smoothing by the mouse
@@ -471,7 +471,7 @@ void Workplace::begin_sliding() {
     begin_drag();
     sliding_ = true;
     document.drop_preview();
-    extraction_.begin_slide();
+    extraction_.begin_drag();
     slices_.lend_row(true);
 }
 

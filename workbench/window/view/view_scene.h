@@ -75,8 +75,7 @@ public:
     [[nodiscard]] const ScreenRect& rect() const { return rect_; }
 
     /// From a place of the view to where the shown model would be seen there [pixels]: not 0 over
-    /// the reference of a comparison,
-    /// or over the gallery's further models.
+    /// the reference of a comparison, or over the gallery's further models.
     [[nodiscard]] float shift_at(float x) const {
         return gallery_.is_on() ? gallery_.shift_to_model(x) : compared_.shift_to_model(area_, x);
     }
