@@ -1,9 +1,12 @@
 #include "meshing/remeshing/edit_mesh.h"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
+
+#include <tbb/parallel_sort.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/space_order.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -101,6 +104,13 @@ int EditMesh::valence(VertexId v) const {
     return count;
 }
 
+bool EditMesh::closes_within_three(HalfEdge h) const {
+    HalfEdge k = h;
+    for (int turn = 0; turn < 3; ++turn)
+        if ((k = around(k)) == h) return true;
+    return false;
+}
+
 bool EditMesh::are_neighbours(VertexId a, VertexId b) const {
     const HalfEdge start = leaving_[a];
     HalfEdge h = start;
@@ -143,7 +153,7 @@ VertexId EditMesh::split(HalfEdge h, const Vec3& point) {
 bool EditMesh::can_flip(HalfEdge h) const {
     if (is_feature(h) || is_hole(patch_at(h))) return false;
     const VertexId c = apex(h), d = apex(twin(h));
-    if (valence(origin(h)) <= 3 || valence(target(h)) <= 3) return false;
+    if (closes_within_three(h) || closes_within_three(twin(h))) return false;
     return c != d && !are_neighbours(c, d);
 }
 
@@ -162,15 +172,14 @@ void EditMesh::flip(HalfEdge h) {
 }
 
 int EditMesh::common_neighbours(VertexId a, VertexId b) const {
-    thread_local std::vector<VertexId> around_a, around_b, common;
-    around_a.clear(), around_b.clear(), common.clear();
+    thread_local std::vector<VertexId> around_a, around_b;
+    around_a.clear(), around_b.clear();
     for_each_leaving(a, [&](HalfEdge k) { around_a.push_back(target(k)); });
     for_each_leaving(b, [&](HalfEdge k) { around_b.push_back(target(k)); });
-    std::sort(around_a.begin(), around_a.end());  // hubs of fans have hundreds of neighbours
-    std::sort(around_b.begin(), around_b.end());
-    std::set_intersection(around_a.begin(), around_a.end(), around_b.begin(), around_b.end(),
-                          std::back_inserter(common));
-    return static_cast<int>(common.size());
+    std::sort(around_b.begin(), around_b.end());  // hubs of fans have hundreds of neighbours
+    return static_cast<int>(std::count_if(around_a.begin(), around_a.end(), [&](VertexId v) {
+        return std::binary_search(around_b.begin(), around_b.end(), v);
+    }));
 }
 
 bool EditMesh::can_collapse(HalfEdge h) const {
@@ -179,7 +188,7 @@ bool EditMesh::can_collapse(HalfEdge h) const {
     const int features = feature_edges_at(origin(h));
     if (features > 2 || (features > 0 && !is_feature(h))) return false;
     const VertexId c = apex(h), d = apex(g);
-    if (c == d || valence(c) <= 3 || valence(d) <= 3) return false;
+    if (c == d || closes_within_three(prev(h)) || closes_within_three(prev(g))) return false;
     return common_neighbours(origin(h), target(h)) == 2;  // c and d
 }
 
@@ -198,22 +207,59 @@ void EditMesh::collapse(HalfEdge h) {
         for (HalfEdge k = 3 * t; k < 3 * t + 3; ++k) origin_[k] = kNone;
 }
 
-void EditMesh::compact() {
-    std::vector<HalfEdge> number(origin_.size(), kNone);
-    HalfEdge count = 0;
-    for (HalfEdge h = 0; h < origin_.size(); ++h)
-        if (origin_[h] != kNone) number[h] = count++;
-    for (HalfEdge h = 0; h < origin_.size(); ++h) {
-        if (number[h] == kNone) continue;
-        origin_[number[h]] = origin_[h];
-        twin_[number[h]] = number[twin_[h]];
-        patch_[number[h] / 3] = patch_[h / 3];
+std::vector<VertexId> EditMesh::compact() {
+    std::vector<VertexId> former = compact_vertices();
+    compact_triangles();
+    return former;
+}
+
+std::vector<VertexId> EditMesh::compact_vertices() {
+    std::vector<VertexId> alive;
+    Positions places;
+    for (VertexId v = 0; v < points.size(); ++v) {
+        if (leaving_[v] == kNone) continue;
+        alive.push_back(v);
+        places.push_back(points[v]);
     }
-    origin_.resize(count);
-    twin_.resize(count);
-    patch_.resize(count / 3);
-    for (HalfEdge& h : leaving_)
-        if (h != kNone) h = number[h];
+    std::vector<VertexId> former(alive.size()), number(points.size(), kNone);
+    const std::vector<VertexId> order = space_order(places);
+    for (VertexId v = 0; v < order.size(); ++v) {
+        former[v] = alive[order[v]];
+        number[former[v]] = v;
+        points[v] = places[order[v]];
+    }
+    points.resize(former.size());
+    leaving_.resize(former.size());
+    for (VertexId& v : origin_)
+        if (v != kNone) v = number[v];
+    return former;
+}
+
+void EditMesh::compact_triangles() {
+    std::vector<std::pair<VertexId, TriangleId>> order;  // lowest vertex, former number
+    for (TriangleId t = 0; t < patch_.size(); ++t)
+        if (is_alive(t))
+            order.emplace_back(std::min({origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]}),
+                               t);
+    tbb::parallel_sort(order.begin(), order.end());
+    std::vector<TriangleId> number(patch_.size(), kNone);
+    for (TriangleId t = 0; t < order.size(); ++t) number[order[t].second] = t;
+    std::vector<VertexId> origin(3 * order.size());
+    std::vector<HalfEdge> twin(3 * order.size());
+    std::vector<std::uint32_t> patch(order.size());
+    for (TriangleId t = 0; t < order.size(); ++t) {
+        const TriangleId s = order[t].second;
+        patch[t] = patch_[s];
+        for (HalfEdge i = 0; i < 3; ++i) {
+            const HalfEdge g = twin_[3 * s + i];
+            origin[3 * t + i] = origin_[3 * s + i];
+            twin[3 * t + i] = 3 * number[triangle_of(g)] + g % 3;
+            leaving_[origin[3 * t + i]] = 3 * t + i;
+        }
+    }
+    origin_ = std::move(origin);
+    twin_ = std::move(twin);
+    patch_ = std::move(patch);
 }
 
 Surface EditMesh::to_surface(const std::vector<Patch>& patches, std::vector<VertexId>& kept) const {

@@ -75,6 +75,8 @@ public:
     }
 
     [[nodiscard]] int valence(VertexId v) const;
+    /// The origin of h has at most three edges.
+    [[nodiscard]] bool closes_within_three(HalfEdge h) const;
     [[nodiscard]] bool are_neighbours(VertexId a, VertexId b) const;
 
     /// Splits the edge of h at a new vertex at `point`, which it returns; h keeps its origin.
@@ -90,9 +92,11 @@ public:
     /// Merges the origin of h into its target, which does not move.
     void collapse(HalfEdge h);
 
-    /// Closes the gaps of removed triangles: half-edges and triangles get new numbers (in the old
-    /// order); vertices keep theirs.
-    void compact();
+    /// Closes the gaps of what was removed and gives everything new numbers: vertices along a curve
+    /// that fills space, triangles by their lowest vertex. What the passes visit together then lies
+    /// together in memory, however the mesh came about.
+    /// \return the former number of each vertex
+    std::vector<VertexId> compact();
 
     /// Area normal of triangle t [mm^2], its length is twice the area.
     [[nodiscard]] Vec3 area_normal_of(TriangleId t) const {
@@ -114,6 +118,8 @@ private:
     void fill_holes();
     void require_single_fans() const;
     [[nodiscard]] int feature_edges_at(VertexId v) const;
+    std::vector<VertexId> compact_vertices();
+    void compact_triangles();
     [[nodiscard]] int common_neighbours(VertexId a, VertexId b) const;
 
     std::vector<VertexId> origin_;      ///< by half-edge; kNone where removed

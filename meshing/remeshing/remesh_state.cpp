@@ -132,6 +132,21 @@ bool RemeshState::move_keeps_shape(VertexId v, const Vec3& x) const {
     return keeps;
 }
 
+void RemeshState::compact() {
+    if (!resting.empty()) resting.resize(mesh.vertex_count(), 0);
+    const std::vector<VertexId> former = mesh.compact();
+    const auto gather = [&](auto& values) {
+        auto old = std::move(values);
+        values = {};
+        values.reserve(former.size());
+        for (const VertexId v : former) values.push_back(old[v]);
+    };
+    gather(sizes);
+    gather(hints);
+    gather(inner_of);
+    if (!resting.empty()) gather(resting);
+}
+
 Surface RemeshState::result() const {
     std::vector<VertexId> kept;
     return mesh.to_surface(patches, kept);

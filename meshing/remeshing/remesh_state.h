@@ -69,6 +69,9 @@ struct RemeshState {
     [[nodiscard]] bool move_keeps_shape(VertexId v, const Vec3& x) const;
     void move(VertexId v, const TargetPlace& place);
 
+    /// Drops what was removed; vertices and half-edges get new numbers (EditMesh::compact).
+    void compact();
+
     /// The remeshed surface with the source's patches; attributes are not set.
     [[nodiscard]] Surface result() const;
 

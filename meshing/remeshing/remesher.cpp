@@ -174,7 +174,7 @@ void Remesher::collapse_short_edges() {
             mesh.for_each_leaving(to_b ? b : a, [&](HalfEdge k) { touched.add(mesh.target(k)); });
         }
     } while (touched.any() && touched.passes() < kMostPasses);
-    mesh.compact();
+    compact();
 }
 
 void Remesher::count_valences() {
@@ -209,7 +209,7 @@ void Remesher::collapse_defects() {
         valence_[mesh.target(h)] += valence_[mesh.origin(h)] - 4;
         mesh.collapse(h);
     }
-    mesh.compact();
+    compact();
 }
 
 int Remesher::flip_valence_excess(HalfEdge h) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/tetrahedra/quality.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
@@ -7,6 +8,7 @@ namespace vesselbench {
 /// Renumbers the cells so that neighbours have close numbers (solvers run faster and converge
 /// better); points, boundary and patches are unchanged.
 /// Source: Cuthill & McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969.
-[[nodiscard]] VolumeMesh in_cell_order(VolumeMesh mesh);
+/// \param neighbours receives those of the cells in their new order
+[[nodiscard]] VolumeMesh in_cell_order(VolumeMesh mesh, CellNeighbours& neighbours);
 
 }  // namespace vesselbench

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
-#include "meshing/tetrahedra/space_order.h"
 #include "meshing/tetrahedra/tet_store.h"
 
 namespace vesselbench {
@@ -449,22 +449,11 @@ std::size_t Improver::move() {
     return sum;
 }
 
-VolumeMesh result(const VolumeMesh& mesh, const TetStore& store,
-                  const std::vector<VertexId>& former) {
-    VolumeMesh better = mesh;
-    for (std::size_t v = 0; v < former.size(); ++v) better.points[former[v]] = store.points[v];
-    better.tetrahedra = store.cells();
-    for (Tetrahedron& cell : better.tetrahedra)
-        for (VertexId& v : cell) v = former[v];
-    return better;
-}
-
 }  // namespace
 
 VolumeMesh optimised(const VolumeMesh& mesh, const OptimiseParameters& parameters,
                      const Progress& progress, OptimiseReport* report) {
-    std::vector<VertexId> former;
-    Improver improver(in_space_order(mesh, former), parameters);
+    Improver improver(mesh, parameters);
     OptimiseReport done;
     const int sweeps = parameters.rounds * (parameters.moves + 1);
     int sweep = 0;
@@ -487,7 +476,10 @@ VolumeMesh optimised(const VolumeMesh& mesh, const OptimiseParameters& parameter
     }
     done.exchanges += improver.exchange();
     if (report != nullptr) *report = done;
-    return result(mesh, improver.store(), former);
+    VolumeMesh better = mesh;
+    better.points = std::move(improver.store().points);
+    better.tetrahedra = improver.store().cells();
+    return better;
 }
 
 }  // namespace vesselbench

@@ -24,6 +24,7 @@ struct OptimiseReport {
 /// No cell becomes inverted. Deterministic.
 /// Sources: Klingner & Shewchuk, "Aggressive tetrahedral mesh improvement", 2007 (exchanges);
 /// Knupp, "Algebraic mesh quality metrics", 2001 (mean ratio).
+/// \param mesh in_space_order, or most of the work is left to one thread
 [[nodiscard]] VolumeMesh optimised(const VolumeMesh& mesh, const OptimiseParameters& parameters,
                                    const Progress& progress, OptimiseReport* report = nullptr);
 

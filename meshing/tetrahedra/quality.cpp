@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/parallel.h"
 
 namespace vesselbench {
 
@@ -49,24 +53,6 @@ SideBuckets side_buckets(const VolumeMesh& mesh) {
     return buckets;
 }
 
-// Cell behind each of the 4 * #cells sides, or kOutside.
-std::vector<std::uint32_t> cells_behind(const VolumeMesh& mesh) {
-    const SideBuckets buckets = side_buckets(mesh);
-    std::vector<std::uint32_t> behind(4 * mesh.tetrahedra.size(), kOutside);
-    tbb::parallel_for(std::size_t{0}, mesh.points.size(), [&](std::size_t v) {
-        for (std::uint32_t i = buckets.offsets[v]; i < buckets.offsets[v + 1]; ++i)
-            for (std::uint32_t j = i + 1; j < buckets.offsets[v + 1]; ++j) {
-                const Side &a = buckets.sides[i], &b = buckets.sides[j];
-                if (a.middle != b.middle || a.high != b.high) continue;
-                if (behind[a.cell_face] != kOutside || behind[b.cell_face] != kOutside)
-                    throw InvalidInput("volume mesh: a face belongs to three cells");
-                behind[a.cell_face] = b.cell_face / 4;
-                behind[b.cell_face] = a.cell_face / 4;
-            }
-    });
-    return behind;
-}
-
 using PatchOfFace = std::vector<std::pair<Triangle, std::uint16_t>>;
 
 PatchOfFace sorted_boundary(const VolumeMesh& mesh) {
@@ -87,6 +73,22 @@ std::uint16_t patch_of(const PatchOfFace& patches, Triangle key) {
     if (found == patches.end() || found->first != key)
         throw InvalidInput("volume mesh: an outer face belongs to no patch");
     return found->second;
+}
+
+// By patch, then by owner.
+std::vector<MeshFace> outer_faces(const VolumeMesh& mesh, const CellNeighbours& neighbours) {
+    const PatchOfFace patches = sorted_boundary(mesh);
+    std::vector<MeshFace> outer;
+    for (std::uint32_t cell = 0; cell < neighbours.size(); ++cell)
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (neighbours[cell][k] != kOutside) continue;
+            const Triangle corners = faces_of(mesh.tetrahedra[cell])[k];
+            outer.push_back(
+                {.corners = corners, .owner = cell, .patch = patch_of(patches, corners)});
+        }
+    std::stable_sort(outer.begin(), outer.end(),
+                     [](const auto& l, const auto& r) { return l.patch < r.patch; });
+    return outer;
 }
 
 struct CellShape {
@@ -120,31 +122,99 @@ double degrees_of(double cosine) {
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
 }
 
-void add_cells(const VolumeMesh& mesh, VolumeQuality& quality, std::vector<CellShape>& shapes) {
-    double edges = 0.0;
-    quality.smallest_cell = mesh.tetrahedra.empty() ? 0.0 : 1e300;
-    quality.smallest_dihedral = 180.0;
-    for (const Tetrahedron& tet : mesh.tetrahedra) {
-        const Vec3 &a = mesh.points[tet[0]], &b = mesh.points[tet[1]], &c = mesh.points[tet[2]],
-                   &d = mesh.points[tet[3]];
-        const double volume = (b - a).cross(c - a).dot(d - a) / 6.0;
-        shapes.push_back({cell_centre(mesh, tet), volume});
-        edges += (a - b).norm() + (a - c).norm() + (a - d).norm() + (b - c).norm() +
-                 (b - d).norm() + (c - d).norm();
-        const auto angles = dihedral_angles(a, b, c, d);
-        const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
-        quality.smallest_dihedral = std::min(quality.smallest_dihedral, *low);
-        quality.largest_dihedral = std::max(quality.largest_dihedral, *high);
-        quality.mean_smallest_dihedral += *low;
-        quality.cells_below_10_deg += *low < 10.0 ? 1 : 0;
-        quality.volume += volume;
-        quality.smallest_cell = std::min(quality.smallest_cell, volume);
-        quality.largest_aspect_ratio =
-            std::max(quality.largest_aspect_ratio, aspect_ratio(mesh, tet, volume));
+std::array<double, 6> dihedral_cosines(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const std::array<Vec3, 4> out = {
+        (c - b).cross(d - b).normalized(), (d - a).cross(c - a).normalized(),
+        (b - a).cross(d - a).normalized(), (c - a).cross(b - a).normalized()};
+    std::array<double, 6> cosines;
+    std::size_t n = 0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) cosines[n++] = -out[i].dot(out[j]);
+    return cosines;
+}
+
+// Sums and extremes over some of the cells or faces.
+struct CellSums {
+    double edges = 0.0, volume = 0.0, smallest_dihedrals = 0.0;
+    double smallest_cell = 1e300, smallest_dihedral = 180.0, largest_dihedral = 0.0;
+    double largest_aspect_ratio = 0.0;
+    std::size_t below_10_deg = 0;
+
+    friend CellSums operator+(const CellSums& l, const CellSums& r) {
+        return {l.edges + r.edges,
+                l.volume + r.volume,
+                l.smallest_dihedrals + r.smallest_dihedrals,
+                std::min(l.smallest_cell, r.smallest_cell),
+                std::min(l.smallest_dihedral, r.smallest_dihedral),
+                std::max(l.largest_dihedral, r.largest_dihedral),
+                std::max(l.largest_aspect_ratio, r.largest_aspect_ratio),
+                l.below_10_deg + r.below_10_deg};
     }
-    const auto count = static_cast<double>(std::max<std::size_t>(1, mesh.tetrahedra.size()));
-    quality.mean_edge = edges / (6.0 * count);
-    quality.mean_smallest_dihedral /= count;
+};
+
+struct FaceSums {
+    std::size_t inner = 0, over_70_deg = 0;
+    double cosines = 0.0, ratios = 0.0;
+    double largest_angle = 0.0, largest_ratio = 1.0, largest_skewness = 0.0;
+
+    friend FaceSums operator+(const FaceSums& l, const FaceSums& r) {
+        return {l.inner + r.inner,
+                l.over_70_deg + r.over_70_deg,
+                l.cosines + r.cosines,
+                l.ratios + r.ratios,
+                std::max(l.largest_angle, r.largest_angle),
+                std::max(l.largest_ratio, r.largest_ratio),
+                std::max(l.largest_skewness, r.largest_skewness)};
+    }
+};
+
+// Adds up on all threads, always in the same order. add(sums, i) adds element i.
+template <class Sums, class Add>
+Sums summed(std::size_t count, const Add& add) {
+    constexpr std::size_t kGrain = 8192;
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::size_t>(0, count, kGrain), Sums{},
+        [&](const auto& range, Sums sums) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) add(sums, i);
+            return sums;
+        },
+        std::plus<Sums>());
+}
+
+void add_cell(const VolumeMesh& mesh, const Tetrahedron& tet, CellSums& sums, CellShape& shape) {
+    const Vec3 &a = mesh.points[tet[0]], &b = mesh.points[tet[1]], &c = mesh.points[tet[2]],
+               &d = mesh.points[tet[3]];
+    shape = {cell_centre(mesh, tet), (b - a).cross(c - a).dot(d - a) / 6.0};
+    sums.edges += (a - b).norm() + (a - c).norm() + (a - d).norm() + (b - c).norm() +
+                  (b - d).norm() + (c - d).norm();
+    const auto cosines = dihedral_cosines(a, b, c, d);
+    const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
+    const double smallest = degrees_of(*high);
+    sums.smallest_dihedral = std::min(sums.smallest_dihedral, smallest);
+    sums.largest_dihedral = std::max(sums.largest_dihedral, degrees_of(*low));
+    sums.smallest_dihedrals += smallest;
+    sums.below_10_deg += smallest < 10.0 ? 1 : 0;
+    sums.volume += shape.volume;
+    sums.smallest_cell = std::min(sums.smallest_cell, shape.volume);
+    sums.largest_aspect_ratio =
+        std::max(sums.largest_aspect_ratio, aspect_ratio(mesh, tet, shape.volume));
+}
+
+std::vector<CellShape> add_cells(const VolumeMesh& mesh, VolumeQuality& quality) {
+    std::vector<CellShape> shapes(mesh.tetrahedra.size());
+    const auto sums = summed<CellSums>(shapes.size(), [&](CellSums& some, std::size_t i) {
+        add_cell(mesh, mesh.tetrahedra[i], some, shapes[i]);
+    });
+    quality.volume = sums.volume;
+    quality.smallest_cell = shapes.empty() ? 0.0 : sums.smallest_cell;
+    quality.smallest_dihedral = sums.smallest_dihedral;
+    quality.largest_dihedral = sums.largest_dihedral;
+    quality.cells_below_10_deg = sums.below_10_deg;
+    quality.largest_aspect_ratio = sums.largest_aspect_ratio;
+    const auto count = static_cast<double>(std::max<std::size_t>(1, shapes.size()));
+    quality.mean_edge = sums.edges / (6.0 * count);
+    quality.mean_smallest_dihedral = sums.smallest_dihedrals / count;
+    return shapes;
 }
 
 // Distance between the face's centre and the point where the line between the cell centres meets
@@ -178,37 +248,46 @@ double boundary_skewness(const VolumeMesh& mesh, const MeshFace& face, const Vec
     return length / (extent + 1e-300);
 }
 
+void add_face(const VolumeMesh& mesh, const MeshFace& face, const std::vector<CellShape>& shapes,
+              FaceSums& sums) {
+    const Vec3 normal = area_normal(mesh.points, face.corners);
+    const CellShape& owner = shapes[face.owner];
+    if (face.neighbour == MeshFace::kOutside) {
+        sums.largest_skewness =
+            std::max(sums.largest_skewness, boundary_skewness(mesh, face, normal, owner.centre));
+        return;
+    }
+    const CellShape& neighbour = shapes[face.neighbour];
+    const Vec3 line = neighbour.centre - owner.centre;
+    const double cosine = non_orthogonality_cosine(line, normal);
+    const double angle = degrees_of(cosine);
+    const double ratio = std::max(owner.volume, neighbour.volume) /
+                         std::max(1e-300, std::min(owner.volume, neighbour.volume));
+    ++sums.inner;
+    sums.cosines += cosine;
+    sums.ratios += ratio;
+    sums.over_70_deg += angle > 70.0 ? 1 : 0;
+    sums.largest_angle = std::max(sums.largest_angle, angle);
+    sums.largest_ratio = std::max(sums.largest_ratio, ratio);
+    sums.largest_skewness = std::max(sums.largest_skewness,
+                                     skewness(mesh, face, normal, owner.centre, neighbour.centre));
+}
+
 void add_faces(const VolumeMesh& mesh, std::span<const MeshFace> faces,
                const std::vector<CellShape>& shapes, VolumeQuality& quality) {
-    double cosines = 0.0, ratios = 0.0;
-    for (const MeshFace& face : faces) {
-        ++quality.faces;
-        const Vec3 normal = area_normal(mesh.points, face.corners);
-        const CellShape& owner = shapes[face.owner];
-        if (face.neighbour == MeshFace::kOutside) {
-            quality.largest_skewness = std::max(
-                quality.largest_skewness, boundary_skewness(mesh, face, normal, owner.centre));
-            continue;
-        }
-        const CellShape& neighbour = shapes[face.neighbour];
-        const Vec3 line = neighbour.centre - owner.centre;
-        const double cosine = non_orthogonality_cosine(line, normal);
-        const double angle = degrees_of(cosine);
-        const double ratio = std::max(owner.volume, neighbour.volume) /
-                             std::max(1e-300, std::min(owner.volume, neighbour.volume));
-        ++quality.inner_faces;
-        cosines += cosine;
-        ratios += ratio;
-        quality.faces_over_70_deg += angle > 70.0 ? 1 : 0;
-        quality.largest_non_orthogonality = std::max(quality.largest_non_orthogonality, angle);
-        quality.largest_volume_ratio = std::max(quality.largest_volume_ratio, ratio);
-        quality.largest_skewness = std::max(
-            quality.largest_skewness, skewness(mesh, face, normal, owner.centre, neighbour.centre));
-    }
+    const auto sums = summed<FaceSums>(faces.size(), [&](FaceSums& some, std::size_t i) {
+        add_face(mesh, faces[i], shapes, some);
+    });
+    quality.faces = faces.size();
+    quality.inner_faces = sums.inner;
+    quality.faces_over_70_deg = sums.over_70_deg;
+    quality.largest_non_orthogonality = sums.largest_angle;
+    quality.largest_volume_ratio = sums.largest_ratio;
+    quality.largest_skewness = sums.largest_skewness;
     const auto inner = static_cast<double>(std::max<std::size_t>(1, quality.inner_faces));
     // As in checkMesh: the angle of the mean cosine.
-    quality.mean_non_orthogonality = degrees_of(cosines / inner);
-    quality.mean_volume_ratio = ratios / inner;
+    quality.mean_non_orthogonality = degrees_of(sums.cosines / inner);
+    quality.mean_volume_ratio = sums.ratios / inner;
 }
 
 }  // namespace
@@ -226,38 +305,55 @@ double largest_non_orthogonality(const VolumeMesh& mesh, std::span<const MeshFac
 }
 
 std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const std::array<Vec3, 4> out = {
-        (c - b).cross(d - b).normalized(), (d - a).cross(c - a).normalized(),
-        (b - a).cross(d - a).normalized(), (c - a).cross(b - a).normalized()};
-    std::array<double, 6> angles;
-    std::size_t n = 0;
-    for (int i = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j)
-            angles[n++] = std::acos(std::clamp(-out[i].dot(out[j]), -1.0, 1.0)) * kDegrees;
+    std::array<double, 6> angles = dihedral_cosines(a, b, c, d);
+    for (double& angle : angles) angle = degrees_of(angle);
     return angles;
 }
 
+CellNeighbours cell_neighbours(const VolumeMesh& mesh) {
+    const SideBuckets buckets = side_buckets(mesh);
+    CellNeighbours neighbours(mesh.tetrahedra.size(), {kOutside, kOutside, kOutside, kOutside});
+    tbb::parallel_for(std::size_t{0}, mesh.points.size(), [&](std::size_t v) {
+        for (std::uint32_t i = buckets.offsets[v]; i < buckets.offsets[v + 1]; ++i)
+            for (std::uint32_t j = i + 1; j < buckets.offsets[v + 1]; ++j) {
+                const Side &a = buckets.sides[i], &b = buckets.sides[j];
+                if (a.middle != b.middle || a.high != b.high) continue;
+                std::uint32_t& behind_a = neighbours[a.cell_face / 4][a.cell_face % 4];
+                std::uint32_t& behind_b = neighbours[b.cell_face / 4][b.cell_face % 4];
+                if (behind_a != kOutside || behind_b != kOutside)
+                    throw InvalidInput("volume mesh: a face belongs to three cells");
+                behind_a = b.cell_face / 4;
+                behind_b = a.cell_face / 4;
+            }
+    });
+    return neighbours;
+}
+
 std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh) {
-    const std::vector<std::uint32_t> behind = cells_behind(mesh);
-    const PatchOfFace patches = sorted_boundary(mesh);
-    std::vector<MeshFace> faces, outer;
-    faces.reserve(2 * mesh.tetrahedra.size() + mesh.boundary.size());
-    for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell) {
+    return mesh_faces(mesh, cell_neighbours(mesh));
+}
+
+std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh, const CellNeighbours& neighbours) {
+    std::vector<std::size_t> first(neighbours.size() + 1, 0);  // each cell's inner faces
+    for_each_vertex(neighbours.size(), [&](std::size_t cell) {
+        for (const std::uint32_t other : neighbours[cell])
+            first[cell + 1] += other != kOutside && cell < other ? 1 : 0;
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<MeshFace> faces(first.back());
+    for_each_vertex(neighbours.size(), [&](std::size_t cell) {
         const auto corners = faces_of(mesh.tetrahedra[cell]);
-        const std::size_t first = faces.size();
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            const std::uint32_t other = behind[4 * cell + k];
-            if (other == kOutside)
-                outer.push_back(
-                    {.corners = corners[k], .owner = cell, .patch = patch_of(patches, corners[k])});
-            else if (cell < other)
-                faces.push_back({.corners = corners[k], .owner = cell, .neighbour = other});
-        }
-        std::sort(faces.begin() + static_cast<std::ptrdiff_t>(first), faces.end(),
+        MeshFace* const begin = faces.data() + first[cell];
+        MeshFace* end = begin;
+        for (std::size_t k = 0; k < 4; ++k)
+            if (const std::uint32_t other = neighbours[cell][k]; other != kOutside && cell < other)
+                *end++ = {.corners = corners[k],
+                          .owner = static_cast<std::uint32_t>(cell),
+                          .neighbour = other};
+        std::sort(begin, end,
                   [](const auto& l, const auto& r) { return l.neighbour < r.neighbour; });
-    }
-    std::stable_sort(outer.begin(), outer.end(),
-                     [](const auto& l, const auto& r) { return l.patch < r.patch; });
+    });
+    const std::vector<MeshFace> outer = outer_faces(mesh, neighbours);
     faces.insert(faces.end(), outer.begin(), outer.end());
     return faces;
 }
@@ -270,9 +366,7 @@ VolumeQuality volume_quality(const VolumeMesh& mesh, std::span<const MeshFace> f
     VolumeQuality quality;
     quality.points = mesh.points.size();
     quality.cells = mesh.tetrahedra.size();
-    std::vector<CellShape> shapes;
-    shapes.reserve(mesh.tetrahedra.size());
-    add_cells(mesh, quality, shapes);
+    const std::vector<CellShape> shapes = add_cells(mesh, quality);
     add_faces(mesh, faces, shapes, quality);
     return quality;
 }

@@ -21,10 +21,21 @@ struct MeshFace {
     std::uint16_t patch = 0;  ///< at the boundary
 };
 
+/// The cells behind the four faces of each cell, in the order of faces_of; MeshFace::kOutside at
+/// the boundary.
+using CellNeighbours = std::vector<std::array<std::uint32_t, 4>>;
+
+/// \throw InvalidInput if a face has more than two cells
+[[nodiscard]] CellNeighbours cell_neighbours(const VolumeMesh& mesh);
+
 /// All faces in OpenFOAM's order: inner faces by owner, then by neighbour (upper triangular), then
 /// the boundary by patch, then by owner. The owner is the cell with the lower number.
 /// \throw InvalidInput if a face has more than two cells, or an outer one is not in `mesh.boundary`
 [[nodiscard]] std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh);
+
+/// The same if the cells' neighbours are known.
+[[nodiscard]] std::vector<MeshFace> mesh_faces(const VolumeMesh& mesh,
+                                               const CellNeighbours& neighbours);
 
 /// Shape quality of the tetrahedra. Non-orthogonality, skewness and aspect ratio are OpenFOAM's
 /// (checkMesh of v1912, meshTools/primitiveMeshCheck), so both report the same numbers.

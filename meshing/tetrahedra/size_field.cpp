@@ -94,14 +94,6 @@ void SizeField::sweep(double growth) {
     }
 }
 
-const SizeField::Node& SizeField::near(const Vec3& place) const {
-    const Vec3 q = (place - origin_) / spacing_;
-    std::array<int, 3> node;
-    for (int k = 0; k < 3; ++k)
-        node[k] = std::clamp(static_cast<int>(std::lround(q[k])), 0, count_[k] - 1);
-    return nodes_[index(node[0], node[1], node[2])];
-}
-
 double SizeField::size_of(const Node& node, double factor) {
     const double depth = std::min(1.0, node.distance / (2.0 * node.size));
     return node.size * (1.0 + (factor - 1.0) * depth);

@@ -17,21 +17,18 @@ public:
     /// \param growth largest growth of the edge length per distance [-], >= 0
     SizeField(const Surface& surface, double growth);
 
+    /// Target edge length at a point [mm], trilinear; beyond the grid that of the nearest point.
+    /// Linear in the factor.
+    [[nodiscard]] double at(const Vec3& place, double factor) const;
+
+private:
     struct Node {
         float size;      ///< smallest of (edge length + growth * distance) over all vertices [mm]
         float distance;  ///< to the surface's vertices [mm], along the grid
     };
 
-    /// The grid node nearest to a point.
-    [[nodiscard]] const Node& near(const Vec3& place) const;
-
-    /// Target edge length at a node [mm].
     [[nodiscard]] static double size_of(const Node& node, double factor);
 
-    /// Target edge length at a point [mm], trilinear; beyond the grid that of the nearest point.
-    [[nodiscard]] double at(const Vec3& place, double factor) const;
-
-private:
     [[nodiscard]] std::size_t index(int i, int j, int k) const {
         return (static_cast<std::size_t>(k) * count_[1] + j) * count_[0] + i;
     }

@@ -5,6 +5,7 @@
 
 #include <tetgen.h>
 
+#include "meshing/tetrahedra/point_order.h"
 #include "meshing/tetrahedra/tetgen_failure.h"
 #include "meshing/tetrahedra/tetgen_guard.h"
 
@@ -134,7 +135,7 @@ TetgenResult run_tetgen(const Surface& surface, const std::string& switches,
     std::string text = switches + "Q";
     try {
         tetrahedralize(text.data(), &input, &output);
-        result.mesh = mesh_of(output, surface);
+        result.mesh = in_space_order(mesh_of(output, surface));
     } catch (int code) {
         result.error_code = code;
         result.error = tetgen_error_text(code);

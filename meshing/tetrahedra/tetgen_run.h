@@ -10,7 +10,7 @@ namespace vesselbench {
 
 /// Result of one call of TetGen: a mesh, or the code and text of its error.
 struct TetgenResult {
-    VolumeMesh mesh;                   ///< empty if it failed
+    VolumeMesh mesh;                   ///< in_space_order; empty if it failed
     int error_code = 0;                ///< 0: done; TetGen's own codes otherwise
     std::string error;                 ///< the meaning of the code
     std::vector<TriangleId> culprits;  ///< intersecting input facets (switch `d`), ascending

@@ -26,6 +26,11 @@ constexpr double kVolumeBound = 0.19;
 // Cells that TetGen makes in a cube of the target edge length, with the bound above.
 constexpr double kCellsPerCube = 9.9;
 constexpr double kCellsTolerance = 0.08;
+// Where the lumen is finer than this factor, the steep transition to the wall takes more: with it,
+// the count was within 7 % of the expected one for six vessels and factors of 0.06 to 1.4.
+constexpr double kSteep = 0.5, kMoreWhereSteep = 0.2;  // the latter by the logarithm
+// A count that changes less although the size was changed is that of the surface's own edges.
+constexpr double kSameCells = 0.05;
 // Exchanges leave this fraction of TetGen's cells.
 constexpr double kCellsAfterExchanges = 0.945;
 constexpr double kVolumeTolerance = 1e-6;
@@ -119,9 +124,12 @@ Vec3 place_in_tetrahedron(int k) {
     return {t[0], t[1] - t[0], t[2] - t[1]};
 }
 
+// Target sizes are linear in the factor.
 struct VolumeSample {
-    double volume;         // [mm^3]
-    SizeField::Node node;  // target size there
+    double volume;                    // [mm^3]
+    double smallest_size, by_factor;  // [mm]
+
+    [[nodiscard]] double size(double factor) const { return smallest_size + factor * by_factor; }
 };
 
 class Mesher {
@@ -176,7 +184,8 @@ public:
                 const Vec3 w = place_in_tetrahedron(k);
                 const Vec3 place =
                     p[a] + w.x() * (p[b] - p[a]) + w.y() * (p[c] - p[a]) + w.z() * (p[d] - p[a]);
-                all.push_back({cell / count, sizes_.near(place)});
+                const double smallest_size = sizes_.at(place, 0.0);
+                all.push_back({cell / count, smallest_size, sizes_.at(place, 1.0) - smallest_size});
             }
         }
         return all;
@@ -203,8 +212,9 @@ private:
 double expected_cells(const std::vector<VolumeSample>& samples, double factor) {
     double cells = 0.0;
     for (const VolumeSample& sample : samples)
-        cells += sample.volume / std::pow(SizeField::size_of(sample.node, factor), 3);
-    return kCellsPerCube * cells;
+        cells += sample.volume / std::pow(sample.size(factor), 3);
+    const double steep = std::max(0.0, std::log(kSteep / factor));
+    return kCellsPerCube * (1.0 + kMoreWhereSteep * steep) * cells;
 }
 
 double factor_for(const std::vector<VolumeSample>& samples, double cells) {
@@ -226,9 +236,11 @@ VolumeMesh mesh_of_size(Mesher& mesher, const TetrahedralizeParameters& paramete
     double aim = wanted;
     for (int trial = 0; trial < 4; ++trial) {
         report.size = factor_for(samples, aim);
+        const auto before = static_cast<double>(mesh.tetrahedra.size()) / wanted;
         mesh = mesher.mesh(report.size);
         const double reached = static_cast<double>(mesh.tetrahedra.size()) / wanted;
         if (std::abs(reached - 1.0) < kCellsTolerance) break;
+        if (std::abs(reached - before) < kSameCells * reached) break;
         aim /= reached;
     }
     return mesh;
@@ -268,8 +280,9 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
         result.mesh =
             optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.5, 0.95));
     progress.report(0.95, "checking the cells");
-    result.mesh = in_cell_order(std::move(result.mesh));
-    const std::vector<MeshFace> faces = mesh_faces(result.mesh);
+    CellNeighbours neighbours;
+    result.mesh = in_cell_order(std::move(result.mesh), neighbours);
+    const std::vector<MeshFace> faces = mesh_faces(result.mesh, neighbours);
     const std::string lost = loss(result.mesh, faces, surface, result.report.surface_kept);
     if (!lost.empty())
         throw AlgorithmFailure("tetrahedralize: the improved mesh is not valid (" + lost +

@@ -1,5 +1,9 @@
 #include "meshing/remeshing/edit_mesh.h"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
@@ -58,8 +62,13 @@ SCENARIO("Splits, flips and collapses keep the mesh a manifold", "[meshing][edit
                 mesh.collapse(h), ++collapsed;
         CHECK(collapsed > 20);
         check_consistent(mesh);
-        mesh.compact();
+        const Positions places = mesh.points;
+        const std::vector<VertexId> former = mesh.compact();
         check_consistent(mesh);
+        CHECK(former.size() == mesh.vertex_count());
+        CHECK(mesh.vertex_count() == places.size() - static_cast<std::size_t>(collapsed));
+        CHECK(std::ranges::equal(former, mesh.points,
+                                 [&](VertexId v, const Vec3& p) { return places[v] == p; }));
         const Connectivity after = connectivity(*surface_of(mesh, source).topology);
         CHECK(after.manifold);
         CHECK(after.oriented);
@@ -87,4 +96,31 @@ SCENARIO("A surface that is not an oriented manifold is rejected with its place"
                       Catch::Contains("near"));
     CHECK_THROWS_AS(EditMesh(make_surface(points, {{0, 1, 2}, {0, 1, 3}})), InvalidInput);
     CHECK_THROWS_AS(EditMesh(make_surface(points, {{0, 1, 2}, {0, 3, 4}})), InvalidInput);
+}
+
+SCENARIO("What is near on a compact mesh is near in memory", "[meshing][edit-mesh]") {
+    const Surface source = closed_tube(2.0, 30.0, 48, 200);
+    std::vector<VertexId> shuffled(source.vertex_count());
+    std::iota(shuffled.begin(), shuffled.end(), VertexId{0});
+    std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
+    Positions points(shuffled.size());
+    for (std::size_t v = 0; v < points.size(); ++v) points[shuffled[v]] = source.points()[v];
+    std::vector<Triangle> triangles(source.triangles().begin(), source.triangles().end());
+    for (Triangle& triangle : triangles)
+        for (VertexId& v : triangle) v = shuffled[v];
+    EditMesh mesh(make_surface(std::move(points), std::move(triangles), *source.patch_labels,
+                               source.patches));
+    const auto far_neighbours = [&] {
+        std::size_t far = 0;
+        for (EditMesh::HalfEdge h = 0; h < mesh.half_edge_count(); ++h)
+            far += std::max(mesh.origin(h), mesh.target(h)) -
+                               std::min(mesh.origin(h), mesh.target(h)) >
+                           mesh.vertex_count() / 8
+                       ? 1
+                       : 0;
+        return static_cast<double>(far) / static_cast<double>(mesh.half_edge_count());
+    };
+    CHECK(far_neighbours() > 0.5);
+    mesh.compact();
+    CHECK(far_neighbours() < 0.1);
 }

@@ -104,7 +104,9 @@ SCENARIO("A capped tube is remeshed with its rims, planes and patches kept", "[m
     const auto before = patch_areas(tube), after = patch_areas(remeshed);
     REQUIRE(after.size() == 3);
     for (const auto& [name, area] : before) CHECK(after.at(name) == Approx(area).epsilon(0.02));
-    CHECK(mean_edge_length(remeshed) == Approx(0.6).epsilon(0.1));
+    // Graded edges are shorter at the rims.
+    const double share = mode == RemeshMode::Uniform ? 0.08 : 0.12;
+    CHECK(mean_edge_length(remeshed) == Approx(0.6).epsilon(share));
     CHECK(volume(remeshed) == Approx(volume(tube)).epsilon(0.02));
 }
 
@@ -286,22 +288,18 @@ SCENARIO("Remeshing is deterministic and independent of unit and direction", "[m
 
 SCENARIO("Walls that almost touch are separated where no edge is short enough",
          "[meshing][remesh]") {
-    GIVEN("a dent that rests on the wall, 0.0002 mm off it, with edges of 0.5 mm") {
-        const Surface body = dented(0.0002);
-        REQUIRE(self_intersections(body).empty());
-        const Remeshed remeshed = remesh(body, {.mode = RemeshMode::Uniform, .edge = 0.5});
-        CHECK(remeshed.report.crossings_parted > 0);
-        check_sound(remeshed.surface, true);
-    }
-    GIVEN("dents of several widths, with several edges") {
-        for (const double gap : {2e-5, 1e-4, 5e-4})
-            for (const double edge : {0.35, 0.45, 0.6}) {
-                CAPTURE(gap, edge);
-                const Surface body = dented(gap);
-                const auto made = remesh(body, {.mode = RemeshMode::Uniform, .edge = edge});
-                CHECK(connected_components(*made.surface.topology).count() == 1);
-            }
-    }
+    std::size_t parted = 0;
+    for (const double gap : {2e-5, 1e-4, 2e-4, 5e-4})
+        for (const double edge : {0.35, 0.45, 0.5, 0.6}) {
+            CAPTURE(gap, edge);
+            const Surface body = dented(gap);
+            REQUIRE(self_intersections(body).empty());
+            const Remeshed made = remesh(body, {.mode = RemeshMode::Uniform, .edge = edge});
+            check_sound(made.surface, true);
+            CHECK(connected_components(*made.surface.topology).count() == 1);
+            parted += made.report.crossings_parted;
+        }
+    CHECK(parted > 0);
 }
 
 SCENARIO("An edge that makes too many triangles, or loses the vessel, is refused",

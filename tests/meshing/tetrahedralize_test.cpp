@@ -118,9 +118,10 @@ SCENARIO("filling and improving report their progress", "[meshing][tetrahedraliz
 
 SCENARIO("the number of cells follows the request", "[meshing][tetrahedralize]") {
     const Surface tube = test::fine_tube(2.0, 10.0, 24);
-    for (const double cells : {5000.0, 12000.0, 40000.0}) {
+    for (const double cells : {5000.0, 12000.0, 40000.0, 120000.0}) {
         const auto result = tetrahedralized(tube, {.cells = cells});
         CAPTURE(cells, result.report.attempts);
+        CHECK(result.report.attempts.size() == 1);
         CHECK(static_cast<double>(result.mesh.tetrahedra.size()) == Approx(cells).epsilon(0.2));
         check_openfoam_limits(result.report.quality);
         WHEN("the factor that was found is given instead, " + std::to_string(int(cells))) {
@@ -130,6 +131,15 @@ SCENARIO("the number of cells follows the request", "[meshing][tetrahedralize]")
             }
         }
     }
+}
+
+SCENARIO("a number of cells that the surface does not allow is not tried again and again",
+         "[meshing][tetrahedralize]") {
+    const auto result = tetrahedralized(test::fine_tube(2.0, 10.0, 24), {.cells = 100.0});
+    CAPTURE(result.report.attempts, result.report.warnings);
+    CHECK(result.report.attempts.size() == 2);
+    REQUIRE(result.report.warnings.size() == 1);
+    CHECK(result.report.warnings[0].find("edge length limits the number") != std::string::npos);
 }
 
 SCENARIO("surfaces that cannot be filled are refused with cause and place",

@@ -173,10 +173,12 @@ SCENARIO("improvement moves inner vertices to better places", "[meshing][optimis
         }
     }
     GIVEN("a cube of cells in any order") {
-        const VolumeMesh sorted = in_cell_order(cube_star({0.5, 0.5, 0.5}));
+        CellNeighbours neighbours;
+        const VolumeMesh sorted = in_cell_order(cube_star({0.5, 0.5, 0.5}), neighbours);
         THEN("renumbering loses no cell") {
             CHECK(sorted.tetrahedra.size() == 12);
             CHECK(volume(sorted) == Approx(1.0));
+            CHECK(neighbours == cell_neighbours(sorted));
         }
     }
 }
