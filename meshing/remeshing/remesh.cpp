@@ -111,6 +111,13 @@ Surface remeshed(Remesher& remesher, int first_round, const Progress& progress) 
     return finished(remesher, progress.part(0.8, 1.0));
 }
 
+bool is_ill_shaped(const Surface& surface, TriangleId t) {
+    const auto& [a, b, c] = surface.triangles()[t];
+    const Positions& points = surface.points();
+    return 1.0 - equiangle_skewness(points[a], points[b], points[c]) < kLeastQuality ||
+           radius_ratio(points[a], points[b], points[c]) < kLeastQuality;
+}
+
 /// The places where the result crosses itself, or a triangle could not be made well-shaped.
 Positions bad_places(const Surface& result) {
     const Positions& points = result.points();
@@ -123,12 +130,8 @@ Positions bad_places(const Surface& result) {
         add(s);
         add(t);
     }
-    for (TriangleId t = 0; t < result.triangle_count(); ++t) {
-        const auto& [a, b, c] = result.triangles()[t];
-        if (1.0 - equiangle_skewness(points[a], points[b], points[c]) < kLeastQuality ||
-            radius_ratio(points[a], points[b], points[c]) < kLeastQuality)
-            add(t);
-    }
+    for (TriangleId t = 0; t < result.triangle_count(); ++t)
+        if (is_ill_shaped(result, t)) add(t);
     return places;
 }
 
@@ -159,9 +162,52 @@ void refine(const Surface& source, const Positions& places, double gradation,
 /// fraction of the area.
 constexpr double kCrumb = 1e-3;
 
+std::size_t ill_shaped_count(const Surface& surface) {
+    std::size_t count = 0;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        count += is_ill_shaped(surface, t) ? 1 : 0;
+    return count;
+}
+
+/// Vertices farther than this many rings from any ill-shaped triangle, by vertex.
+std::vector<std::uint8_t> away_from_ill_shaped(const Surface& surface) {
+    constexpr int kRings = 4;
+    std::vector<std::uint8_t> away(surface.vertex_count(), 1);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (is_ill_shaped(surface, t))
+            for (const VertexId v : surface.triangles()[t]) away[v] = 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+        const std::vector<std::uint8_t> last = away;
+        for (VertexId v = 0; v < last.size(); ++v)
+            for (const VertexId u : surface.topology->rings().row(v))
+                if (last[u] == 0) away[v] = 0;
+    }
+    return away;
+}
+
+/// Cutting and filling leaves slivers: around them the surface is remeshed once more, as it is now.
+/// \param before gives the sizes
+/// \return the surface as it was if that brings nothing, or crossings
+Surface mended(const Remesher& before, const Surface& cut, const Progress& progress) {
+    const std::size_t ill_shaped = ill_shaped_count(cut);
+    if (ill_shaped == 0) return cut;
+    std::vector<double> sizes(cut.vertex_count());
+    for (TriangleId t = 0; t < cut.triangle_count(); ++t)
+        for (const VertexId v : cut.triangles()[t])
+            sizes[v] = before.target
+                           .on_patch((*cut.patch_labels)[t], cut.points()[v], TargetPlace::kNowhere)
+                           .size;
+    Remesher remesher(cut, sizes, cut, progress);
+    remesher.resting = away_from_ill_shaped(cut);
+    Surface result = remeshed(remesher, kRounds - kMendRounds, progress);
+    const bool better = ill_shaped_count(result) < ill_shaped && self_intersections(result).empty();
+    return better ? result : cut;
+}
+
 /// Walls that almost touch may cross however fine their edges are: crossings there are smoothed, or
 /// cut out and filled again.
-Surface parted(const Surface& source, const Surface& result, RemeshReport& report) {
+Surface parted(const Surface& source, const Remesher& remesher, const Surface& result,
+               RemeshReport& report, const Progress& progress) {
     const auto crossings = self_intersections(result);
     if (crossings.empty()) return result;
     report.crossings_parted = crossings.size();
@@ -171,7 +217,8 @@ Surface parted(const Surface& source, const Surface& result, RemeshReport& repor
             repair(result, {.keep_components = connected_components(*source.topology).count()});
         const double lost = 1.0 - area(repaired.surface) / area(result);
         // repair turns every component outward, which would fill a cavity
-        if (!repaired.report.turned_inside_out && lost < kCrumb) return std::move(repaired.surface);
+        if (!repaired.report.turned_inside_out && lost < kCrumb)
+            return mended(remesher, repaired.surface, progress);
     } catch (const AlgorithmFailure&) {
         // reported below, in terms of this operation
     }
@@ -192,7 +239,7 @@ Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, 
         const double from = kFirst + attempt * kMore;
         result = remeshed(remesher, kRounds - kMendRounds, progress.part(from, from + kMore));
     }
-    return parted(surface, result, report);
+    return parted(surface, remesher, result, report, progress.silent());
 }
 
 RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,

@@ -32,7 +32,7 @@ struct RemeshReport {
     double volume_change = 0.0;  ///< of the enclosed volume, relative to that before [-]
     TriangleShape wall, caps;
     /// Pairs of triangles that crossed where walls almost touch, before the walls were separated
-    /// there, which leaves worse triangles; and the place of the first [mm].
+    /// there, and the surface around remeshed again; and the place of the first [mm].
     std::size_t crossings_parted = 0;
     Vec3 crossing = Vec3::Zero();
 };

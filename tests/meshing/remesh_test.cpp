@@ -297,7 +297,10 @@ SCENARIO("Walls that almost touch are separated where no edge is short enough",
             const Remeshed made = remesh(body, {.mode = RemeshMode::Uniform, .edge = edge});
             check_sound(made.surface, true);
             CHECK(connected_components(*made.surface.topology).count() == 1);
+            if (made.report.crossings_parted == 0) continue;
             parted += made.report.crossings_parted;
+            CHECK(made.report.wall.equiangle_skewness.max <= 0.65);
+            CHECK(made.report.wall.radius_ratio.min >= 0.35);
         }
     CHECK(parted > 0);
 }

@@ -88,10 +88,10 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     }
     outcome.report = report_from(figures, features);
     if (figures.crossings_parted > 0)
-        outcome.warnings.push_back(
-            "walls that almost touch near " + place_text(figures.crossing) +
-            " crossed after remeshing and were separated there: triangles are worse, and the wall "
-            "may have moved; separate the walls or use a smaller edge if that part matters");
+        outcome.warnings.push_back("walls that almost touch near " + place_text(figures.crossing) +
+                                   " crossed after remeshing and were separated there: the wall "
+                                   "may have moved; separate the "
+                                   "walls or use a smaller edge if that part matters");
     if (std::abs(figures.volume_change) > kNoticedVolume)
         outcome.warnings.push_back(
             formatted(figures.edge, "edges of %.3g mm are coarse for this vessel: ") +
