@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -41,6 +42,13 @@ void require_at_least(const char* what, std::size_t offered, std::size_t needed)
                          std::to_string(needed) + " are required");
 }
 
+bool is_software_name(std::string_view renderer) {
+    constexpr std::array kNames = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
+                                   "Software Rasterizer"};
+    return std::ranges::any_of(
+        kNames, [&](const char* name) { return renderer.find(name) != std::string_view::npos; });
+}
+
 }  // namespace
 
 Device current_device() {
@@ -76,10 +84,11 @@ void require_context(const Device& device) {
 }
 
 bool is_software(const DeviceLimits& limits) {
-    constexpr std::array kNames = {"llvmpipe", "softpipe", "swrast", "SwiftShader",
-                                   "Software Rasterizer"};
-    return std::ranges::any_of(
-        kNames, [&](const char* name) { return limits.renderer.find(name) != std::string::npos; });
+    return is_software_name(limits.renderer);
+}
+
+bool draws_in_software() {
+    return is_software_name(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
 }
 
 }  // namespace vesselbench

@@ -50,4 +50,7 @@ void require_context(const Device& device);
 /// CPU code is faster than these.
 [[nodiscard]] bool is_software(const DeviceLimits& limits);
 
+/// The same of the current context, which need not be able to compute.
+[[nodiscard]] bool draws_in_software();
+
 }  // namespace vesselbench

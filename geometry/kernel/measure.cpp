@@ -11,6 +11,7 @@
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/mean_curvature.h"
+#include "geometry/kernel/parallel.h"
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/triangle_shape.h"
 
@@ -168,7 +169,7 @@ Positions vertex_normals(const Surface& surface) {
         if (!(length > 0.0)) return;
         const Vec3 to_next = points[t[(k + 1) % 3]] - points[v],
                    to_previous = points[t[(k + 2) % 3]] - points[v];
-        normals[v] += angle_between(to_next, to_previous) / length * normal;
+        normals[v] += std::atan2(length, to_next.dot(to_previous)) / length * normal;
     });
     // Less is the rounding remainder of coincident triangles: no normal.
     constexpr double kLeastAngle = 1e-9;
@@ -186,11 +187,20 @@ std::shared_ptr<const Positions> vertex_normals_of(const Surface& surface, Deriv
 std::vector<double> normal_curvature(const Surface& surface, DerivedCache& cache) {
     const std::shared_ptr<const Positions> shared = vertex_normals_of(surface, cache);
     const Positions& normals = *shared;
-    std::vector<double> largest(normals.size(), 0.0);
+    // The least cosine tells the triangle, an exact angle its value: most angles are not computed.
+    std::vector<double> least_cosines(normals.size(), 2.0), largest(normals.size(), 0.0);
+    Positions steepest(normals.size(), Vec3::Zero());
     visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId t) {
         const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
-        if (!(normal.squaredNorm() > 0.0)) return;
-        largest[v] = std::max(largest[v], kDegrees * angle_between(normals[v], normal));
+        const double length = normal.norm();
+        if (!(length > 0.0)) return;
+        const double cosine = normals[v].dot(normal) / length;
+        if (cosine >= least_cosines[v]) return;
+        least_cosines[v] = cosine;
+        steepest[v] = normal;
+    });
+    for_each_vertex(normals.size(), [&](std::size_t v) {
+        if (least_cosines[v] < 2.0) largest[v] = kDegrees * angle_between(normals[v], steepest[v]);
     });
     return largest;
 }

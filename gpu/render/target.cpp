@@ -69,9 +69,9 @@ void RenderTarget::allocate() {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void RenderTarget::resize(int width, int height) {
-    if (width == width_ && height == height_) return;
-    *this = RenderTarget(width, height, samples_);
+void RenderTarget::resize(int width, int height, int samples) {
+    if (width == width_ && height == height_ && samples == samples_) return;
+    *this = RenderTarget(width, height, samples);
 }
 
 void RenderTarget::bind() const {

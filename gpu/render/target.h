@@ -10,8 +10,11 @@ namespace vesselbench {
 /// stencil with several samples per pixel.
 class RenderTarget {
 public:
+    static constexpr int kSamples = 4;
+
+    /// \param samples per pixel; 0: one, without smooth edges
     /// \throw GpuUnavailable if the device offers no framebuffer of this size
-    RenderTarget(int width, int height, int samples = 4);
+    RenderTarget(int width, int height, int samples = kSamples);
 
     [[nodiscard]] int width() const { return width_; }
 
@@ -20,9 +23,9 @@ public:
     /// All of it.
     [[nodiscard]] PixelRectangle rectangle() const { return {0, 0, width_, height_}; }
 
-    /// Allocates again if the size differs.
+    /// Allocates again if the size or the number of samples differs.
     /// \throw GpuUnavailable as construction
-    void resize(int width, int height);
+    void resize(int width, int height, int samples = kSamples);
 
     /// Subsequent drawing goes to it.
     void bind() const;

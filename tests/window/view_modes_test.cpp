@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
+#include "gpu/device.h"
 #include "gpu/render/view_camera.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
@@ -116,6 +119,36 @@ SCENARIO("Colours are chosen in the view's options", "[window][view]") {
         REQUIRE(seen.shell->click_item("view.deviation"));
         CHECK(seen.place().view.colouring == ColouringKind::MeanCurvature);
     }
+}
+
+SCENARIO("What the mouse has moved is drawn with smooth edges when it is let go",
+         "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    OffscreenShell& shell = *seen.shell;
+    const float x = seen.view().middle_x(), y = seen.view().middle_y();
+    const auto differing_colours = [&] {
+        const auto pixels = seen.pixels();
+        std::set<std::array<std::uint8_t, 3>> colours;
+        for (std::size_t i = 0; i < pixels.size(); i += 3)
+            colours.insert({pixels[i], pixels[i + 1], pixels[i + 2]});
+        return colours.size();
+    };
+    seen.place().settings.layers.edges = true;
+    shell.move_mouse(x, y);
+    shell.press(MouseButton::Left);
+    shell.move_mouse(x + 60, y + 30);
+    shell.frame();
+    const std::size_t held = differing_colours();
+    const int drawings = shell.app().drawings();
+    shell.release(MouseButton::Left);
+    REQUIRE(shell.settle(30s));
+    // Where a graphics processor draws, edges are smooth all the time.
+    CHECK(shell.app().drawings() == drawings + (draws_in_software() ? 1 : 0));
+    if (draws_in_software()) CHECK(differing_colours() > held);
+    const int rested = shell.app().drawings();
+    shell.frame();
+    CHECK(shell.app().drawings() == rested);
 }
 
 SCENARIO("A key shows the worst places of the colours in turn", "[window][view]") {

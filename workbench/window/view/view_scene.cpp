@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include <imgui.h>
+
+#include "gpu/device.h"
+
 namespace vesselbench {
 
 namespace {
@@ -228,11 +232,19 @@ unsigned ViewScene::draw(Renderer& renderer, const Ui& ui) {
     return 0;
 }
 
+/// Drawn by the processor, a picture without smooth edges takes half the time: what the mouse moves
+/// follows it better so, and is drawn again when it is let go.
+int ViewScene::wanted_samples() {
+    if (!in_software_) in_software_ = draws_in_software();
+    return *in_software_ && ImGui::IsAnyMouseDown() ? 0 : RenderTarget::kSamples;
+}
+
 void ViewScene::draw_picture(Renderer& renderer, const Ui& ui) {
     const DrawnAs wanted = now(ui);
-    if (drawn_ == wanted) return;
-    if (!target_) target_.emplace(wanted.width, wanted.height);
-    target_->resize(wanted.width, wanted.height);
+    const int samples = wanted_samples();
+    if (drawn_ == wanted && samples <= samples_) return;
+    if (!target_) target_.emplace(wanted.width, wanted.height, samples);
+    target_->resize(wanted.width, wanted.height, samples);
     target_->bind();
     SceneView view = scene_view(ui);
     view.rectangle.x = static_cast<int>(rect_.x - area_.x);
@@ -241,6 +253,7 @@ void ViewScene::draw_picture(Renderer& renderer, const Ui& ui) {
     gallery_.draw(renderer, view, look_, line_width(ui));
     texture_ = target_->resolve();
     drawn_ = wanted;
+    samples_ = samples;
     ++drawings_;
 }
 

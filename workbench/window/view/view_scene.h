@@ -142,6 +142,7 @@ private:
     void choose_colours(PanelContext& context);
     void take_planes(PanelContext& context);
     [[nodiscard]] DrawnAs now(const Ui& ui) const;
+    [[nodiscard]] int wanted_samples();
     void draw_picture(Renderer& renderer, const Ui& ui);
 
     DrawingGuard& guard_;
@@ -167,6 +168,8 @@ private:
     std::optional<RenderTarget> target_;
     unsigned texture_ = 0;
     std::optional<DrawnAs> drawn_;
+    int samples_ = 0;                  ///< of the picture
+    std::optional<bool> in_software_;  ///< none: not asked yet
     int drawings_ = 0;
 };
 
