@@ -1,7 +1,7 @@
 #include "smoothing/quality/stepwise_analysis.h"
 
 #include <algorithm>
-#include <ranges>
+#include <vector>
 
 namespace vesselbench {
 
@@ -12,12 +12,14 @@ namespace {
 std::vector<ParameterSet> graph_sets(const SearchSpace& space, const ParameterSet& current) {
     std::vector<ParameterSet> sets = {current};
     for (const bool coarse : {true, false})
-        for (std::size_t i = 0; i < space.parameters.size(); ++i)
-            for (const double value :
-                 chosen_values(space.parameters[i], coarse) | std::views::reverse) {
+        for (std::size_t i = 0; i < space.parameters.size(); ++i) {
+            std::vector<double> values = chosen_values(space.parameters[i], coarse);
+            std::ranges::reverse(values);
+            for (const double value : values) {
                 sets.push_back(current);
                 sets.back()[i] = value;
             }
+        }
     return sets;
 }
 
