@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/surface_samples.h"
@@ -9,15 +10,16 @@ namespace vesselbench {
 
 /// Measures surfaces with arbitrary triangles against one original (thesis 7.2: the local error
 /// needs the same triangles). The error is the area-weighted mean of the distances both ways, from
-/// samples no farther apart than the original's mean edge; curvature and volume are those of
-/// geometry/measure.h.
+/// samples no farther apart than the original's mean edge; curvature, volume and the shape of
+/// triangles are those of geometry/kernel.
 class ComparisonMeter {
 public:
     /// \throw InvalidInput if the surface has no triangle, or none with an area
     explicit ComparisonMeter(Surface original);
 
-    /// \throw InvalidInput as the constructor
-    [[nodiscard]] QualityMeasures measure(const Surface& surface) const;
+    /// \throw InvalidInput as the constructor; Cancelled
+    [[nodiscard]] QualityMeasures measure(const Surface& surface,
+                                          const Progress& progress = {}) const;
 
     [[nodiscard]] const QualityMeasures& original() const { return original_measures_; }
 

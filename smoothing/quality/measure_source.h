@@ -29,6 +29,13 @@ public:
     [[nodiscard]] virtual std::optional<QualityMeasures> at(const ParameterSet& set,
                                                             const Progress& progress = {}) = 0;
 
+    /// True if nothing is left to be found for a set, also if it is left out.
+    [[nodiscard]] virtual bool knows(const ParameterSet& set) const = 0;
+
+    /// True if every set takes a whole run, so that sets found one by one take no longer than all
+    /// of them together.
+    [[nodiscard]] virtual bool runs_each() const = 0;
+
     [[nodiscard]] virtual const QualityMeasures& original() const = 0;
 
     [[nodiscard]] virtual double mean_edge() const = 0;  ///< of the original [mm]

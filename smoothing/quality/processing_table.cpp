@@ -24,8 +24,14 @@ void ProcessingTable::find(std::span<const ParameterSet> sets, const Progress& p
         const auto surface = processing_(sets[i], progress.silent());
         ++work_.runs;
         if (surface) ++work_.evaluations;
-        known_[sets[i]] = surface ? std::optional(meter_.measure(*surface)) : std::nullopt;
+        std::optional<QualityMeasures> measures;
+        if (surface) measures = meter_.measure(*surface, progress);  // may be cancelled
+        known_.emplace(sets[i], measures);
     }
+}
+
+bool ProcessingTable::knows(const ParameterSet& set) const {
+    return known_.contains(set);
 }
 
 std::optional<QualityMeasures> ProcessingTable::at(const ParameterSet& set,

@@ -33,6 +33,10 @@ public:
     [[nodiscard]] std::optional<QualityMeasures> at(const ParameterSet& set,
                                                     const Progress& progress = {}) override;
 
+    [[nodiscard]] bool knows(const ParameterSet& set) const override;
+
+    [[nodiscard]] bool runs_each() const override { return true; }
+
     [[nodiscard]] const QualityMeasures& original() const override { return meter_.original(); }
 
     [[nodiscard]] double mean_edge() const override { return meter_.mean_edge(); }

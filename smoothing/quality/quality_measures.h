@@ -11,6 +11,7 @@ struct QualityMeasures {
     double curvature_abs = 0.0;  ///< integral of |H| [mm]
     double volume = 0.0;         ///< [mm^3] (Eq. 6.5)
     double triangles = 0.0;      ///< their number; 0 if it cannot change
+    double skewness = 0.0;       ///< mean equiangle skewness [-]; 0 if triangles cannot change
 
     bool operator==(const QualityMeasures&) const = default;
 };

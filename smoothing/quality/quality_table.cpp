@@ -31,6 +31,12 @@ QualityTable::QualityTable(std::shared_ptr<const SmoothingEngine> engine, Choose
       most_standing_(kept_bytes / std::max<std::size_t>(1, engine_->run_bytes())),
       fidelity_(fidelity) {}
 
+bool QualityTable::knows(const ParameterSet& set) const {
+    const auto at = columns_.find(ParameterSet(set.begin(), set.end() - 1));
+    return at != columns_.end() &&
+           (!at->second.choice || at->second.known.contains(iterations_of(set)));
+}
+
 QualityTable::Column& QualityTable::column_of(const ParameterSet& set) {
     const ParameterSet key(set.begin(), set.end() - 1);
     const auto [at, is_new] = columns_.try_emplace(key);

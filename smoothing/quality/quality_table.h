@@ -39,6 +39,10 @@ public:
     [[nodiscard]] std::optional<QualityMeasures> at(const ParameterSet& set,
                                                     const Progress& progress = {}) override;
 
+    [[nodiscard]] bool knows(const ParameterSet& set) const override;
+
+    [[nodiscard]] bool runs_each() const override { return false; }
+
     [[nodiscard]] const QualityMeasures& original() const override { return engine_->original(); }
 
     [[nodiscard]] double mean_edge() const override { return engine_->mean_edge(); }

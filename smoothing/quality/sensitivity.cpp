@@ -12,13 +12,31 @@ double share(double value, double whole) {
     return whole != 0.0 ? std::abs(value / whole) : 0.0;
 }
 
-std::vector<double> values_of(const SearchParameter& parameter, double current, bool coarse) {
-    std::vector<double> values = chosen_values(parameter, coarse);
+std::vector<double> values_of(const SearchParameter& parameter, double current, CurveValues which) {
+    std::vector<double> values = chosen_values(parameter, which == CurveValues::Coarse);
     values.push_back(current);
     std::ranges::sort(values);
     const auto [first, last] = std::ranges::unique(values);
     values.erase(first, last);
     return values;
+}
+
+/// The sets of a parameter's graph.
+std::vector<ParameterSet> sets_of(ParameterSearch& search, std::size_t parameter,
+                                  const ParameterSet& current, CurveValues which) {
+    std::vector<ParameterSet> sets;
+    for (const double value :
+         values_of(search.space().parameters.at(parameter), current[parameter], which)) {
+        ParameterSet set = current;
+        set[parameter] = value;
+        if (which != CurveValues::Known || search.table().knows(set))
+            sets.push_back(std::move(set));
+    }
+    return sets;
+}
+
+bool is_usable(const CurvePoint& point) {
+    return point.measures.has_value();
 }
 
 double goodness_of(const CurvePoint& point, QualityMeasure measure) {
@@ -38,6 +56,8 @@ double ScaledQuality::of(QualityMeasure measure) const {
             return volume;
         case QualityMeasure::Triangles:
             return triangles;
+        case QualityMeasure::Skewness:
+            return skewness;
     }
     return 0.0;
 }
@@ -45,7 +65,8 @@ double ScaledQuality::of(QualityMeasure measure) const {
 std::vector<QualityMeasure> measures_of(const QualityScale& scale) {
     std::vector<QualityMeasure> list = {QualityMeasure::Curvature, QualityMeasure::Error,
                                         QualityMeasure::Volume};
-    if (scale.triangles > 0.0) list.push_back(QualityMeasure::Triangles);
+    if (scale.triangles > 0.0)
+        list.insert(list.end(), {QualityMeasure::Triangles, QualityMeasure::Skewness});
     return list;
 }
 
@@ -64,21 +85,23 @@ ScaledQuality scaled_quality(const QualityScale& scale, const QualityMeasures& m
     return {whole != 0.0 ? (measures.curvature_abs - scale.curvature_zero) / whole : 1.0,
             share(measures.error, scale.error),
             share(measures.volume - scale.original_volume, scale.volume),
-            share(measures.triangles, scale.triangles)};
+            share(measures.triangles, scale.triangles), measures.skewness};
 }
 
 QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
-                           const ParameterSet& current, bool coarse, const Progress& progress) {
+                           const ParameterSet& current, CurveValues which,
+                           const Progress& progress) {
     const SearchParameter& asked = search.space().parameters.at(parameter);
-    QualityCurve curve{.name = asked.name, .unit = asked.unit, .current = current[parameter]};
-    std::vector<ParameterSet> sets;
-    for (const double value : values_of(asked, current[parameter], coarse)) {
-        sets.push_back(current);
-        sets.back()[parameter] = value;
-    }
+    QualityCurve curve{.name = asked.name,
+                       .unit = asked.unit,
+                       .current = current[parameter],
+                       .suggested = current[parameter],
+                       .least = std::min(asked.values.front(), current[parameter]),
+                       .most = std::max(asked.values.back(), current[parameter])};
+    const std::vector<ParameterSet> sets = sets_of(search, parameter, current, which);
     MeasureSource& table = search.table();
     const QualityScale scale = quality_scale(table, progress);
-    const Suggestion best = search.best_of(sets, progress);
+    table.find(sets, progress);
     const ScoreBase base{table.original(), table.mean_edge()};
     for (const ParameterSet& set : sets) {
         CurvePoint point{.value = set[parameter], .measures = table.at(set, progress)};
@@ -89,19 +112,21 @@ QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
         }
         curve.points.push_back(std::move(point));
     }
-    curve.suggested = best.values[parameter];
+    // What is known so far may have no usable value yet.
+    if (which != CurveValues::Known || std::ranges::any_of(curve.points, is_usable))
+        curve.suggested = search.best_of(sets, progress).values[parameter];
     return curve;
 }
 
-SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& current, bool coarse,
-                                const Progress& progress) {
+SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& current,
+                                CurveValues which, const Progress& progress) {
     SensitivityAnalysis analysis{.scale = quality_scale(search.table(), progress)};
     const std::size_t count = search.space().parameters.size();
     for (std::size_t i = 0; i < count; ++i) {
         const double done = static_cast<double>(i) / static_cast<double>(count);
         const Progress part = progress.part(done, done + 1.0 / static_cast<double>(count));
         part.report(0.0, "measuring");
-        analysis.curves.push_back(quality_curve(search, i, current, coarse, part));
+        analysis.curves.push_back(quality_curve(search, i, current, which, part));
     }
     return analysis;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace vesselbench {
 
-enum class QualityMeasure { Curvature, Error, Volume, Triangles };
+enum class QualityMeasure : std::uint8_t { Curvature, Error, Volume, Triangles, Skewness };
 
 /// Measures scaled for graphs and bars (thesis 6.5.3) [-].
 struct ScaledQuality {
@@ -18,6 +19,7 @@ struct ScaledQuality {
     double error = 0.0;      ///< relative to that of the strong change
     double volume = 0.0;     ///< absolute volume change relative to that of the strong change
     double triangles = 0.0;  ///< relative to the original's
+    double skewness = 0.0;   ///< the mean itself: 0 best, 1 degenerate
 
     [[nodiscard]] double of(QualityMeasure measure) const;
 };
@@ -37,6 +39,7 @@ struct QualityCurve {
     std::vector<CurvePoint> points;  ///< values ascending
     double current = 0.0;            ///< the parameter's current value
     double suggested = 0.0;          ///< value of the lowest score while the others are fixed
+    double least = 0.0, most = 0.0;  ///< all its values, also those without a point yet
 };
 
 /// The values that 100 % of a graph represents.
@@ -50,7 +53,7 @@ struct QualityScale {
     std::string strong;            ///< the recipe of the strong change
 };
 
-/// The measures that change: the number of triangles only if it can.
+/// The measures that change: number and shape of triangles only if they can.
 [[nodiscard]] std::vector<QualityMeasure> measures_of(const QualityScale& scale);
 
 struct SensitivityAnalysis {
@@ -63,16 +66,24 @@ struct SensitivityAnalysis {
 [[nodiscard]] ScaledQuality scaled_quality(const QualityScale& scale,
                                            const QualityMeasures& measures);
 
-/// The graph of one parameter. Its current value is one of its values.
-/// \param coarse uses the parameter's coarse values only \throw Cancelled
+/// The values of a parameter in its graph, besides the current one.
+enum class CurveValues : std::uint8_t {
+    All,
+    Coarse,  ///< the parameter's coarse values
+    Known    ///< those among all, the current one included, that take no more work
+};
+
+/// The graph of one parameter. \throw Cancelled
 [[nodiscard]] QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
-                                         const ParameterSet& current, bool coarse = false,
+                                         const ParameterSet& current,
+                                         CurveValues which = CurveValues::All,
                                          const Progress& progress = {});
 
 /// The graphs of all parameters. One run of a filter covers all iteration counts. \throw
 /// Cancelled
 [[nodiscard]] SensitivityAnalysis sensitivity(ParameterSearch& search, const ParameterSet& current,
-                                              bool coarse = false, const Progress& progress = {});
+                                              CurveValues which = CurveValues::All,
+                                              const Progress& progress = {});
 
 /// Model quality bars (6.5.4): the measures of the curves side by side, each value as a colour.
 struct QualityBar {

@@ -15,7 +15,8 @@ struct StepwiseAnswer {
 };
 
 /// Sends answers for a set, coarse ones first: graphs, then finer ones, a first suggestion, and the
-/// settled one. What was measured before is not measured again; the complete answer does not depend
+/// settled one. Where every set takes a run, the graphs are also sent with each value found.
+/// What was measured before is not measured again; the complete answer does not depend
 /// on it.
 /// \param graphs search whose parameters are varied
 /// \param best search of the best of all; it may be the same

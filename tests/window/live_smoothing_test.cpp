@@ -118,13 +118,23 @@ SCENARIO("Escape during a drive brings back the fields and the model", "[window]
         CHECK(text_in(*window, "lambda") == "0.55");
         window->release(MouseButton::Right);
         CHECK(live_of(*window).follows());
-        AND_THEN("leaving the form ends it") {
+        AND_THEN("Escape takes it back, once more leaves the form") {
+            window->press_key(keys::kEscape);
+            window->frame();
+            CHECK(text_in(*window, "lambda") == "0.3");
+            CHECK_FALSE(live_of(*window).follows());
             window->press_key(keys::kEscape);
             window->frame();
             CHECK_FALSE(window->app().place().form());
             CHECK_FALSE(live_of(*window).shown());
             REQUIRE(window->settle());
             CHECK_FALSE(window->has("banner.live"));
+        }
+        AND_THEN("Escape takes nothing back after another value was entered") {
+            window->app().place().set_field("iterations", "7");
+            window->press_key(keys::kEscape);
+            window->frame();
+            CHECK_FALSE(window->app().place().form());
         }
     }
 }

@@ -81,3 +81,16 @@ SCENARIO("A movement gives texts to what it drives", "[window][live]") {
               std::vector<FieldText>{{"iterations", ""}, {"lambda", "0.4"}});
     }
 }
+
+SCENARIO("Places on an axis are round values", "[window][live]") {
+    CHECK(rounded_on_axis(0.4998, 0.0, 1.0) == Approx(0.5));
+    CHECK(rounded_on_axis(0.3141, 0.02, 1.0) == Approx(0.314));
+    CHECK(rounded_on_axis(1.23456, 0.56, 2.8) == Approx(1.23));
+    CHECK(rounded_on_axis(17.37, 0.0, 50.0) == Approx(17.4));
+    THEN("its ends are never left, and are reached") {
+        CHECK(rounded_on_axis(0.0201, 0.02, 1.0) == Approx(0.02).margin(1e-3));
+        CHECK(rounded_on_axis(5.0, 0.57, 2.83) == 2.83);
+        CHECK(rounded_on_axis(0.0, 0.57, 2.83) == 0.57);
+        CHECK(rounded_on_axis(3.0, 2.0, 2.0) == 2.0);
+    }
+}

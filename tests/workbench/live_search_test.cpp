@@ -20,8 +20,7 @@ Scene scene_of(Surface surface) {
 
 LiveSearch::Answer complete_answer(LiveSearch& search, const Arguments& given, double tau = 0.5) {
     LiveSearch::Answer last;
-    search.answer(given, {.tau = tau}, [&](const LiveSearch::Answer& answer) { last = answer; },
-                  {});
+    search.answer(given, tau, [&](const LiveSearch::Answer& answer) { last = answer; }, {});
     REQUIRE(last.complete);
     return last;
 }
@@ -33,8 +32,9 @@ const QualityCurve& curve_of(const LiveSearch::Answer& answer, const std::string
 }
 
 /// What a search answers whose first question this is.
-void require_fresh(LiveSearch& used, const Scene& scene, const Arguments& given) {
-    LiveSearch fresh(find_operation("smooth"), scene);
+void require_fresh(LiveSearch& used, const Scene& scene, const Arguments& given,
+                   const std::string& operation = "smooth") {
+    LiveSearch fresh(find_operation(operation), scene);
     const auto a = complete_answer(used, given), b = complete_answer(fresh, given);
     REQUIRE(a.best == b.best);
     REQUIRE(a.analysis.curves.size() == b.analysis.curves.size());
@@ -90,8 +90,105 @@ SCENARIO("A cancelled analysis can be asked again", "[workbench][suggest][live]"
     LiveSearch search(find_operation("smooth"), scene);
     std::stop_source stop;
     CHECK_THROWS_AS(search.answer(
-                        {}, {}, [&](const LiveSearch::Answer&) { stop.request_stop(); },
+                        {}, 0.5, [&](const LiveSearch::Answer&) { stop.request_stop(); },
                         Progress(nullptr, stop.get_token())),
                     Cancelled);
     require_fresh(search, scene, {});
+}
+
+SCENARIO("The graph of a decimation", "[workbench][suggest][live]") {
+    const Scene scene = scene_of(fine_tube(4.0, 30.0, 24));
+    const auto before = static_cast<double>(scene.surface->triangle_count());
+    LiveSearch search(find_operation("decimate"), scene);
+    GIVEN("nothing") {
+        const auto answer = complete_answer(search, {});
+        REQUIRE(answer.analysis.curves.size() == 1);
+        const QualityCurve& share = curve_of(answer, "share");
+        THEN("it goes from few triangles far away to all of them") {
+            CHECK(share.current == 0.5);
+            CHECK(share.points.front().measures->triangles < 0.1 * before);
+            CHECK(share.points.front().measures->error > 0.0);
+            CHECK(share.points.front().measures->skewness > 0.0);
+            CHECK(share.points.back().measures->triangles == before);
+            CHECK(share.points.back().measures->error == 0.0);
+        }
+    }
+    GIVEN("a target") {
+        const auto accurate = complete_answer(search, {}, 0.0);
+        const auto small = complete_answer(search, {}, 1.0);
+        CHECK((accurate.leave_as_is || accurate.best->real("share") > 0.5));
+        CHECK_FALSE(small.leave_as_is);
+        CHECK(small.best->real("share") < 0.1);
+        CHECK(curve_of(small, "share").suggested == small.best->real("share"));
+        THEN("the best of all does not depend on the value of now") {
+            CHECK(complete_answer(search, {{"share", 0.37}}, 1.0).best == small.best);
+        }
+    }
+    GIVEN("earlier questions") {
+        require_fresh(search, scene, {}, "decimate");
+        require_fresh(search, scene, {{"share", 0.33}}, "decimate");
+        require_fresh(search, scene, {{"share", 0.33}, {"max_error", 0.05}}, "decimate");
+        require_fresh(search, scene, {{"max_error", 0.02}}, "decimate");
+    }
+    GIVEN("a number of triangles instead of a share") {
+        CHECK_THROWS_AS(complete_answer(search, {{"triangles", std::int64_t{300}}}), UsageError);
+        require_fresh(search, scene, {}, "decimate");
+    }
+}
+
+SCENARIO("The graphs of a remeshing", "[workbench][suggest][live]") {
+    const Scene scene = scene_of(fine_tube(4.0, 30.0, 24));
+    LiveSearch search(find_operation("remesh"), scene);
+    THEN("an edge that is not given is the one that the operation takes") {
+        const auto answer = complete_answer(search, {});
+        REQUIRE(answer.analysis.curves.size() == 2);
+        CHECK(curve_of(answer, "edge").current == Approx(0.28 * 4.0).epsilon(0.1));
+        CHECK(curve_of(answer, "gradation").current == 1.5);
+        CHECK(curve_of(answer, "edge").unit == "mm");
+    }
+    THEN("longer edges make fewer triangles, and the suggestion leaves the gradation") {
+        const Arguments given = {{"edge", 1.3}, {"gradation", 1.2}};
+        const auto answer = complete_answer(search, given, 0.8);
+        const QualityCurve& edge = curve_of(answer, "edge");
+        CHECK(edge.points.front().measures->triangles > edge.points.back().measures->triangles);
+        CHECK(edge.points.front().measures->error < edge.points.back().measures->error);
+        REQUIRE(answer.best);
+        CHECK_FALSE(answer.best->has("gradation"));
+        require_fresh(search, scene, given, "remesh");
+    }
+    THEN("a print, which takes no edge, has graphs as well") {
+        const auto answer = complete_answer(search, {{"print_resolution", 0.1}});
+        CHECK(curve_of(answer, "edge").current > 0.5);
+    }
+}
+
+SCENARIO("The graph of a subdivision", "[workbench][suggest][live]") {
+    LiveSearch search(find_operation("subdivide"), scene_of(icosphere(10.0, 2)));
+    const auto answer = complete_answer(search, {}, 0.0);
+    const QualityCurve& iterations = curve_of(answer, "iterations");
+    CHECK(iterations.current == 1.0);
+    CHECK(iterations.points.front().value == 0.0);
+    CHECK(iterations.points.back().measures->triangles == 64.0 * 320.0);
+    CHECK(answer.leave_as_is);
+}
+
+SCENARIO("Graphs of triangles can be interrupted at any answer", "[workbench][suggest][live]") {
+    const Scene scene = scene_of(fine_tube(4.0, 30.0, 24));
+    for (const char* operation : {"decimate", "remesh"}) {
+        LiveSearch search(find_operation(operation), scene);
+        for (const int most : {1, 2, 5}) {
+            std::stop_source stop;
+            int answers = 0;
+            CHECK_THROWS_AS(search.answer(
+                                {}, 0.5,
+                                [&](const LiveSearch::Answer& answer) {
+                                    CHECK_FALSE(answer.complete);
+                                    if (++answers == most) stop.request_stop();
+                                },
+                                Progress(nullptr, stop.get_token())),
+                            Cancelled);
+            CHECK(answers == most);
+        }
+        require_fresh(search, scene, {}, operation);
+    }
 }

@@ -77,6 +77,7 @@ Json json_of(const SensitivityAnalysis& analysis) {
                                          {"error", point.scaled.error},
                                          {"volume", point.scaled.volume},
                                          {"triangles", point.scaled.triangles},
+                                         {"skewness", point.scaled.skewness},
                                          {"score", point.score}});
         json["curves"].push_back(std::move(one));
     }
@@ -90,7 +91,7 @@ SensitivityAnalysis analysis_of(const SearchSubject& subject, double tau,
     ParameterSearch search =
         search_for(subject, chosen, space, {.form = usual_score(subject), .tau = tau});
     const ParameterSet now = given_set(subject, space, progress.part(0.0, 0.1));
-    return sensitivity(search, now, false, progress.part(0.1, 1.0));
+    return sensitivity(search, now, CurveValues::All, progress.part(0.1, 1.0));
 }
 
 /// The target and the parameters, as lines that fit below a model.

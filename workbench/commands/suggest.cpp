@@ -41,7 +41,10 @@ Json measures_json(const QualityMeasures& original, const QualityMeasures& measu
                  {"curvature_abs_mm", measures.curvature_abs},
                  {"volume_mm3", measures.volume},
                  {"volume_change_percent", volume_change_percent(original, measures)}};
-    if (measures.triangles > 0.0) json["triangles"] = static_cast<std::size_t>(measures.triangles);
+    if (measures.triangles > 0.0) {
+        json["triangles"] = static_cast<std::size_t>(measures.triangles);
+        json["equiangle_skewness"] = measures.skewness;
+    }
     return json;
 }
 

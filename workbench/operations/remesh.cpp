@@ -101,9 +101,14 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+/// The edge that print_resolution, or the range of edges, has made.
+double edge_made(const Surface&, const Surface& after) {
+    return three_digits(mean_edge_length(after));
+}
+
 std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool all) {
     const double radius = usual_radius(surface, local_radii(surface, nullptr));
-    SearchedParameter edge{.name = "edge", .values = {}, .coarse = 3};
+    SearchedParameter edge{.name = "edge", .values = {}, .coarse = 3, .value_if_open = &edge_made};
     for (const double factor :  // 45 ... 9 triangles around; the operation's 0.28 gives 22
          {0.14, 0.17, 0.2, 0.24, 0.28, 0.33, 0.4, 0.5, 0.6, 0.7}) {
         const double length = three_digits(factor * radius);

@@ -22,11 +22,12 @@ struct Look {
     const char* dashes;
 };
 
-constexpr std::array<Look, 4> kLooks = {
+constexpr std::array<Look, 5> kLooks = {
     {{QualityMeasure::Curvature, "curvature", "#1b6ca8", ""},
      {QualityMeasure::Error, "error", "#c8442b", "7 3"},
      {QualityMeasure::Volume, "volume change", "#2e8b57", "2 3"},
-     {QualityMeasure::Triangles, "triangles", "#7a6a00", "10 3 2 3"}}};
+     {QualityMeasure::Triangles, "triangles", "#7a6a00", "10 3 2 3"},
+     {QualityMeasure::Skewness, "skewness", "#6b4fa0", "12 4"}}};
 
 /// Styles of the measures that change.
 std::vector<Look> looks_of(const QualityScale& scale) {
@@ -144,6 +145,8 @@ std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
         case QualityMeasure::Triangles:
             return "number, 100 % = original (" + std::to_string(std::llround(scale.triangles)) +
                    ")";
+        case QualityMeasure::Skewness:
+            return "mean equiangle skewness, 0 % = all triangles equilateral";
     }
     return "";
 }

@@ -1,24 +1,28 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "smoothing/quality/stepwise_analysis.h"
-#include "workbench/suggest/search_subject.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 
-/// Quality graphs and suggestions for an operation that smooths, again and again while its
+/// Quality graphs and suggestions for an operation with a search, again and again while its
 /// arguments change: what was found and measured for earlier ones serves the next. A GPU, if there
 /// is one, belongs to the thread of the first call. Not thread-safe.
 class LiveSearch {
 public:
-    /// \param operation of the table, with a search of filters
+    /// \param operation of the table, with a search
     LiveSearch(const Operation& operation, Scene scene);
 
     struct Answer {
-        SensitivityAnalysis analysis;   ///< of all parameters of the filter and its weights
+        SensitivityAnalysis analysis;   ///< of all parameters of the filter and its weights, or of
+                                        ///< the operation
         std::optional<Arguments> best;  ///< values of the best of all; none: not known yet
+        bool leave_as_is = false;       ///< the best is the surface as it is
         std::string filter;             ///< that is varied, if nobody has chosen another one
         bool complete = false;          ///< no finer answer follows
     };
@@ -27,21 +31,27 @@ public:
 
     /// Sends answers, coarse ones first, until it is complete.
     /// \param given by the user, without defaults
-    /// \throw as the operation; Cancelled. What was measured until then is kept
-    void answer(const Arguments& given, ScoreSettings score, const Receiver& receive,
+    /// \param tau target of the operation's usual score, in [0, 1] [-]
+    /// \throw as the operation; UsageError if a given argument replaces what is searched;
+    /// Cancelled. What was measured until then is kept
+    void answer(const Arguments& given, double tau, const Receiver& receive,
                 const Progress& progress);
 
-private:
-    void take_subject(const Arguments& given);
-    [[nodiscard]] SmoothingSubject subject_of(const Arguments& given, Arguments& arguments) const;
-    void take_best(const SmoothingSubject& now, const Arguments& arguments, ScoreSettings score);
+    /// How an operation is searched.
+    class Way {
+    public:
+        Way() = default;
+        virtual ~Way() = default;
+        Way(const Way&) = delete;
+        Way& operator=(const Way&) = delete;
 
-    const Operation& operation_;
-    Scene scene_;
-    std::optional<SearchSubject> subject_;  ///< at the defaults of the searched parameters
-    ChosenEngine chosen_;
-    std::optional<ParameterSearch> graphs_, best_;
-    Arguments best_for_;  ///< what best_ does not search
+        /// As LiveSearch::answer.
+        virtual void answer(const Arguments& given, double tau, const Receiver& receive,
+                            const Progress& progress) = 0;
+    };
+
+private:
+    std::unique_ptr<Way> way_;
 };
 
 }  // namespace vesselbench

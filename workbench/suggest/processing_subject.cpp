@@ -77,16 +77,20 @@ ScoreForm usual_score_of(const Operation& operation) {
     return searched(operation).counts_triangles ? ScoreForm::Compact : ScoreForm::Default;
 }
 
+void check_rivals(const Operation& operation, const Arguments& given) {
+    for (const std::string& rival : searched(operation).rivals)
+        if (given.has(rival))
+            throw UsageError(operation.name + ": " + rival +
+                             " cannot be given here, because it replaces what is searched");
+}
+
 SearchSpace processing_space(const Operation& operation, const Surface& surface,
                              const Arguments& given, bool all_parameters) {
     const OperationSearch& how = searched(operation);
+    check_rivals(operation, given);
     SearchSpace space;
     for (SearchedParameter& parameter : how.parameters(surface, all_parameters))
         space.parameters.push_back(search_parameter(operation, std::move(parameter)));
-    for (const std::string& rival : how.rivals)
-        if (given.has(rival))
-            throw UsageError(operation.name + ": " + rival + " cannot be given here, because " +
-                             space.parameters.front().name + " is searched");
     return space;
 }
 

@@ -25,6 +25,9 @@ namespace vesselbench {
 /// \throw UsageError that lists the operations that can be searched, if this one cannot
 [[nodiscard]] ScoreForm usual_score_of(const Operation& operation);
 
+/// \throw UsageError if a given argument replaces the searched parameters
+void check_rivals(const Operation& operation, const Arguments& given);
+
 /// The grid of an operation's parameters on a surface.
 /// \param all_parameters for graphs
 /// \throw UsageError if a given argument conflicts with a searched one

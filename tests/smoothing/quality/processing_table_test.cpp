@@ -7,8 +7,10 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/triangle_shape.h"
 #include "meshing/remeshing/subdivide.h"
 #include "smoothing/quality/search.h"
+#include "smoothing/quality/stepwise_analysis.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -35,6 +37,22 @@ ProcessingTable growing_ball(int& runs) {
             {.set = {1.5}, .name = "factor=1.5"}};
 }
 
+SearchSpace growth() {
+    return {.parameters = {{.name = "factor",
+                            .unit = "-",
+                            .values = {1.0, 1.1, 1.2, 3.0},
+                            .coarse = 3,
+                            .idle = 1.0}},
+            .chooser = nullptr};
+}
+
+std::vector<double> values_of(const StepwiseAnswer& answer) {
+    std::vector<double> values;
+    for (const CurvePoint& point : answer.analysis.curves.front().points)
+        values.push_back(point.value);
+    return values;
+}
+
 }  // namespace
 
 SCENARIO("Surfaces with other triangles are measured by distances both ways", "[quality]") {
@@ -43,6 +61,7 @@ SCENARIO("Surfaces with other triangles are measured by distances both ways", "[
     THEN("the original is at no distance from itself") {
         CHECK(meter.measure(ball).error == Approx(0.0).margin(1e-12));
         CHECK(meter.original().triangles == 5120.0);
+        CHECK(meter.original().skewness == triangle_shape(ball).equiangle_skewness.mean);
         CHECK(meter.original().curvature_abs ==
               Approx(4.0 * std::numbers::pi * 10.0).epsilon(0.01));
         CHECK(meter.original().volume == Approx(volume(ball)));
@@ -101,19 +120,31 @@ SCENARIO("An operation's result on a surface is computed once", "[quality]") {
         stop.request_stop();
         const std::vector<ParameterSet> more = {{1.3}};
         CHECK_THROWS_AS(table.find(more, Progress(nullptr, stop.get_token())), Cancelled);
+        CHECK_FALSE(table.knows({1.3}));
         THEN("it can be asked again") {
             CHECK(table.at({1.3}).has_value());
         }
     }
 }
 
+SCENARIO("A set whose measurement is cancelled is not left out", "[quality]") {
+    const Surface ball = icosphere(10.0, 3);
+    std::stop_source stop;
+    const auto grow = [&](const ParameterSet& set, const Progress&) -> std::optional<Surface> {
+        if (set[0] == 1.1) stop.request_stop();  // as a newer value does
+        return scaled(ball, set[0]);
+    };
+    ProcessingTable table(ball, grow, [](const ParameterSet&) { return false; },
+                          {{1.5}, "factor=1.5"});
+    const std::vector<ParameterSet> sets = {{1.1}};
+    CHECK_THROWS_AS(table.find(sets, Progress(nullptr, stop.get_token())), Cancelled);
+    CHECK_FALSE(table.knows({1.1}));
+    CHECK(table.at({1.1}).has_value());
+}
+
 SCENARIO("Searches and graphs work for any operation", "[quality]") {
     int runs = 0;
-    const SearchSpace space{.parameters = {{.name = "factor",
-                                            .unit = "-",
-                                            .values = {1.0, 1.1, 1.2, 3.0},
-                                            .idle = 1.0}},
-                            .chooser = nullptr};
+    const SearchSpace space = growth();
     ParameterSearch search(std::make_shared<ProcessingTable>(growing_ball(runs)), space,
                            {.tau = 0.0});
     CHECK(search.exhaustive(false).values == ParameterSet{1.0});
@@ -124,5 +155,51 @@ SCENARIO("Searches and graphs work for any operation", "[quality]") {
         const Suggestion found = search.first_look();
         CHECK(found.values == ParameterSet{1.0});
         CHECK(found.score == Approx(1.0));
+    }
+}
+
+SCENARIO("Graphs of runs are sent value by value", "[quality][live]") {
+    int runs = 0;
+    ParameterSearch search(std::make_shared<ProcessingTable>(growing_ball(runs)), growth(), {});
+    std::vector<StepwiseAnswer> answers;
+    std::stop_source stop;
+    std::size_t most = 100;
+    const auto ask = [&] {
+        answers.clear();
+        analyse_step_by_step(
+            search, search, {1.1},
+            [&](const StepwiseAnswer& answer) {
+                answers.push_back(answer);
+                if (answers.size() == most) stop.request_stop();
+            },
+            Progress(nullptr, stop.get_token()));
+    };
+    const std::vector<double> all = {1.0, 1.1, 1.2, 3.0};
+    THEN("the value of now is the first, coarse ones follow") {
+        ask();
+        REQUIRE(answers.size() == 7);
+        CHECK(values_of(answers[0]) == std::vector{1.1});
+        CHECK(answers[0].analysis.curves.front().least == 1.0);
+        CHECK(answers[0].analysis.curves.front().most == 3.0);
+        CHECK(values_of(answers[1]) == std::vector{1.1, 3.0});
+        CHECK_FALSE(answers[1].analysis.curves.front().points.back().measures);
+        CHECK(values_of(answers[2]) == std::vector{1.0, 1.1, 3.0});
+        CHECK(values_of(answers[3]) == all);
+        CHECK(values_of(answers[6]) == all);
+        CHECK(answers[6].complete);
+        CHECK(runs == 4);  // three values and the strong change; the fourth value changes nothing
+    }
+    WHEN("it is interrupted") {
+        most = 2;
+        CHECK_THROWS_AS(ask(), Cancelled);
+        CHECK(runs == 3);
+        THEN("nothing is run again, and all that is known comes first") {
+            stop = {};
+            most = 100;
+            ask();
+            CHECK(values_of(answers.front()) == std::vector{1.1, 3.0});
+            CHECK(answers.back().complete);
+            CHECK(runs == 4);
+        }
     }
 }

@@ -31,7 +31,7 @@ LiveSmoothing::LiveSmoothing(std::function<void()> wake)
 
 // --- following the form
 
-std::string LiveSmoothing::reason_against(const Followed& followed) const {
+std::string why_not_followed(const LiveSmoothing::Followed& followed) {
     const Document& document = followed.document;
     const Scene* scene = document.current();
     if (followed.form->edit()) return "an earlier edit is being changed: use Preview";
@@ -60,7 +60,7 @@ bool LiveSmoothing::update(const Followed& followed) {
     take_operation(operation);
     if (!has_form()) return take_models();
     take_base(followed);
-    take_reason(reason_against(followed));
+    take_reason(why_not_followed(followed));
     axes_ = usable_axes(*followed.form, wanted_axes_);
     const bool changed = take_models();
     if (follows()) ask_for(followed);

@@ -62,12 +62,14 @@ public:
 private:
     void take_base(const Followed& followed);
     void ask_for(const Followed& followed);
-    [[nodiscard]] std::string reason_against(const Followed& followed) const;
 
     std::shared_ptr<const Positions> base_positions_;
     DriveAxes wanted_axes_{"iterations", "lambda", "beta_min"}, axes_;
     std::map<std::string, double> starts_;  ///< of a drag, of parameters that are not given
 };
+
+/// Why the outcome of a form cannot be followed, or analysed, without an edit; empty: it can be.
+[[nodiscard]] std::string why_not_followed(const LiveSmoothing::Followed& followed);
 
 /// A model and a surface with the same vertices: how far these are apart, if that is more than
 /// rounding (1e-5 of the diagonal). Else empty: "up to 0.012 mm"

@@ -74,6 +74,16 @@ double driven_value(const Parameter& parameter, double start, double pixels) {
     return in_range(parameter, std::round(value / step) * step);
 }
 
+double rounded_on_axis(double value, double from, double to) {
+    if (!(to > from)) return from;
+    const double rough = (to - from) / kStepsOfRange,
+                 power = std::pow(10, std::floor(std::log10(rough)));
+    double step = power;
+    for (const double factor : {2.0, 5.0})
+        if (factor * power <= rough * (1.0 + 1e-9)) step = factor * power;
+    return std::clamp(std::round(value / step) * step, from, to);
+}
+
 std::string driven_text(const Parameter& parameter, double value) {
     if (parameter.type == ParameterType::Integer)
         return std::to_string(static_cast<long>(std::lround(value)));

@@ -35,6 +35,10 @@ struct DriveReach {
 /// movement; positive: more \return within the parameter's range
 [[nodiscard]] double driven_value(const Parameter& parameter, double start, double pixels);
 
+/// A value on an axis, rounded to a step of 1, 2 or 5 times a power of ten, of which the axis has
+/// some hundreds; within the axis.
+[[nodiscard]] double rounded_on_axis(double value, double from, double to);
+
 /// The value as a field's text, without digits that no movement means.
 [[nodiscard]] std::string driven_text(const Parameter& parameter, double value);
 

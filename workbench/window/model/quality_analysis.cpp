@@ -23,7 +23,7 @@ public:
             operation_ = question.operation;
         }
         search_->answer(
-            question.given, {.tau = question.tau},
+            question.given, question.tau,
             [&](const LiveSearch::Answer& found) {
                 turn.send({turn.number, found});
             },
@@ -48,31 +48,55 @@ QualityAnalysis::QualityAnalysis(std::function<void()> wake)
     : analyses_(std::move(wake), quality_analysing()) {}
 
 void QualityAnalysis::forget() {
-    if (base_ < 0) return;
-    base_ = -1;
+    if (!std::exchange(used_, false)) return;
     asked_ = {};
     analyses_.forget();
 }
 
-bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, const LiveSmoothing& live,
-                             bool paused) {
+void QualityAnalysis::interrupt() {
+    if (asked_ == Asked{} || !analyses_.pending()) return;
+    analyses_.interrupt();
+    asked_ = {};
+}
+
+/// Answers to another form, or about another model, are dropped.
+void QualityAnalysis::take_form(const LiveSmoothing::Followed& followed) {
+    const Operation* operation =
+        followed.form != nullptr && followed.form->operation().search.possible()
+            ? &followed.form->operation()
+            : nullptr;
+    const Scene* scene = followed.document.current();
+    auto positions = scene != nullptr && scene->surface ? scene->surface->positions : nullptr;
+    if (operation != operation_ || positions != positions_) {
+        forget();
+        ++base_;
+    }
+    operation_ = operation;
+    positions_ = std::move(positions);
+    why_not_ = has_form() ? why_not_followed(followed) : "";
+    if (!can_analyse()) forget();
+}
+
+void QualityAnalysis::ask(const LiveSmoothing::Followed& followed) {
+    const Asked now{followed.form->changes(), tau};
+    if (now == asked_ || !followed.form->valid()) return;
+    asked_ = now;
+    used_ = true;
+    analyses_.ask({.scene = *followed.document.current(),
+                   .base = base_,
+                   .operation = operation_,
+                   .given = followed.form->arguments(),
+                   .tau = tau});
+}
+
+bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, bool paused) {
     const bool wanted = std::exchange(wanted_, false);
-    if (!live.can_follow() || (base_ >= 0 && base_ != live.base())) forget();
-    if (!live.can_follow()) return analyses_.update();
-    const Asked now{live.base(), followed.form->changes(), tau};
-    if (paused || !wanted) {
-        if (asked_ != Asked{} && analyses_.pending()) {
-            analyses_.interrupt();
-            asked_ = {};
-        }
-    } else if (now != asked_ && followed.form->valid()) {
-        asked_ = now;
-        base_ = live.base();
-        analyses_.ask({.scene = *followed.document.current(),
-                       .base = base_,
-                       .operation = &followed.form->operation(),
-                       .given = followed.form->arguments(),
-                       .tau = tau});
+    take_form(followed);
+    if (can_analyse()) {
+        if (paused || !wanted)
+            interrupt();
+        else
+            ask(followed);
     }
     return analyses_.update();
 }

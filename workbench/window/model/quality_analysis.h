@@ -10,13 +10,13 @@
 
 namespace vesselbench {
 
-/// What a smoothing is to be judged for.
+/// What a form is to be analysed for.
 struct QualityQuestion {
     Scene scene;
     int base = 0;  ///< number of the scene: equal ones are the same
     const Operation* operation = nullptr;
     Arguments given;   ///< without defaults
-    double tau = 0.5;  ///< target smoothness [-]
+    double tau = 0.5;  ///< target of the suggestions [-]
 };
 
 struct QualityAnswer {
@@ -29,8 +29,8 @@ using QualityAnalyses = LatestWorker<QualityQuestion, QualityAnswer>;
 /// Work that answers with graphs and suggestions.
 [[nodiscard]] QualityAnalyses::Maker quality_analysing();
 
-/// The quality graphs and suggestions of a smoothing form (thesis 6.5.3-6.5.5), while they are
-/// looked at. Used by the frame's thread.
+/// The quality graphs and suggestions of a form whose operation has a search (thesis 6.5.3-6.5.5),
+/// while they are looked at. Used by the frame's thread.
 class QualityAnalysis {
 public:
     /// \param wake called by another thread when update() has something to do
@@ -41,7 +41,15 @@ public:
 
     /// Once a frame. \param paused while the mouse changes values: the last answer stays
     /// \return true if what is known has changed
-    bool update(const LiveSmoothing::Followed& followed, const LiveSmoothing& live, bool paused);
+    bool update(const LiveSmoothing::Followed& followed, bool paused);
+
+    /// True if the form is of an operation with a search.
+    [[nodiscard]] bool has_form() const { return operation_ != nullptr; }
+
+    /// Why the form cannot be analysed; empty: it can.
+    [[nodiscard]] const std::string& why_not() const { return why_not_; }
+
+    [[nodiscard]] bool can_analyse() const { return has_form() && why_not_.empty(); }
 
     /// The newest answer, which may be one to earlier values; null: none for this model.
     [[nodiscard]] const LiveSearch::Answer* answer() const {
@@ -54,21 +62,27 @@ public:
     /// True while a finer answer, or one to newer values, is to come.
     [[nodiscard]] bool pending() const { return analyses_.pending(); }
 
-    double tau = 0.5;  ///< target smoothness, in [0, 1] [-]
+    double tau = 0.5;  ///< target of the suggestions, in [0, 1] [-]
 
 private:
+    void take_form(const LiveSmoothing::Followed& followed);
+    void ask(const LiveSmoothing::Followed& followed);
+    void interrupt();
     void forget();
 
     struct Asked {
-        int base = -1, changes = -1;
+        int changes = -1;
         double tau = -1.0;
 
         bool operator==(const Asked&) const = default;
     };
 
     QualityAnalyses analyses_;
-    bool wanted_ = false;
-    int base_ = -1;
+    bool wanted_ = false, used_ = false;  ///< something was asked since forget()
+    const Operation* operation_ = nullptr;
+    std::string why_not_;
+    std::shared_ptr<const Positions> positions_;  ///< of the model that is analysed
+    int base_ = 0;                                ///< its number
     Asked asked_;
 };
 

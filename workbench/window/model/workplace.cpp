@@ -70,8 +70,9 @@ bool Workplace::update_live() {
     const bool live = live_.update(followed);
     if (view.flies) end_models_gallery();
     const bool gallery = gallery_.update(followed, live_);
-    // Three suggestions that are waited for come first.
-    const bool quality = quality_.update(followed, live_, is_driving() || gallery_.searches());
+    // Three suggestions that are waited for, and whatever runs, come first.
+    const bool busy = gallery_.searches() || document.activity().has_value();
+    const bool quality = quality_.update(followed, is_driving() || busy);
     const bool extraction = extraction_.update(followed);
     return live || gallery || quality || extraction;
 }
@@ -405,8 +406,26 @@ void Workplace::drag(const std::vector<FieldText>& texts) {
 
 void Workplace::cancel_drag() {
     const std::optional<OperationForm> before = std::exchange(before_drag_, std::nullopt);
-    if (!form_ || !before) return;
-    for (const FormField& field : before->fields()) set_field(field.parameter->name, field.text);
+    if (form_ && before) bring_back(*before);
+}
+
+void Workplace::end_drag() {
+    dragged_ = std::exchange(before_drag_, std::nullopt);
+    if (!form_) dragged_.reset();
+    dragged_changes_ = form_ ? form_->changes() : -1;
+}
+
+bool Workplace::take_back_drag() {
+    const std::optional<OperationForm> before = std::exchange(dragged_, std::nullopt);
+    if (!before || !form_ || form_->changes() != dragged_changes_ ||
+        before->changes() == dragged_changes_)
+        return false;
+    bring_back(*before);
+    return true;
+}
+
+void Workplace::bring_back(const OperationForm& before) {
+    for (const FormField& field : before.fields()) set_field(field.parameter->name, field.text);
     if (std::exchange(driving_, false)) live_.cancel_drag();
     if (std::exchange(sliding_, false)) extraction_.cancel_drag();
 }
@@ -427,8 +446,15 @@ void Workplace::begin_driving() {
     live_.begin_drive();
 }
 
+void Workplace::begin_setting() {
+    if (live_.has_form()) return begin_driving();
+    if (!quality_.can_analyse()) return;
+    begin_drag();
+    driving_ = true;
+}
+
 void Workplace::drive(const DriveReach& reach) {
-    if (is_driving()) drag(live_.drive(*before_drag_, reach));
+    if (is_driving() && live_.can_follow()) drag(live_.drive(*before_drag_, reach));
 }
 
 // --- the gallery of suggestions

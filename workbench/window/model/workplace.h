@@ -200,10 +200,14 @@ public:
     /// Fills in fields while a handle is dragged.
     void drag(const std::vector<FieldText>& texts);
 
-    void end_drag() { before_drag_.reset(); }
+    void end_drag();
 
     /// Ends a drag, and brings back the texts from before it.
     void cancel_drag();
+
+    /// Brings back the texts from before the last drag. \return false if it changed nothing, or
+    /// something was entered since
+    bool take_back_drag();
 
     /// The form when the drag began; none: nothing is dragged.
     [[nodiscard]] const std::optional<OperationForm>& before_drag() const { return before_drag_; }
@@ -226,6 +230,10 @@ public:
     /// As begin_drag(), and the model follows the form from now on. end_drag() keeps the values,
     /// cancel_drag() brings back those from before.
     void begin_driving();
+
+    /// As begin_drag(), for a value that is dragged in a quality graph; the model follows if it
+    /// can.
+    void begin_setting();
 
     [[nodiscard]] bool is_driving() const { return driving_ && before_drag_; }
 
@@ -262,8 +270,10 @@ public:
 
     void slide(double iso);
 
-    /// True if a model or a surface can follow the form.
-    [[nodiscard]] bool has_live_form() const { return live_.has_form() || extraction_.has_form(); }
+    /// True if a model or a surface can follow the form, or graphs belong to it.
+    [[nodiscard]] bool has_live_form() const {
+        return live_.has_form() || extraction_.has_form() || quality_.has_form();
+    }
 
     // --- openings that are clicked
 
@@ -302,6 +312,7 @@ public:
 
 private:
     void renew_lists();
+    void bring_back(const OperationForm& before);
     [[nodiscard]] bool update_live();
     [[nodiscard]] bool update_slices();
     void end_models_gallery();
@@ -340,6 +351,8 @@ private:
     WorstTour worst_;
     int looks_ = 0;
     std::optional<OperationForm> before_drag_;
+    std::optional<OperationForm> dragged_;  ///< the form before the drag that ended last
+    int dragged_changes_ = -1;              ///< the form's at that end
     LiveSmoothing live_;
     QualityAnalysis quality_;
     SuggestionGallery gallery_;

@@ -63,4 +63,11 @@ void draw_live_panel(PanelContext& c, const OperationForm& form) {
     draw_mouse(c, form);
 }
 
+void draw_quality_panel(PanelContext& c, const OperationForm& form) {
+    const QualityAnalysis& quality = c.place.quality();
+    if (!quality.can_analyse())
+        return wrapped(c.ui, "There are no graphs: " + quality.why_not(), c.ui.theme.warning);
+    draw_quality(c, form);
+}
+
 }  // namespace vesselbench

@@ -8,4 +8,7 @@ namespace vesselbench {
 /// what the smoothing changes.
 void draw_live_panel(PanelContext& context, const OperationForm& form);
 
+/// The part of another form with quality graphs: of an operation that no model follows.
+void draw_quality_panel(PanelContext& context, const OperationForm& form);
+
 }  // namespace vesselbench

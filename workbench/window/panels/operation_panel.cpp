@@ -134,6 +134,12 @@ std::string need_of(const OperationForm& form) {
     return readable_sentence(form.error());
 }
 
+std::string live_advice(const PanelContext& c) {
+    if (c.place.live().has_form()) return "Drag in a graph, or with the right button in the view.";
+    if (c.place.extraction().has_form()) return "Drag in the histogram: the surface follows.";
+    return "Drag in a graph to set the value; Preview shows the model.";
+}
+
 /// Why the operation cannot run, or the help of a parameter: always in the same place.
 void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* parameter) {
     const auto& failure = c.place.document.failure();
@@ -149,12 +155,7 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
-    if (shows_live(c))
-        return wrapped(c.ui,
-                       c.place.live().has_form()
-                           ? "Drag in a graph, or with the right button in the view."
-                           : "Drag in the histogram: the surface follows.",
-                       c.ui.theme.muted);
+    if (shows_live(c)) return wrapped(c.ui, live_advice(c), c.ui.theme.muted);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
@@ -273,8 +274,10 @@ const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
     if (!shows_live(c)) return draw_form_fields(c, form);
     if (c.place.live().has_form())
         draw_live_panel(c, form);
-    else
+    else if (c.place.extraction().has_form())
         draw_extraction_panel(c, form);
+    else
+        draw_quality_panel(c, form);
     return nullptr;
 }
 
@@ -282,7 +285,8 @@ void draw_tabs(PanelContext& c) {
     if (!c.place.has_live_form()) return;
     draw_tab(c, "form.fields", "Parameters", FormTab::Fields);
     ImGui::SameLine();
-    draw_tab(c, "form.live", "Live", FormTab::Live);
+    const bool follows = c.place.live().has_form() || c.place.extraction().has_form();
+    draw_tab(c, "form.live", follows ? "Live" : "Quality", FormTab::Live);
     separator(c.ui);
 }
 

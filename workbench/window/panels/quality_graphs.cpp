@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
 #include "gpu/colours.h"
+#include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 #include "workbench/window/model/quality_words.h"
 #include "workbench/window/model/readable.h"
@@ -26,13 +29,25 @@ struct MeasureLook {
     Paint dark, light;  ///< themes
 };
 
-constexpr std::array<MeasureLook, 3> kLooks = {
+constexpr std::array<MeasureLook, 5> kLooks = {
     {{QualityMeasure::Curvature,
-      "Mean curvature, summed over the surface; 100 %: unsmoothed, 0 %: ", paint(0x5B9BE0),
-      paint(0x1B6CA8)},
-     {QualityMeasure::Error, "Distance from the unsmoothed surface; 100 %: ", paint(0xE8806E),
+      "Mean curvature, summed over the surface; 100 %: ", paint(0x5B9BE0), paint(0x1B6CA8)},
+     {QualityMeasure::Error, "Mean distance from the surface before; 100 %: ", paint(0xE8806E),
       paint(0xC8442B)},
-     {QualityMeasure::Volume, "Change of volume; 100 %: ", paint(0x5FB87A), paint(0x2E8B57)}}};
+     {QualityMeasure::Volume, "Change of volume; 100 %: ", paint(0x5FB87A), paint(0x2E8B57)},
+     {QualityMeasure::Triangles, "Number of triangles; 100 %: ", paint(0xD2B04C), paint(0x7A6A00)},
+     {QualityMeasure::Skewness,
+      "Mean equiangle skewness; 0 %: all triangles are equilateral, 100 %: ", paint(0xA9A3D8),
+      paint(0x6B4FA0)}}};
+
+/// Those of a form's graphs.
+std::vector<MeasureLook> looks_of(const QualityScale& scale, const OperationForm& form) {
+    const auto seen = seen_measures(scale, form.operation());
+    std::vector<MeasureLook> looks;
+    for (const MeasureLook& look : kLooks)
+        if (std::ranges::count(seen, look.measure) > 0) looks.push_back(look);
+    return looks;
+}
 
 Paint colour_of(const Ui& ui, const MeasureLook& look) {
     return ui.theme.dark ? look.dark : look.light;
@@ -69,8 +84,7 @@ struct Axis {
 };
 
 Axis axis_of(const QualityCurve& curve, const ScreenRect& rect) {
-    if (curve.points.empty()) return {rect};
-    return {rect, curve.points.front().value, curve.points.back().value};
+    return {rect, curve.least, curve.most};
 }
 
 /// What the form says now, which may be newer than the curve.
@@ -88,18 +102,23 @@ void set_value(PanelContext& c, const OperationForm& form, const std::string& na
     const LiveSearch::Answer* answer = c.place.quality().answer();
     if (!form.field(name).active && answer != nullptr)
         c.place.set_field(form.operation().search.filter_parameter, answer->filter);
-    c.place.set_field(name, driven_text(*form.field(name).parameter, value));
+    const Parameter& parameter = *form.field(name).parameter;
+    c.place.set_field(name, driven_text(parameter, driven_value(parameter, value, 0.0)));
+}
+
+/// False for a value of the graph that only stands for the surface as it is.
+bool can_set(const OperationForm& form, const QualityCurve& curve, double value) {
+    const Parameter& parameter = *form.field(curve.name).parameter;
+    return value >= parameter.minimum && value <= parameter.maximum;
 }
 
 /// ImGui's last item sets the parameter while it is pressed; the model follows.
 void handle_press(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
                   const Axis& axis) {
-    if (ImGui::IsItemActivated()) c.place.begin_driving();
+    if (ImGui::IsItemActivated()) c.place.begin_setting();
     if (ImGui::IsItemActive() && c.place.is_driving()) {
-        const double step = (axis.to - axis.from) / 200;
         const double value = axis.value(ImGui::GetIO().MousePos.x);
-        const double rounded = step > 0.0 ? std::round(value / step) * step : value;
-        set_value(c, form, curve.name, rounded);
+        set_value(c, form, curve.name, rounded_on_axis(value, axis.from, axis.to));
     }
     if (ImGui::IsItemDeactivated() && c.place.is_driving()) c.place.end_drag();
 }
@@ -112,17 +131,19 @@ void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCu
                                   {tip.x + reach, tip.y + 1.6F * reach}, suggestion_colour(c.ui));
     ImGui::SetCursorScreenPos({tip.x - 1.5F * reach, tip.y});
     const std::string name = "quality.suggest." + curve.name;
-    if (ImGui::InvisibleButton(name.c_str(), {3 * reach, 1.8F * reach}))
+    const bool settable = can_set(form, curve, curve.suggested);
+    if (ImGui::InvisibleButton(name.c_str(), {3 * reach, 1.8F * reach}) && settable)
         set_value(c, form, curve.name, curve.suggested);
     c.ui.item(name);
-    help_on_hover(c.ui, "Suggestion: " + formatted(curve.suggested));
+    help_on_hover(c.ui, settable ? "Suggestion: " + formatted(curve.suggested)
+                                 : "Suggestion: leave the surface as it is");
     ImGui::SetCursorScreenPos(back);
 }
 
 // --- graphs
 
-void draw_curve(const PanelContext& c, const QualityCurve& curve, const Axis& axis,
-                const MeasureLook& look) {
+void draw_curve(const PanelContext& c, const SensitivityAnalysis& analysis,
+                const QualityCurve& curve, const Axis& axis, const MeasureLook& look) {
     std::vector<ImVec2> line;
     const auto finish = [&] {
         if (line.size() > 1)
@@ -137,7 +158,7 @@ void draw_curve(const PanelContext& c, const QualityCurve& curve, const Axis& ax
             continue;
         }
         const double share =
-            std::clamp(point.scaled.of(look.measure), 0.0, kMostShown) / kMostShown;
+            std::clamp(shown_share(analysis, point, look.measure), 0.0, kMostShown) / kMostShown;
         line.emplace_back(axis.x(point.value),
                           axis.rect.y + axis.rect.height * static_cast<float>(1.0 - share));
     }
@@ -184,7 +205,17 @@ void draw_value_line(const PanelContext& c, const Axis& axis, double now) {
     draw_list().AddCircleFilled({x, axis.rect.y}, c.ui.em * 0.28F, c.ui.theme.text);
 }
 
-void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
+/// The figures at the form's value, where no line over the view has them.
+void draw_figures(const PanelContext& c, const QualityCurve& curve, const QualityScale& scale,
+                  double now) {
+    if (c.place.live().has_form()) return;
+    const std::string words = values_at(curve, now, scale);
+    wrapped(c.ui, words, c.ui.theme.muted);
+    c.ui.item("quality.figures." + curve.name);
+}
+
+void draw_graph(PanelContext& c, const OperationForm& form, const SensitivityAnalysis& analysis,
+                const QualityCurve& curve) {
     const double now = value_now(c, form, curve);
     draw_title(c, curve, now);
     const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -192,25 +223,30 @@ void draw_graph(PanelContext& c, const OperationForm& form, const QualityCurve& 
     const float wide = ImGui::GetContentRegionAvail().x - left - c.ui.grid(1);
     const Axis axis = axis_of(curve, {from.x + left, from.y + c.ui.grid(0.5F), wide, high});
     draw_grid(c, axis);
-    for (const MeasureLook& look : kLooks) draw_curve(c, curve, axis, look);
+    for (const MeasureLook& look : looks_of(analysis.scale, form))
+        draw_curve(c, analysis, curve, axis, look);
     draw_value_line(c, axis, now);
     draw_ends(c, axis);
     ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
     if (!ImGui::IsItemActive())
-        help_on_hover(c.ui, values_at(curve, axis.value(ImGui::GetIO().MousePos.x)));
+        help_on_hover(c.ui,
+                      values_at(curve, axis.value(ImGui::GetIO().MousePos.x), analysis.scale));
     handle_press(c, form, curve, axis);
     draw_suggestion(c, form, curve, {axis.x(curve.suggested), axis.rect.y + high});
     ImGui::SetCursorScreenPos({from.x, axis.rect.y + high});
     ImGui::Dummy({1, c.ui.em * 1.4F});
+    draw_figures(c, curve, analysis.scale, now);
 }
 
-void draw_legend(const PanelContext& c, const QualityScale& scale) {
-    for (const MeasureLook& look : kLooks) {
-        if (&look != kLooks.data()) ImGui::SameLine(0, c.ui.grid(1.5F));
+void draw_legend(const PanelContext& c, const OperationForm& form,
+                 const SensitivityAnalysis& analysis) {
+    bool first = true;
+    for (const MeasureLook& look : looks_of(analysis.scale, form)) {
+        if (!std::exchange(first, false)) ImGui::SameLine(0, c.ui.grid(1.5F));
         small_text(c.ui, measure_name(look.measure), colour_of(c.ui, look));
-        help_on_hover(c.ui, look.help + scale.strong);
+        help_on_hover(c.ui, look.help + whole_words(analysis, look.measure));
     }
 }
 
@@ -265,7 +301,9 @@ void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& cu
 void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnalysis& analysis,
                BarOrder order) {
     std::string group;
+    const auto seen = seen_measures(analysis.scale, form.operation());
     for (const QualityBar& bar : quality_bars(analysis, order)) {
+        if (std::ranges::count(seen, bar.measure) == 0) continue;
         const QualityCurve& curve = analysis.curves[bar.curve];
         const bool by_parameter = order == BarOrder::Parameter;
         const std::string own =
@@ -286,34 +324,37 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
 
 // --- suggestions
 
-void draw_target(PanelContext& c) {
+void draw_target(PanelContext& c, const OperationForm& form) {
     double& tau = c.place.quality().tau;
+    const bool counts = counts_triangles(form.operation().search);
     slider(c.ui, "quality.tau", tau,
-           {.text = formatted(tau, "Target smoothness %.2f"),
-            .help = "0: as accurate as can be, 1: as smooth as can be"});
+           {.text = formatted(tau, counts ? "Target reduction %.2f" : "Target smoothness %.2f"),
+            .help = counts ? "0: as accurate as can be, 1: as few triangles as can be"
+                           : "0: as accurate as can be, 1: as smooth as can be"});
     constexpr std::array kNames = {"little", "medium", "strong"};
     const float wide = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, c.ui.grid(1));
-        if (button(
-                c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
-                {.width = wide, .help = formatted(kPresetTaus[i], "Aims at target smoothness %g")}))
+        if (button(c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
+                   {.width = wide, .help = formatted(kPresetTaus[i], "Aims at a target of %g")}))
             tau = kPresetTaus[i];
     }
 }
 
 void draw_best(PanelContext& c, const OperationForm& form) {
     const LiveSearch::Answer* const answer = c.place.quality().answer();
-    const bool known = answer != nullptr && answer->best;
+    const bool found = answer != nullptr && answer->best;
+    const bool known = found && !answer->leave_as_is;
     if (button(c.ui, "quality.best", "Take the best of all",
                {.enabled = known, .width = -1, .help = "Fill in all of these values"})) {
         const Arguments best = *answer->best;
         c.place.live().follow(true);
         for (const auto& [name, value] : best.values()) set_value(c, form, name, best.real(name));
     }
-    const std::string words =
-        known ? suggestion_words(*answer->best, answer->analysis) : "Searching";
-    wrapped(c.ui, known && !answer->complete ? "So far: " + words : words, c.ui.theme.muted);
+    std::string words = "Searching";
+    if (known) words = suggestion_words(*answer->best, answer->analysis);
+    if (found && !known) words = "Leave the surface as it is: all results score worse";
+    wrapped(c.ui, found && !answer->complete ? "So far: " + words : words, c.ui.theme.muted);
 }
 
 void draw_view_choice(PanelContext& c) {
@@ -327,9 +368,9 @@ void draw_view_choice(PanelContext& c) {
 void draw_analysis(PanelContext& c, const OperationForm& form,
                    const SensitivityAnalysis& analysis) {
     if (c.shown.quality == QualityView::Graphs) {
-        draw_legend(c, analysis.scale);
+        draw_legend(c, form, analysis);
         space(c.ui, 0.5F);
-        for (const QualityCurve& curve : analysis.curves) draw_graph(c, form, curve);
+        for (const QualityCurve& curve : analysis.curves) draw_graph(c, form, analysis, curve);
     } else {
         draw_bars(c, form, analysis,
                   c.shown.quality == QualityView::BarsByMeasure ? BarOrder::Measure
@@ -344,7 +385,7 @@ void draw_quality(PanelContext& c, const OperationForm& form) {
     quality.want();
     group_heading(c.ui, "Suggestions");
     space(c.ui, 0.5F);
-    draw_target(c);
+    draw_target(c, form);
     draw_best(c, form);
     space(c.ui, 1);
     group_heading(c.ui, quality.pending() ? "Quality, being refined" : "Quality");

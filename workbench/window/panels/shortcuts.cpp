@@ -86,7 +86,7 @@ void handle_escape(PanelContext& c) {
         return;
     } else if (c.place.comparison()) {
         c.place.stop_comparing();
-    } else {
+    } else if (!c.place.take_back_drag()) {
         c.place.leave_form();
     }
 }
