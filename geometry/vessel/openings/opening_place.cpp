@@ -249,9 +249,9 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const bool blind = branch.is_blind();
     const double whole = first_whole(branch, blind, tip);
     const double plain = branch.plain_length(whole);
-    const double last = std::max(whole, kGivenUp * plain);
     const double outermost = outermost_whole(branch, blind, whole);
     const double deepest = outermost + kGivenUp * (plain - outermost);
+    const double last = std::max(whole, deepest);
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
     std::vector<std::pair<double, OpeningPlace>> found;  // by cost, from the tip inward
     double least = std::numeric_limits<double>::infinity();
