@@ -19,9 +19,9 @@ struct VoxelWidth {
     double diameter = 0.0;  ///< of the vessel [mm]
     double voxels = 0.0;    ///< a thinner vessel has gaps between layers of voxels [mm]
 
-    /// The image cannot show whether the vessel ends there. Surfaces of masks are a fifth to a
-    /// quarter thinner than vessels this thin.
-    [[nodiscard]] bool is_fading() const { return diameter < 0.8 * voxels; }
+    /// The image cannot show whether the vessel ends there. Surfaces of masks are 20 to 40 %
+    /// thinner than vessels this thin.
+    [[nodiscard]] bool is_fading() const { return diameter < 0.7 * voxels; }
 };
 
 /// The means over a branch's last three diameters, without the rounded tip. Sections of a vessel in
