@@ -87,6 +87,27 @@ CenterlineGraph with_side_branch(std::vector<double> radii) {
             .branches = {half(1.0, 1), half(-1.0, 2), side}};
 }
 
+VesselShape vessel_along(const Positions& points, double radius, bool flat = false) {
+    return {
+        .points = points, .radii = std::vector<double>(points.size(), radius), .flat_ends = flat};
+}
+
+/// A closed vessel along z with flat ends, and thinner ones that leave it; nothing is labelled.
+Surface closed_vessels(double radius, const std::vector<Positions>& branches) {
+    std::vector<PhantomPart> parts = {
+        {.name = "vessel", .shape = vessel_along({Vec3(0, 0, -15), Vec3(0, 0, 15)}, 1.6, true)}};
+    for (const Positions& branch : branches)
+        parts.push_back({.name = "branch", .shape = vessel_along(branch, radius), .blend = 0.2});
+    const PhantomField field(parts);
+    return exact_surface(field, field.bounds(), 0.4 * radius);
+}
+
+/// The record of the end nearest to a point.
+EndRecord end_at(const OpeningPlan& plan, const Vec3& point) {
+    return *std::ranges::min_element(
+        plan.ends, {}, [&](const EndRecord& record) { return (record.place - point).norm(); });
+}
+
 const PlannedOpening& upper(const OpeningPlan& plan) {
     return *std::ranges::find_if(plan.openings,
                                  [](const auto& o) { return o.place.plane.point.z() > 15.0; });
@@ -149,6 +170,89 @@ SCENARIO("The widest vessel of an image is opened, though it is short", "[geomet
     };
     CHECK(end_of_trunk(8.5) == EndFate::Opened);
     CHECK(end_of_trunk(6.0) != EndFate::Opened);
+}
+
+SCENARIO("A vessel thinner than its image's voxels fades from it, and has no end to be opened",
+         "[geometry][openings]") {
+    const Vec3 across(10, 0, 0), along(8, 0, 13);
+    const VoxelEdges voxels = Vec3(0.5, 0.5, 2.7).asDiagonal();
+    GIVEN("a thin branch across thick slices") {
+        const Surface surface = closed_vessels(0.6, {{Vec3::Zero(), across}});
+        const auto graph = centerlines_of(surface);
+        const OpeningPlan plan = plan_openings(surface, *graph, {.voxels = voxels});
+        THEN("it stays closed, for that reason, and can be opened by hand") {
+            CHECK(plan.openings.size() == 2);
+            CHECK(end_at(plan, across).fate == EndFate::Closed);
+            CHECK_THAT(end_at(plan, across).why,
+                       Contains("fades from the image") && Contains("2.7 mm apart; open="));
+            const Positions wanted = {end_at(plan, across).place};
+            CHECK(plan_openings(surface, *graph, {.open = wanted}).openings.size() == 3);
+        }
+        THEN("without an image, or between fine voxels, it is opened") {
+            CHECK(plan_openings(surface, *graph).openings.size() == 3);
+            const VoxelEdges fine = 0.5 * VoxelEdges::Identity();
+            CHECK(plan_openings(surface, *graph, {.voxels = fine}).openings.size() == 3);
+        }
+        THEN("it is opened if the flow needs it") {
+            const OpeningPlan needed =
+                plan_openings(surface, *graph, {.voxels = voxels, .closed = {Vec3(0, 0, 15)}});
+            CHECK(end_at(needed, across).fate == EndFate::Opened);
+        }
+    }
+    GIVEN("a thin branch along the slices' axis, whose pixels show it") {
+        const Surface surface = closed_vessels(0.6, {{Vec3::Zero(), Vec3(8, 0, 3), along}});
+        const OpeningPlan plan =
+            plan_openings(surface, *centerlines_of(surface), {.voxels = voxels});
+        CHECK(end_at(plan, along).fate == EndFate::Opened);
+    }
+    GIVEN("a wider branch across them") {
+        const Surface surface = closed_vessels(1.5, {{Vec3::Zero(), across}});
+        const OpeningPlan plan =
+            plan_openings(surface, *centerlines_of(surface), {.voxels = voxels});
+        CHECK(plan.openings.size() == 3);
+    }
+}
+
+SCENARIO("Two ends that face each other are a broken vessel", "[geometry][openings]") {
+    const auto plan_with_gap = [](double gap) {
+        const Vec3 top(10, 0, 0.5 * gap), bottom(10, 0, -0.5 * gap);
+        const Surface surface = closed_vessels(0.8, {{Vec3(0, 0, 10), Vec3(10, 0, 10), top},
+                                                     {Vec3(0, 0, -10), Vec3(10, 0, -10), bottom}});
+        return plan_openings(surface, *centerlines_of(surface));
+    };
+    const OpeningPlan broken = plan_with_gap(3.2);
+    CHECK(broken.openings.size() == 2);
+    CHECK_THAT(end_at(broken, Vec3(10, 0, 1)).why, Contains("the vessel is broken there"));
+    CHECK_THAT(end_at(broken, Vec3(10, 0, -1)).why, Contains("open="));
+    CHECK(plan_with_gap(10.0).openings.size() == 4);
+}
+
+SCENARIO("A cut does not lose a vessel", "[geometry][openings]") {
+    // The centerline ends far before its vessel does, which then bends back: from the bend on, the
+    // way along the line is longer than what lies beyond the cut is far away.
+    const double radius = 1.0, straight = 20.0, bend = 4.0, short_by = 8.0;
+    Positions points;
+    for (double z = 0.0; z < straight; z += 0.5) points.emplace_back(0, 0, z);
+    for (double turn = 0.0; turn < 3.14; turn += 0.1)
+        points.emplace_back(bend * (1.0 - std::cos(turn)), 0, straight + bend * std::sin(turn));
+    for (double z = straight; z >= 0.0; z -= 0.5) points.emplace_back(2.0 * bend, 0, z);
+    const std::vector<PhantomPart> parts = {
+        {.name = "vessel", .shape = vessel_along(points, radius)}};
+    const PhantomField field(parts);
+    const Surface surface = exact_surface(field, field.bounds(), 0.3);
+    CenterlineBranch line{.start_node = 0, .end_node = 1, .points = {}, .radii = {}};
+    std::ranges::copy_if(points, std::back_inserter(line.points),
+                         [&](const Vec3& p) { return p.z() > short_by; });
+    line.radii.assign(line.points.size(), radius);
+    const CenterlineGraph graph = {
+        .nodes = {{line.points.front(), radius, {0}}, {line.points.back(), radius, {0}}},
+        .branches = {line}};
+    const OpeningPlan plan = plan_openings(surface, graph);
+    for (const EndRecord& end : plan.ends) {
+        CAPTURE(end.why);
+        CHECK(end.fate == EndFate::Closed);
+        CHECK_THAT(end.why, Contains("would remove vessels up to"));
+    }
 }
 
 SCENARIO("A sac whose neck the image has widened is not a vessel's end", "[geometry][openings]") {

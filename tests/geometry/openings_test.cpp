@@ -66,6 +66,26 @@ Path straight_line() {
     return [](double z) { return AxisPoint{Vec3(0, 0, z), Vec3::UnitX()}; };
 }
 
+/// Bent at its end, by so many degrees over one diameter, and less by `less` for each radius
+/// inward.
+Path straightening(double radius, double length, double bend_deg, double less) {
+    const double step = 0.02;
+    Positions points;
+    std::vector<double> angles;
+    double angle = 0.0;
+    Vec3 at = Vec3::Zero();
+    for (double z = 0.0; z < length + 1.0; z += step) {
+        points.push_back(at);
+        angles.push_back(angle);
+        angle += std::max(0.0, bend_deg - less * z / radius) * kPi / 180.0 / (2.0 * radius) * step;
+        at += step * Vec3(std::sin(angle), 0.0, std::cos(angle));
+    }
+    return [=](double z) -> AxisPoint {
+        const auto i = static_cast<std::size_t>(std::lround(std::max(0.0, z) / step));
+        return {points[i], Vec3(std::cos(angles[i]), 0.0, -std::sin(angles[i]))};
+    };
+}
+
 /// Share of a regular polygon's area in its circle's.
 double polygon_share(int corners) {
     return corners / (2.0 * kPi) * std::sin(2.0 * kPi / corners);
@@ -90,26 +110,38 @@ void check_caps(const Surface& s, std::size_t openings, double most_tilt = 2.0) 
 }  // namespace
 
 SCENARIO("A cut moves inward only for a place that is clearly straighter", "[geometry][openings]") {
+    const double radius = 2.0, length = 120.0;
     // From its end the vessel straightens as fast as giving up length costs: little is gained.
-    const double radius = 2.0, length = 120.0, step = 0.02;
-    Positions points;
-    std::vector<double> angles;
-    double angle = 0.0;
-    Vec3 at = Vec3::Zero();
-    for (double z = 0.0; z < length + 1.0; z += step) {
-        points.push_back(at);
-        angles.push_back(angle);
-        angle += std::max(0.0, 25.0 - 6.0 * z / radius) * kPi / 180.0 / (2.0 * radius) * step;
-        at += step * Vec3(std::sin(angle), 0.0, std::cos(angle));
-    }
-    const Path path = [&](double z) -> AxisPoint {
-        const auto i = static_cast<std::size_t>(std::lround(std::max(0.0, z) / step));
-        return {points[i], Vec3(std::cos(angles[i]), 0.0, -std::sin(angles[i]))};
-    };
+    const Path path = straightening(radius, length, 25.0, 6.0);
     const Surface tube = bent(open_tube(radius, length, 48, 480), path);
     const OpeningPlace place = choose_opening_place(tube, line_graph(path, length, radius), 0);
     CHECK(place.distance < 1.2 * radius);
     CHECK(place.tilt_deg < 0.1);
+}
+
+SCENARIO("A side branch without a line of its own ends the branch that a cut may shorten",
+         "[geometry][openings]") {
+    const double radius = 2.0, length = 120.0, furcation = 24.0;
+    const Path path = straightening(radius, length, 45.0, 12.0);
+    const CenterlineGraph line = line_graph(path, length, radius);
+    const Surface tube = open_tube(radius, length, 48, 480);
+    GIVEN("a long vessel that straightens from its end on") {
+        const OpeningPlace place = choose_opening_place(bent(tube, path), line, 0);
+        THEN("the cut moves to where it is straight") {
+            CHECK(place.distance > 2.0 * radius);
+        }
+    }
+    GIVEN("the same with a short side branch, which bulges its wall only") {
+        const Surface bulged = mapped(tube, [&](const Vec3& p) {
+            const double along = (p.z() - furcation) / radius;
+            const double out = p.x() > 0.0 ? 1.0 + 0.6 * std::exp(-along * along) : 1.0;
+            return Vec3(out * p.x(), p.y(), p.z());
+        });
+        const OpeningPlace place = choose_opening_place(bent(bulged, path), line, 0);
+        THEN("nine tenths of what lies before it are kept") {
+            CHECK(place.distance < 0.1 * (furcation - radius));
+        }
+    }
 }
 
 SCENARIO("A tube is clipped at a known place", "[geometry][openings]") {

@@ -62,12 +62,17 @@ Positions points_of(const Arguments& arguments, const char* name) {
     return points;
 }
 
-OpeningPlanOptions plan_options(const Arguments& arguments, bool imaged) {
+VoxelEdges voxel_edges(const Image& image) {
+    return image.index_to_patient.topLeftCorner<3, 3>();
+}
+
+OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<Image>& image) {
     OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
                                .distance = arguments.optional_real("distance"),
                                .radii = arguments.optional_real("radii"),
                                .strict = arguments.flag("strict"),
-                               .border_cuts = imaged};
+                               .border_cuts = image.has_value()};
+    if (image) options.voxels = voxel_edges(*image);
     if (!options.tip) options.inlets = points_of(arguments, "inlet");
     options.open = points_of(arguments, "open");
     options.closed = points_of(arguments, "closed");
@@ -106,7 +111,7 @@ void require_most_kept(const Surface& before, const Surface& after) {
 /// Plans and cuts; where a cut fails, plans again without it.
 Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
-    OpeningPlanOptions options = plan_options(arguments, scene.image.has_value());
+    OpeningPlanOptions options = plan_options(arguments, scene.image);
     const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.7));
     if (!options.tip && surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
         !has_tube(*graph))

@@ -34,6 +34,12 @@ constexpr double kMostOfObliqueVessel = 0.65;  // if its end is cut very oblique
 /// Fraction of a branch, from its furcation's end, that may be given up for a straighter place:
 /// less than a tenth, since the section's place is known to a fraction of a radius only.
 constexpr double kGivenUp = 0.08;
+/// A furcation whose other branch is too short or too thin for a line of its own ends the branch,
+/// too: the vessel's sections are this much wider there than some steps before and behind.
+constexpr double kBulge = 1.1;
+constexpr double kBulgeStep = 0.5;     // tip radii
+constexpr double kBulgeReach = 15.0;   // tip radii
+constexpr std::size_t kBulgeFrom = 3;  // steps from the widest section, and as many behind these
 /// Bend assumed where the axis cannot be measured [deg].
 constexpr double kUnmeasuredCost = 60.0;
 /// Bend that weighs as much as one radius of vessel given up [deg].
@@ -95,6 +101,22 @@ public:
     double own_length() const {
         const std::size_t other = other_node(graph_, branch_, tip_);
         return length - furcation_zone_end(graph_, branch_, other);
+    }
+
+    /// The branch's part that is known to be a vessel without side branches [mm]: own_length, or up
+    /// to a bulge of its wall.
+    double plain_length(double from) const {
+        const double whole = own_length(), step = kBulgeStep * radius;
+        std::vector<double> widths;
+        for (double s = from; s < std::min(whole, kBulgeReach * radius); s += step) {
+            const auto curve = section({position(s), outward(s)});
+            if (!curve) break;
+            widths.push_back(curve->diameter());
+        }
+        for (std::size_t k = 2 * kBulgeFrom; k + 2 * kBulgeFrom < widths.size(); ++k)
+            if (is_bulge(widths, k))
+                return std::min(whole, from + static_cast<double>(k) * step - radius);
+        return whole;
     }
 
     /// How far the vessel goes on beyond the line's tip [mm].
@@ -173,6 +195,16 @@ public:
     }
 
 private:
+    static bool is_bulge(const std::vector<double>& widths, std::size_t k) {
+        double before = 0.0, behind = 0.0;
+        for (std::size_t i = kBulgeFrom; i <= 2 * kBulgeFrom; ++i) {
+            before += widths[k - i] / (kBulgeFrom + 1.0);
+            behind += widths[k + i] / (kBulgeFrom + 1.0);
+        }
+        return widths[k] >= widths[k - 1] && widths[k] >= widths[k + 1] &&
+               widths[k] > kBulge * std::max(before, behind);
+    }
+
     double reach() const {
         return radius * (6.0 + kCandidateStep * kCandidates) + std::min(length, 6.0 * radius);
     }
@@ -216,9 +248,10 @@ double outermost_whole(const BranchFromEnd& branch, bool blind, double first) {
 OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const bool blind = branch.is_blind();
     const double whole = first_whole(branch, blind, tip);
-    const double last = std::max(whole, kGivenUp * branch.own_length());
+    const double plain = branch.plain_length(whole);
     const double outermost = outermost_whole(branch, blind, whole);
-    const double deepest = outermost + kGivenUp * (branch.own_length() - outermost);
+    const double deepest = outermost + kGivenUp * (plain - outermost);
+    const double last = std::max(whole, deepest);
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
     std::vector<std::pair<double, OpeningPlace>> found;  // by cost, from the tip inward
     double least = std::numeric_limits<double>::infinity();

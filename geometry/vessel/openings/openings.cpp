@@ -114,10 +114,14 @@ private:
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::stable_sort(order, std::greater{},
                                  [&](std::size_t e) { return ends_[e].diameter; });
-        for (const bool visible : {true, false})
+        const std::vector<std::string> doubts = doubts_about_ends();
+        const auto rank = [&](std::size_t e) {
+            return ends_[e].is_visible() ? 0 : doubts[e].empty() ? 1 : 2;
+        };
+        for (const int turn : {0, 1, 2})
             for (const std::size_t e : order)
-                if (!decided_[e] && ends_[e].is_visible() == visible)
-                    plan_end(e, blind_too || is_wanted(e));
+                if (!decided_[e] && rank(e) == turn)
+                    plan_end(e, blind_too || is_wanted(e), doubts[e]);
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (is_wanted(e) && !made_[e])
                 throw AlgorithmFailure(std::string("the ") + (is_inlet(e) ? "inlet" : "end") +
@@ -176,7 +180,38 @@ private:
         return std::ranges::none_of(ends_, determines) || std::ranges::count_if(ends_, is_end) < 2;
     }
 
-    void plan_end(std::size_t e, bool blind_too) {
+    /// By end, why it may be none though a centerline ends there; empty: there is no doubt.
+    std::vector<std::string> doubts_about_ends() const {
+        std::vector<std::string> doubts(ends_.size());
+        if (options_.strict) return doubts;
+        const auto facing = facing_ends(ends_, graph_);
+        for (std::size_t e = 0; e < ends_.size(); ++e) {
+            if (ends_[e].is_visible() || is_wanted(e)) continue;
+            if (facing[e]) {
+                doubts[e] = "the vessel is broken there: it faces the end at " +
+                            place_text(ends_[*facing[e]].centre);
+                continue;
+            }
+            if (!options_.voxels) continue;
+            const VoxelWidth width = width_at_tip(graph_, *ends_[e].tip, *options_.voxels);
+            if (width.is_fading())
+                doubts[e] = "it fades from the image there: " + formatted(width.diameter) +
+                            " mm wide, between voxels " + formatted(width.voxels) + " mm apart";
+        }
+        return doubts;
+    }
+
+    /// Two others are open, and one of them is wider: the flow does not need the end.
+    bool is_spare(std::size_t e) const {
+        const auto open = std::ranges::count_if(made_, [](const auto& m) { return m.has_value(); });
+        double widest = 0.0;
+        for (std::size_t other = 0; other < ends_.size(); ++other)
+            if (made_[other]) widest = std::max(widest, ends_[other].diameter);
+        return open >= 2 && widest >= ends_[e].diameter;
+    }
+
+    /// \param doubt why the end may be none; may be empty
+    void plan_end(std::size_t e, bool blind_too, const std::string& doubt) {
         const SurfaceEnd& end = ends_[e];
         if (in_side_[e] && !options_.strict)
             return close(e, "it lies in the side of a vessel that passes there");
@@ -187,6 +222,7 @@ private:
                          "a closed end: the surface's own rims are its openings" + opening_text(e));
         }
         if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
+        if (!doubt.empty() && is_spare(e)) return close(e, doubt + opening_text(e));
         if (cut(e)) return;
         if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
         if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
@@ -346,8 +382,11 @@ private:
         }
         if (options_.strict || is_fixed()) return false;
         const auto free = [&](const OpeningPlace& place) { return is_free(place, e); };
+        const auto near = [&](const OpeningPlace& place) {
+            return place.distance < kMostGivenUp * place.diameter && free(place);
+        };
         const std::string why = record.why;
-        if (const auto place = nearest_opening_place(surface_, graph_, *end.tip, free))
+        if (const auto place = nearest_opening_place(surface_, graph_, *end.tip, near))
             return make_cut(e, *place, "cut at the nearest place that can be: " + why);
         const auto blind = blind_branch(graph_, *end.tip);
         if (blind && blind->length < kLongestAcross * end.diameter)
@@ -449,6 +488,9 @@ private:
 
     /// An end's own vessel, beyond the others, is at least this long [diameters of the end].
     static constexpr double kLeastOwnVessel = 0.1;
+
+    /// A cut farther from its tip [diameters] would lose a vessel (lost_vessels).
+    static constexpr double kMostGivenUp = 2.8;
 
     /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
     static constexpr double kLongestAcross = 3.0;

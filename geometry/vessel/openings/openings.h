@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vessel/openings/fading_ends.h"
 #include "geometry/vessel/openings/opening_place.h"
 
 namespace vesselbench {
@@ -78,6 +79,8 @@ struct OpeningPlanOptions {
     /// Patches of kind Cut are where an image ends, which nobody meant to be an opening's plane:
     /// only perpendicular ones are kept.
     bool border_cuts = false;
+    /// Of the image that the surface was made from: ends thinner than these are left closed.
+    std::optional<VoxelEdges> voxels;
     Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]
     Positions open;    ///< near ends that have to be opened, though they may look closed [mm]
     Positions closed;  ///< near the ends that stay closed [mm]
@@ -96,11 +99,12 @@ inline constexpr double kEndReach = 1.5;
 /// Decides what becomes of the vessel ends. All ends: the open borders and known caps; if there are
 /// fewer than two of these, or only cuts at an image's border, every other tip as well, except an
 /// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a flat cap is
-/// kept as it is. Every other end is cut at the chosen place (choose_opening_place); else at
-/// the nearest place with a whole section; else its branch is removed if it is a stub, shorter than
-/// its parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no
-/// branch has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be
-/// opened
+/// kept as it is. A closed end that fades from the image, thinner than its voxels (width_at_tip),
+/// or that faces another one across a gap (facing_ends) stays closed if two others are open and one
+/// of them is wider. Every other end is cut at the chosen place (choose_opening_place); else at the
+/// nearest place with a whole section; else its branch is removed if it is a stub, shorter than its
+/// parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no branch
+/// has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be opened
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {});
 
