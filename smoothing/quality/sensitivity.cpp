@@ -16,8 +16,7 @@ std::vector<double> values_of(const SearchParameter& parameter, double current, 
     std::vector<double> values = chosen_values(parameter, which == CurveValues::Coarse);
     values.push_back(current);
     std::ranges::sort(values);
-    const auto [first, last] = std::ranges::unique(values);
-    values.erase(first, last);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     return values;
 }
 
