@@ -109,7 +109,7 @@ QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
             point.score = score(score_terms(base, *point.measures, search.settings().form),
                                 search.settings().tau);
         }
-        curve.points.push_back(std::move(point));
+        curve.points.push_back(point);
     }
     // What is known so far may have no usable value yet.
     if (which != CurveValues::Known || std::ranges::any_of(curve.points, is_usable))
