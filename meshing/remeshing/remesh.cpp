@@ -169,26 +169,20 @@ std::size_t ill_shaped_count(const Surface& surface) {
     return count;
 }
 
-/// Vertices farther than this many rings from any ill-shaped triangle, by vertex.
-std::vector<std::uint8_t> away_from_ill_shaped(const Surface& surface) {
-    constexpr int kRings = 4;
-    std::vector<std::uint8_t> away(surface.vertex_count(), 1);
+/// 0 at the corners of ill-shaped triangles, else 1; by vertex.
+std::vector<std::uint8_t> well_shaped_vertices(const Surface& surface) {
+    std::vector<std::uint8_t> well_shaped(surface.vertex_count(), 1);
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
         if (is_ill_shaped(surface, t))
-            for (const VertexId v : surface.triangles()[t]) away[v] = 0;
-    for (int ring = 0; ring < kRings; ++ring) {
-        const std::vector<std::uint8_t> last = away;
-        for (VertexId v = 0; v < last.size(); ++v)
-            for (const VertexId u : surface.topology->rings().row(v))
-                if (last[u] == 0) away[v] = 0;
-    }
-    return away;
+            for (const VertexId v : surface.triangles()[t]) well_shaped[v] = 0;
+    return well_shaped;
 }
 
 /// Cutting and filling leaves slivers: around them the surface is remeshed once more, as it is now.
 /// \param before gives the sizes
 /// \return the surface as it was if that brings nothing, or crossings
 Surface mended(const Remesher& before, const Surface& cut, const Progress& progress) {
+    constexpr int kRings = 4;
     const std::size_t ill_shaped = ill_shaped_count(cut);
     if (ill_shaped == 0) return cut;
     std::vector<double> sizes(cut.vertex_count());
@@ -198,7 +192,7 @@ Surface mended(const Remesher& before, const Surface& cut, const Progress& progr
                            .on_patch((*cut.patch_labels)[t], cut.points()[v], TargetPlace::kNowhere)
                            .size;
     Remesher remesher(cut, sizes, cut, progress);
-    remesher.resting = away_from_ill_shaped(cut);
+    remesher.rest_beyond(well_shaped_vertices(cut), kRings);
     Surface result = remeshed(remesher, kRounds - kMendRounds, progress);
     const bool better = ill_shaped_count(result) < ill_shaped && self_intersections(result).empty();
     return better ? result : cut;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -114,7 +115,12 @@ void Remesher::set_sizes(const std::vector<double>& source_sizes) {
         move(v, place_for(v, kind, mesh.points[v]));
         if (sizes[v] < kSame * before) rest[v] = 0;
     });
-    for (int ring = 0; ring < kRings; ++ring) {
+    rest_beyond(std::move(rest), kRings);
+}
+
+void Remesher::rest_beyond(std::vector<std::uint8_t> rest, int rings) {
+    rest.resize(mesh.vertex_count(), 1);
+    for (int ring = 0; ring < rings; ++ring) {
         const std::vector<std::uint8_t> last = rest;
         for_all(rest.size(), cancel, [&](VertexId v) {
             if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) return;

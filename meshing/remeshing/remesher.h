@@ -24,6 +24,11 @@ public:
     /// place with a shorter length than before.
     void set_sizes(const std::vector<double>& source_sizes);
 
+    /// From now on the passes leave alone what lies more than some rings away from the vertices
+    /// that do not rest.
+    /// \param rest by vertex of the mesh; those beyond the end rest
+    void rest_beyond(std::vector<std::uint8_t> rest, int rings);
+
     /// Splits edges longer than `limit` target lengths until there are none.
     /// \throw AlgorithmFailure beyond kMostTriangles
     void split_long_edges(double limit = kLong);

@@ -41,8 +41,7 @@ bool face(const CenterlineGraph& graph, const SurfaceEnd& a, const SurfaceEnd& b
 VoxelWidth width_at_tip(const CenterlineGraph& graph, std::size_t tip, const VoxelEdges& voxels) {
     const std::size_t index = branch_of_tip(graph, tip);
     const CenterlineBranch& branch = graph.branches[index];
-    const std::size_t other = other_node(graph, index, tip);
-    const double zone = graph.nodes[other].is_tip() ? 0.0 : furcation_zone_end(graph, index, other);
+    const double zone = furcation_zone_end(graph, index, other_node(graph, index, tip));
     const double own = branch_length(branch) - zone, radius = tip_radius(graph, tip);
     const double to = std::min(kTo * radius, own), from = std::min(kFrom * radius, 0.5 * to);
     VoxelWidth width;

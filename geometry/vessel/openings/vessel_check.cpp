@@ -43,11 +43,8 @@ double closed_volume(const Surface& surface) {
 /// True if a branch is a tube without the furcations at its ends.
 bool is_tube(const CenterlineGraph& graph, std::size_t index) {
     const CenterlineBranch& branch = graph.branches[index];
-    const auto zone = [&](std::size_t node) {
-        return graph.nodes[node].is_tip() ? 0.0 : furcation_zone_end(graph, index, node);
-    };
-    const double from = zone(branch.start_node);
-    const double to = branch_length(branch) - zone(branch.end_node);
+    const double from = furcation_zone_end(graph, index, branch.start_node);
+    const double to = branch_length(branch) - furcation_zone_end(graph, index, branch.end_node);
     const std::vector<double> s = abscissas(branch);
     double widest = 0.0;
     for (std::size_t i = 0; i < s.size(); ++i)
