@@ -7,6 +7,7 @@
 #include "geometry/image/clean_image.h"
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/resample.h"
+#include "geometry/image/separating_field.h"
 #include "geometry/image/shells.h"
 #include "geometry/kernel/errors.h"
 
@@ -14,7 +15,7 @@ namespace vesselbench {
 
 namespace {
 
-/// A mask of 1 and 0: the surface lies midway between voxels and keeps all staircases.
+/// A mask of 1 and 0: the surface midway between voxels keeps all staircases.
 constexpr double kMaskIso = 0.5;
 
 std::string text_of(double number) {
@@ -150,6 +151,9 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     progress.check_cancelled();
     if (parameters.resample) field.image = resample_mask(field.image, *parameters.resample);
     progress.check_cancelled();
+    result.mask_surface = parameters.mask_surface;
+    if (parameters.mask_surface == MaskSurface::Smooth)
+        field = {separating_field(field.image, progress), 0.0};
     field.image = gaussian(field.image, cleaning.gaussian);
     return field;
 }

@@ -22,6 +22,12 @@ enum class ExtractionMethod {
 
 [[nodiscard]] std::string to_string(ExtractionMethod method);  ///< "threshold", "labels", "masked"
 
+/// Where the surface of a mask or of labels lies between the voxels.
+enum class MaskSurface {
+    Midway,  ///< midway between voxel centres: keeps all staircases
+    Smooth   ///< where it bends least (separating_field.h): no staircases, the same topology
+};
+
 /// Cleaning of the image (thesis 3.2.3), in this order; 0 skips a step.
 struct Cleaning {
     int diffusion = 0;                         ///< iterations of edge-preserving diffusion
@@ -46,6 +52,7 @@ struct ExtractionParameters {
     std::optional<double> threshold;   ///< image value; a level set's iso-value
     std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
     std::vector<int> labels;           ///< empty: any label above 0
+    MaskSurface mask_surface = MaskSurface::Midway;  ///< of labels; other methods ignore it
     int dilation = 1;  ///< radius of the mask's dilation [voxels] (3 x 3 x 3 kernel)
     Cleaning cleaning;
     std::optional<double> resample;  ///< edge of cubic voxels [mm]
@@ -61,6 +68,7 @@ struct Extraction {
     ExtractionMethod method = ExtractionMethod::Threshold;
     double threshold = 0.0;
     bool inside_below = false;
+    MaskSurface mask_surface = MaskSurface::Midway;
     std::vector<int> labels;              ///< that are inside
     std::optional<double> contrast;       ///< of the diffusion, if it ran
     std::vector<std::string> reasons;     ///< one sentence for each decision

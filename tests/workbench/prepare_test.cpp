@@ -84,6 +84,32 @@ SCENARIO("An organ is printed whole", "[workbench][prepare][data]") {
     CHECK(printed == Approx(1.013e6).epsilon(0.02));  // of the mask [mm^3]
 }
 
+SCENARIO("A mask's surface has no staircases to smooth", "[workbench][prepare]") {
+    const std::string mask = tube() + "/mask.nii.gz", out = temporary_folder() + "/mask";
+    const auto operations = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"prepare", mask, "--for", "rp", "--out", out};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun result = run(words);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        std::vector<std::string> names;
+        const Json log = Json::parse(run({"log", out + "/project.vbench", "--json"}).out);
+        for (const Json& edit : log["edits"])
+            if (edit["step"] == "source") names.push_back(edit["operation"]);
+        return names;
+    };
+    THEN("prepare finds where it bends least and does not smooth it") {
+        CHECK(operations({}) == Names{"load-image", "extract-surface", "repair"});
+        AND_THEN("--resume finds nothing missing") {
+            CHECK(operations({"--resume"}) == Names{"load-image", "extract-surface", "repair"});
+        }
+    }
+    THEN("the surface midway between voxels is smoothed as before") {
+        CHECK(operations({"--set", "extract-surface.mask_surface=midway"}) ==
+              Names{"load-image", "extract-surface", "repair", "smooth"});
+    }
+}
+
 SCENARIO("A phantom becomes a model for planning and one for surgery simulation",
          "[workbench][prepare]") {
     for (const std::string purpose : {"planning", "simulation"}) {

@@ -31,7 +31,8 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
         {"operation": "smooth", "arguments": {"iterations": 5, "lambda": "0.25"}, "step": "source"},
         {"operation": "fill-hole", "when": "rp"},
         {"operation": "extrude-opening", "when": ["surface", "no-mask"], "optional": true},
-        {"operation": "fill-hole", "when": "surface", "unless_closed": true}])");
+        {"operation": "fill-hole", "when": "surface", "unless_closed": true, "unless_made":
+         {"operation": "smooth", "arguments": {"iterations": "5"}}}])");
     const Recipe recipe = recipe_from_json(list, {"surface", "cfd"});
     REQUIRE(operations_of(recipe) ==
             std::vector<std::string>{"smooth", "extrude-opening", "fill-hole"});
@@ -41,6 +42,10 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     CHECK(recipe[1].optional);
     CHECK_FALSE(recipe[1].unless_closed);
     CHECK(recipe[2].unless_closed);
+    REQUIRE(recipe[2].unless_made);
+    CHECK(recipe[2].unless_made->operation().name == "smooth");
+    CHECK((*recipe[2].unless_made)->integer("iterations") == 5);
+    CHECK_FALSE(recipe[1].unless_made);
     CHECK_FALSE(recipe[1].step.has_value());
     CHECK(operations_of(recipe_from_json(list, {"image", "mask", "rp"})) ==
           std::vector<std::string>{"smooth", "fill-hole"});
@@ -57,6 +62,9 @@ SCENARIO("A recipe that cannot be followed is refused before anything is done",
     refused(R"([{"operation": "smooth", "step": "smoothin"}])", "did you mean 'smoothing'");
     refused(R"([{"operation": "smooth", "when": "today"}])", "today");
     refused(R"([{"operation": 7}])", "entry 1");
+    refused(R"([{"operation": "smooth", "unless_made": {"arguments": {}}}])", "unless_made");
+    refused(R"([{"operation": "smooth", "unless_made": {"operation": "smooth", "after": 1}}])",
+            "after");
     // Another use of the recipe must not fail later.
     refused(R"([{"operation": "smooth", "when": "image", "arguments": {"lambda": "much"}}])",
             "'lambda'");

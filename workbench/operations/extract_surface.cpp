@@ -177,6 +177,12 @@ std::vector<Parameter> source_parameters() {
          .help = "labels of the vessel, as 1,2,3; default: every label above 0",
          .minimum = 1,
          .meaning = Meaning::Labels},
+        {.name = "mask_surface",
+         .type = Choice,
+         .default_value = "midway",
+         .help = "surface of labels: midway between voxels, with their staircases, or smooth: "
+                 "where it bends least with every voxel on its side; other methods ignore it",
+         .choices = {"midway", "smooth"}},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",

@@ -102,7 +102,20 @@ std::string apply_entry(Session& session, const RecipeEntry& entry, const std::s
     }
 }
 
+/// True for an edit that ran with these arguments, given or decided.
+bool was_made(const LogEntry& edit, const GivenArguments& sought) {
+    if (edit.edit.operation != sought.operation().name || !edit.result) return false;
+    return std::ranges::all_of(sought->values(), [&](const auto& argument) {
+        const Arguments& ran = edit.result->resolved;
+        return ran.has(argument.first) && ran.values().at(argument.first) == argument.second;
+    });
+}
+
 bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
+    if (entry.unless_made && std::ranges::any_of(session.log(), [&](const LogEntry& edit) {
+            return was_made(edit, *entry.unless_made);
+        }))
+        return true;
     return entry.unless_closed &&
            surface_of(session.scene(variant)).topology->boundary_loops().empty();
 }

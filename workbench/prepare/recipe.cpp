@@ -23,8 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kKeys = {"operation",     "arguments", "step", "optional",
-                                        "unless_closed", "otherwise", "when"};
+const std::vector<std::string> kKeys = {"operation",     "arguments",   "step",      "optional",
+                                        "unless_closed", "unless_made", "otherwise", "when"};
 
 /// The words that "when" may contain.
 std::vector<std::string> use_words() {
@@ -59,16 +59,25 @@ bool is_used(const Json& entry, const RecipeUse& use) {
                                [&](const std::string& word) { return word_holds(word, use); });
 }
 
+/// The operation and the arguments of an object with these keys.
+GivenArguments given_in(JsonFields& fields) {
+    const Operation& operation = find_operation(fields.required<std::string>("operation"));
+    const Json* given = fields.child("arguments");
+    return given ? arguments_from_json(operation, *given) : GivenArguments(operation);
+}
+
 RecipeEntry entry_from_json(const Json& json) {
     JsonFields fields(json, "the entry");
-    const Operation& operation = find_operation(fields.required<std::string>("operation"));
-    RecipeEntry entry{.given = GivenArguments(operation),
+    RecipeEntry entry{.given = given_in(fields),
                       .optional = fields.optional<bool>("optional").value_or(false),
                       .unless_closed = fields.optional<bool>("unless_closed").value_or(false)};
-    if (const Json* given = fields.child("arguments"))
-        entry.given = arguments_from_json(operation, *given);
     if (const Json* otherwise = fields.child("otherwise"); otherwise && !otherwise->empty())
-        entry.otherwise = arguments_from_json(operation, *otherwise);
+        entry.otherwise = arguments_from_json(entry.given.operation(), *otherwise);
+    if (const Json* made = fields.child("unless_made")) {
+        JsonFields edit(*made, fields.place_of("unless_made"));
+        entry.unless_made = given_in(edit);
+        edit.refuse_unknown_keys();
+    }
     if (const auto step = fields.optional<std::string>("step")) entry.step = step_from(*step);
     return entry;
 }

@@ -17,6 +17,8 @@ struct RecipeEntry {
     std::optional<Step> step = std::nullopt;  ///< none: the operation's usual step
     bool optional = false;  ///< if it cannot be done, a warning is given and the recipe continues
     bool unless_closed = false;  ///< skipped if the surface has no border at that point
+    /// Skipped if such an edit was made, with these values among its resolved arguments.
+    std::optional<GivenArguments> unless_made = std::nullopt;
     /// Replace some of the given ones if they cannot be done.
     std::optional<GivenArguments> otherwise = std::nullopt;
 };
@@ -27,9 +29,9 @@ using Recipe = std::vector<RecipeEntry>;
 using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
 
 /// Reads a recipe, a JSON list of {"operation": name, "arguments": {parameter: value},
-/// "step": name, "optional": true|false, "unless_closed": true|false, "otherwise":
-/// {parameter: value}, "when": word or list of words} where everything except "operation" is
-/// optional. An entry is used if each word of its "when" is in `use`, and each word prefixed
+/// "step": name, "optional": true|false, "unless_closed": true|false, "unless_made":
+/// {"operation": name, "arguments": {parameter: value}}, "otherwise": {parameter: value}, "when":
+/// word or list of words} where everything except "operation" is optional. An entry is used if each word of its "when" is in `use`, and each word prefixed
 /// by "no-" is not. The arguments of all entries are checked, also of those that are not used;
 /// required ones may still be absent.
 /// \throw UsageError that names the entry and the mistake

@@ -48,6 +48,7 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     parameters.labels = labels_from(arguments);
     const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
     if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
+    if (arguments.text("mask_surface") == "smooth") parameters.mask_surface = MaskSurface::Smooth;
     parameters.dilation = static_cast<int>(arguments.integer("dilation"));
     parameters.cleaning = cleaning_from(arguments);
     parameters.resample = arguments.optional_real("resample");
