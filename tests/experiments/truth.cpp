@@ -17,6 +17,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <numbers>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -185,21 +187,68 @@ Json distances_json(const Surface& exact, const Surface& result, const Truth& tr
     return {{"mean", sum / area}, {"p95", p95}, {"largest", samples.back().distance}};
 }
 
-/// Signed and unsigned error of the distance from the exact centerlines to the wall.
-Json radius_json(const Surface& exact, const Surface& result, const Truth& truth) {
-    const SurfaceDistance to_exact(exact), to_result(result);
-    double bias = 0.0, error = 0.0;
+/// Changes of a radius, summed.
+struct RadiusChange {
+    double sum = 0.0;       ///< [mm]
+    double absolute = 0.0;  ///< [mm]
     int count = 0;
+
+    void add(double change) {
+        sum += change;
+        absolute += std::abs(change);
+        ++count;
+    }
+
+    [[nodiscard]] double bias() const { return sum / std::max(count, 1); }
+};
+
+/// Both surfaces and the truth of one judgement.
+struct Judged {
+    SurfaceDistance exact, result;
+    const Truth& truth;
+};
+
+/// Mean change of the wall's distance within the section at p, by rays; none if few of them count.
+/// A ray that leaves through another vessel, more than twice as far as the nearest wall, does not.
+std::optional<double> section_change(const Judged& judged, const Vec3& p, const Vec3& along,
+                                     double nearest) {
+    constexpr int kRays = 32;
+    const Vec3 u = along.unitOrthogonal(), v = along.cross(u);
+    double sum = 0.0;
+    int count = 0;
+    for (int r = 0; r < kRays; ++r) {
+        const double angle = 2.0 * std::numbers::pi * r / kRays;
+        const Vec3 ray = std::cos(angle) * u + std::sin(angle) * v;
+        const auto wall = judged.exact.first_hit(p, ray, 2.0 * nearest);
+        if (!wall || !judged.truth.counts(wall->point)) continue;
+        const auto found = judged.result.first_hit(p, ray, 4.0 * nearest);
+        if (!found) continue;
+        sum += found->distance - wall->distance;
+        ++count;
+    }
+    return count < kRays / 2 ? std::nullopt : std::optional(sum / count);
+}
+
+/// Change of the radius along the exact centerlines: of the distance to the nearest wall, and of
+/// the mean distance within sections.
+Json radius_json(const Surface& exact, const Surface& result, const Truth& truth) {
+    const Judged judged{SurfaceDistance(exact), SurfaceDistance(result), truth};
+    RadiusChange nearest, section;
     for (const CenterlineBranch& branch : compute_centerlines(exact).branches)
-        for (const Vec3& p : branch.points) {
-            const SurfacePoint wall = to_exact.closest_point(p);
+        for (std::size_t i = 0; i < branch.points.size(); ++i) {
+            const Vec3& p = branch.points[i];
+            const SurfacePoint wall = judged.exact.closest_point(p);
             if (!truth.counts(p) || !truth.counts(wall.point)) continue;
-            const double difference = -to_result.signed_distance(p) - wall.distance;
-            bias += difference;
-            error += std::abs(difference);
-            ++count;
+            nearest.add(-judged.result.signed_distance(p) - wall.distance);
+            const std::size_t last = branch.points.size() - 1;
+            const Vec3 chord = branch.points[std::min(i + 1, last)] - branch.points[i - (i > 0)];
+            if (chord.norm() == 0.0) continue;
+            if (const auto change = section_change(judged, p, chord.normalized(), wall.distance))
+                section.add(*change);
         }
-    return {{"bias", bias / std::max(count, 1)}, {"error", error / std::max(count, 1)}};
+    return {{"bias", nearest.bias()},
+            {"error", nearest.absolute / std::max(nearest.count, 1)},
+            {"section_bias", section.bias()}};
 }
 
 /// Volume beyond the neck's plane and area in it, within the ball, by counting points.
