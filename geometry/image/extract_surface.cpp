@@ -63,8 +63,8 @@ bool wants_topology(const ExtractionParameters& parameters) {
 }
 
 /// Fills in the method, the side and (for level sets) the threshold.
-void decide_method(ImageSource& source, const ExtractionParameters& parameters,
-                   Extraction& result) {
+void decide_method(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
+                   const Progress& progress) {
     const ImageJudgement& judgement = source.judgement;
     if (parameters.method) {
         result.method = *parameters.method;
@@ -88,10 +88,11 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters,
     if (parameters.threshold)
         result.threshold = *parameters.threshold;
     else if (result.method == ExtractionMethod::Threshold && !level_set) {
-        if (!source.bright) source.bright = bright_threshold(source.image);
+        if (!source.bright) source.bright = bright_threshold(source.image, progress);
         result.threshold = *source.bright;
-        result.reasons.push_back("threshold " + text_of(result.threshold) +
-                                 ": Otsu's threshold of the brightest voxels");
+        result.reasons.push_back(
+            "threshold " + text_of(result.threshold) +
+            ": midway between the medians of the brightest voxels and around them");
     }
 }
 
@@ -236,7 +237,7 @@ void check_share(const Field& field, const Extraction& result) {
 /// What the parameters ask for, with decisions and reasons.
 Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
                const Progress& progress) {
-    decide_method(source, parameters, result);
+    decide_method(source, parameters, result, progress);
     progress.check_cancelled();
     if (result.method == ExtractionMethod::Masked)
         return masked_field(source, parameters, result, progress);
@@ -296,7 +297,7 @@ SurfaceExtractor::SurfaceExtractor(SurfaceExtractor&&) noexcept = default;
 ExtractionParameters SurfaceExtractor::decided(ExtractionParameters parameters,
                                                const Progress& progress) {
     Extraction result;
-    decide_method(*source_, parameters, result);
+    decide_method(*source_, parameters, result, progress);
     progress.check_cancelled();
     parameters.method = result.method;
     if (result.method == ExtractionMethod::Labels) return parameters;

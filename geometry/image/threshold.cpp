@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -151,7 +152,10 @@ double otsu(const std::vector<float>& values) {
     return low + width * (0.5 * static_cast<double>(first + last) + 1.0);
 }
 
-double bright_threshold(const Image& image) {
+namespace {
+
+/// Otsu's threshold of all voxels, then of the brighter ones, until these are few.
+double bright_class(const Image& image) {
     constexpr double kLargestShare = 0.05, kMostlyTissue = 0.7;
     std::vector<float> above = *image.voxels;
     double threshold = otsu(above);
@@ -169,21 +173,45 @@ double bright_threshold(const Image& image) {
     }
 }
 
-double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
+/// Medians of a mask's voxels and of the two-voxel ring around it.
+struct WallLevels {
+    double inside = 0.0;
+    double around = 0.0;
+
+    [[nodiscard]] double middle() const { return 0.5 * (inside + around); }
+};
+
+/// Empty if the mask contains no voxel, or all of them.
+std::optional<WallLevels> wall_levels(const Image& image, const Image& mask,
+                                      const Progress& progress) {
     constexpr int kRing = 2;  // voxels
     const auto inside = values_between(image, mask, nullptr);
     progress.check_cancelled();
     const auto ring = values_between(image, dilated(mask, kRing), &mask);
-    if (inside.empty() || ring.empty())
+    if (inside.empty() || ring.empty()) return std::nullopt;
+    progress.check_cancelled();
+    return WallLevels{.inside = median(inside), .around = median(ring)};
+}
+
+}  // namespace
+
+double bright_threshold(const Image& image, const Progress& progress) {
+    const double threshold = bright_class(image);
+    progress.check_cancelled();
+    const auto levels = wall_levels(image, mask_of_iso(image, threshold, false), progress);
+    return levels ? levels->middle() : threshold;
+}
+
+double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
+    const auto levels = wall_levels(image, mask, progress);
+    if (!levels)
         throw InvalidInput(
             "the mask contains no voxel, or all of them: check it, or give threshold=");
-    progress.check_cancelled();
-    const double bright = median(inside), dark = median(ring);
-    if (!(bright > dark))
+    if (!(levels->inside > levels->around))
         throw InvalidInput(
             "inside the mask the image is not brighter than around it: give "
             "threshold= and inside=below, or method=labels");
-    return 0.5 * (bright + dark);
+    return levels->middle();
 }
 
 Image masked_intensities(const Image& image, const Image& dilated_mask, double threshold,

@@ -164,8 +164,10 @@ std::vector<Parameter> source_parameters() {
          .choices = {"auto", "threshold", "labels", "masked"}},
         {.name = "threshold",
          .unit = "-",
-         .help = "image value at the vessel's boundary; default: Otsu's threshold of the brightest "
-                 "voxels, 0 for a level set, with a mask midway between inside and around it"},
+         .help =
+             "image value at the vessel's boundary; default: midway between the medians of the "
+             "mask's voxels, else of the brightest ones, and of those around them; 0 for a level "
+             "set"},
         {.name = "iso", .unit = "-", .help = "synonym of threshold, for level sets"},
         {.name = "inside",
          .type = Choice,
