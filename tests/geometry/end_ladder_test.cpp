@@ -15,6 +15,7 @@
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/surface_ends.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 #include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
@@ -373,4 +374,13 @@ SCENARIO("Of outlets alone, the largest becomes the inlet", "[geometry][openings
     CHECK(named.patches[1] == Patch{"inlet", PatchKind::Inlet});
     CHECK(patch_shape(named, 1).plane.point.z() == Approx(kLength));
     CHECK(named.patches[2].kind == PatchKind::Outlet);
+}
+
+SCENARIO("Planning says how far it is, and can be cancelled", "[geometry][openings][cancel]") {
+    const Surface tube = ragged_tube();
+    StopAt never(2.0);
+    CHECK(plan_openings(tube, line_graph(), {}, never.progress()).openings.size() == 2);
+    CHECK(never.fractions().size() > 1);
+    StopAt stop(0.4);
+    CHECK_THROWS_AS(plan_openings(tube, line_graph(), {}, stop.progress()), Cancelled);
 }
