@@ -202,12 +202,11 @@ SCENARIO("compact drops an undone volume mesh and keeps every edit", "[workbench
     CHECK_THAT(done({"compact", project}), Contains("tetrahedralize"));
     CHECK(std::filesystem::file_size(project) < size / 2);
     CHECK(Json::parse(done({"log", project, "--json"}))["edits"].size() == 2);
-    done({"export", project, folder + "/kept.vtu"});
     done({"undo", project});
-    done({"redo", project, "2"});
-    done({"export", project, folder + "/again.vtu"});
-    CHECK(std::filesystem::file_size(folder + "/again.vtu") >
-          2 * std::filesystem::file_size(folder + "/kept.vtu"));
+    done({"redo", project});
+    done({"export", project, folder + "/kept.vtu"});
+    CHECK_THAT(done({"replay", project}), !Contains("differs"));
+    CHECK_THAT(done({"compact", project}), Contains("nothing to drop"));
 }
 
 SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {
