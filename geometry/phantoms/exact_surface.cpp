@@ -40,6 +40,7 @@ void for_all(std::size_t count, const Progress& progress, const Visit& visit) {
 
 /// Points of a grid over the box.
 Eigen::Array3i grid_size(const Eigen::AlignedBox3d& box, double edge) {
+    if (!(edge > 0.0)) throw InvalidInput("a phantom's surface edges must be longer than 0 mm");
     const Eigen::Array3d size = (box.sizes() / edge).array().ceil() + 1.0;
     if (!(size.prod() <= kMostSamples))
         throw InvalidInput(

@@ -130,6 +130,8 @@ SCENARIO("A phantom too large is refused with its size", "[geometry][phantom]") 
     fine.surface_edge = 1e-4;
     CHECK_THROWS_WITH(make_phantom(fine),
                       Contains("edges of 0.0001 mm") && Contains("268 million"));
+    fine.surface_edge = -0.4;
+    CHECK_THROWS_WITH(make_phantom(fine), Contains("longer than 0 mm"));
 }
 
 SCENARIO("A phantom is cancelled while any of its parts is made", "[geometry][phantom][cancel]") {
