@@ -17,6 +17,7 @@
 #include "workbench/project/file_lock.h"
 #include "workbench/project/part_store.h"
 #include "workbench/project/source_files.h"
+#include "workbench/project/stored_text.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -163,6 +164,26 @@ SCENARIO("A small project must not announce more than a large one could hold",
     CHECK_NOTHROW(require_plausible(4000 * kMiB, 5 * kMiB, 1024 * kMiB));
     CHECK_THROWS_WITH(require_plausible(4000 * kMiB, kMiB, 1024 * kMiB),
                       Contains("a file of 1048576 bytes announces"));
+    GIVEN("a project whose reports are long runs of blanks") {
+        const std::string file = new_project();
+        {
+            Session session = Session::open(file, options());
+            session.apply("scale", {}, {.variant = "cfd"});
+        }
+        const Database database(file, OpenMode::Write);
+        std::vector<std::pair<std::int64_t, Bytes>> details;
+        for (auto row = database.prepare("SELECT id, details FROM results"); row.step();)
+            details.emplace_back(row.integer(0),
+                                 pack_text(unpack_text(row.blob(1)) + std::string(17 * kMiB, ' ')));
+        REQUIRE(details.size() == 2);
+        for (const auto& [id, text] : details)
+            database.prepare("UPDATE results SET details = ? WHERE id = ?")
+                .bind(0, std::span<const std::byte>(text))
+                .bind(1, id)
+                .step();
+        CHECK_THAT(error_of<InvalidInput>([&] { (void)Session::open(file, options()).log(); }),
+                   Contains("announces a content"));
+    }
 }
 
 SCENARIO("A project's stored places stay inside its folder", "[session][hostile]") {

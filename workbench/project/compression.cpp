@@ -78,8 +78,9 @@ void unshuffle(std::span<const std::byte> bytes, std::size_t word, std::span<std
     std::ranges::copy(bytes.subspan(count * word), result.begin() + count * word);
 }
 
-void require_plausible(std::uint64_t size, std::uint64_t file, std::uint64_t free) {
-    if (size > free && size / kLargestRatioAbove > file)
+void require_plausible(std::uint64_t size, std::uint64_t file, std::uint64_t free,
+                       std::uint64_t ratio) {
+    if (size > free && size / ratio > file)
         throw InvalidInput("the stored data is damaged: a file of " + std::to_string(file) +
                            " bytes announces a content of " + std::to_string(size));
 }

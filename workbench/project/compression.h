@@ -27,7 +27,9 @@ void unshuffle(std::span<const std::byte> bytes, std::size_t word, std::span<std
 /// \param size [bytes] of all contents
 /// \param file [bytes] of the file that holds them
 /// \param free [bytes] that any file may demand
-/// \throw InvalidInput if the size is above both `free` and 1000 times the file's
-void require_plausible(std::uint64_t size, std::uint64_t file, std::uint64_t free);
+/// \param ratio largest plausible ratio of the contents to the file [-]
+/// \throw InvalidInput if the size is above both `free` and the ratio times the file's
+void require_plausible(std::uint64_t size, std::uint64_t file, std::uint64_t free,
+                       std::uint64_t ratio = 1000);
 
 }  // namespace vesselbench

@@ -42,10 +42,11 @@ public:
 
     /// \throw InvalidInput if the text is damaged, or one too many
     std::string unpack(std::span<const std::byte> blob) {
-        constexpr std::uint64_t kLargestLog = std::uint64_t{256} << 20;
+        constexpr std::uint64_t kLargestLog = std::uint64_t{32} << 20;
+        constexpr std::uint64_t kRatio = 250;  // texts compress less than arrays
         std::string text = unpack_text(blob);
         size_ += text.size();
-        require_plausible(size_, file_, kLargestLog);
+        require_plausible(size_, file_, kLargestLog, kRatio);
         return text;
     }
 
