@@ -253,7 +253,7 @@ Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extr
 
 void choose_body(const Field& field, const ExtractionParameters& parameters, Extraction& result,
                  const Progress& progress) {
-    const Surface all = iso_surface(field.image, field.iso, false, progress.silent());
+    const Surface all = iso_surface(field.image, field.iso, false, progress.part(0.6, 0.8));
     progress.report(0.8, "choosing the body");
     constexpr double kSeedTolerance = 2.0;  // voxels
     ShellChoice choice =
@@ -261,7 +261,7 @@ void choose_body(const Field& field, const ExtractionParameters& parameters, Ext
             ? body_at(all, *parameters.seed, kSeedTolerance * field.image.spacing().maxCoeff())
         : parameters.bodies == Bodies::Largest ? largest_body(all)
                                                : all_bodies(all);
-    progress.check_cancelled();
+    progress.report(0.9, "choosing the body");
     result.surface = with_separate_cuts(choice.surface, kSmallestCut * smallest_face(field.image));
     result.sampling = sampling_of(field.image);
     result.bodies = choice.bodies;
@@ -317,7 +317,6 @@ Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
     check_share(field, result);
     progress.check_cancelled();
     if (wants_topology(parameters)) result.after = voxel_topology(field.image, field.iso);
-    progress.report(0.6, "extracting the surface");
     choose_body(field, parameters, result, progress);
     return result;
 }

@@ -27,6 +27,8 @@ using Index3 = std::array<float, 3>;
 /// edge.
 constexpr float kClear = 1e-2f;
 
+constexpr const char* kWhat = "extracting the surface";
+
 /// The value relative to the iso-value, positive inside, never too close to 0.
 float cleared(const Image& image, int i, int j, int k, float iso, float sign, float fallback) {
     const auto relative = [&](int x, int y, int z) { return sign * (image.at(x, y, z) - iso); };
@@ -49,7 +51,8 @@ float cleared(const Image& image, int i, int j, int k, float iso, float sign, fl
 }
 
 /// The image relative to the iso-value with one layer of outside around it.
-std::vector<float> padded(const Image& image, double iso, bool inside_below) {
+std::vector<float> padded(const Image& image, double iso, bool inside_below,
+                          const Progress& cancel) {
     const auto [ni, nj, nk] = image.size;
     const std::size_t slice = static_cast<std::size_t>(ni + 2) * static_cast<std::size_t>(nj + 2);
     std::vector<float> values(slice * static_cast<std::size_t>(nk + 2));
@@ -58,6 +61,7 @@ std::vector<float> padded(const Image& image, double iso, bool inside_below) {
     const float sign = inside_below ? -1.0f : 1.0f;
     const auto level = static_cast<float>(iso);
     tbb::parallel_for(-1, nk + 1, [&, ni = ni, nj = nj, nk = nk](int k) {
+        cancel.check_cancelled();
         float* at = values.data() + static_cast<std::size_t>(k + 1) * slice;
         for (int j = -1; j <= nj; ++j)
             for (int i = -1; i <= ni; ++i, ++at) {
@@ -73,8 +77,9 @@ std::vector<float> padded(const Image& image, double iso, bool inside_below) {
 GridSurface index_mesh(const Image& image, double iso, bool inside_below,
                        const Progress& progress) {
     const auto [ni, nj, nk] = image.size;
-    const std::vector<float> values = padded(image, iso, inside_below);
-    progress.check_cancelled();
+    progress.report(0.0, kWhat);
+    const std::vector<float> values = padded(image, iso, inside_below, progress);
+    progress.report(0.3, kWhat);
     return flying_edges(std::span<const float>(values),
                         {.size = {ni + 2, nj + 2, nk + 2}, .origin = Vec3(-1.0, -1.0, -1.0)});
 }
@@ -132,9 +137,9 @@ Surface iso_surface(const Image& image, double iso, bool inside_below, const Pro
                 "the image has fewer than two voxels along an axis: a surface needs "
                 "a volume");
     GridSurface mesh = index_mesh(image, iso, inside_below, progress);
-    progress.check_cancelled();
+    progress.report(0.6, kWhat);
     press_to_border(mesh, image.size);
-    progress.check_cancelled();
+    progress.report(0.8, kWhat);
     PatchLabels labels = border_labels(mesh, image.size);
     std::vector<Patch> patches = {{"wall", PatchKind::Wall}};
     for (int p = 1; p <= 6; ++p) patches.push_back({"border_" + std::to_string(p), PatchKind::Cut});
@@ -144,7 +149,7 @@ Surface iso_surface(const Image& image, double iso, bool inside_below, const Pro
         positions.push_back(image.to_patient(Vec3(p[0], p[1], p[2])));
     if (image.index_to_patient.topLeftCorner<3, 3>().determinant() < 0.0)
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    progress.check_cancelled();
+    progress.report(0.9, kWhat);
     return make_surface(std::move(positions), std::move(mesh.triangles), std::move(labels),
                         std::move(patches));
 }

@@ -51,16 +51,19 @@ std::vector<VertexId> several_fans(const Topology& topology, const EdgeTable& ed
 
 }  // namespace
 
-EdgeTable edge_table(const Topology& topology) {
+EdgeTable edge_table(const Topology& topology, const Progress& cancel) {
+    constexpr std::uint32_t kPiece = 1U << 16U;  // a few milliseconds
     const auto triangles = topology.triangles();
     // Counting sort by the low vertex, then small sorts by the high one.
     std::vector<std::uint32_t> offsets(topology.vertex_count() + 1, 0);
     const auto for_each = [&](auto&& visit) {
-        for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+            if (t % kPiece == 0) cancel.check_cancelled();
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const VertexId a = triangles[t][k], b = triangles[t][(k + 1) % 3];
                 if (a != b) visit(std::min(a, b), std::max(a, b), 3 * t + k);
             }
+        }
     };
     for_each([&](VertexId low, VertexId, std::uint32_t) { ++offsets[low + 1]; });
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
@@ -74,6 +77,7 @@ EdgeTable edge_table(const Topology& topology) {
     table.half_edges.values.reserve(sorted.size());
     table.half_edges.offsets.reserve(sorted.size() / 2 + 17);
     for (VertexId low = 0; low < topology.vertex_count(); ++low) {
+        if (low % kPiece == 0) cancel.check_cancelled();
         std::sort(sorted.begin() + offsets[low], sorted.begin() + offsets[low + 1]);
         for (std::uint32_t i = offsets[low]; i < offsets[low + 1]; ++i) {
             if (i == offsets[low] || sorted[i].high != sorted[i - 1].high) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -25,7 +26,8 @@ struct EdgeTable {
 };
 
 /// Edges between a vertex and itself (degenerate triangles) are left out.
-[[nodiscard]] EdgeTable edge_table(const Topology& topology);
+/// \throw Cancelled if the user cancels
+[[nodiscard]] EdgeTable edge_table(const Topology& topology, const Progress& cancel = {});
 
 /// Defects that make connectivity differ from a manifold with boundary.
 struct ManifoldDefects {

@@ -2,21 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/phantoms/random.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kLargestImage = std::size_t{512} << 20;
+/// Image, mask and the shares of the voxels take 12 bytes each: 3 GiB.
+constexpr std::size_t kLargestImage = std::size_t{256} << 20;
 /// Samples per axis in a voxel on the surface: partial volume to 1/64 of the contrast.
 constexpr int kSupersampling = 4;
 /// Different noise for the intensities and the contours of the same phantom.
 constexpr std::uint64_t kContourSeed = 0x636f6e746f7572ULL;
+constexpr const char* kImageText = "making the phantom's image";
+
+void check_size(const Vec3& size) {
+    const std::string text = formatted(size.x(), "%.0f") + " x " + formatted(size.y(), "%.0f") +
+                             " x " + formatted(size.z(), "%.0f") + " voxels";
+    if (!(size.minCoeff() >= 2.0))
+        throw InvalidInput("a phantom's image of " + text + " holds no volume");
+    if (size.prod() > static_cast<double>(kLargestImage))
+        throw InvalidInput("the phantom's image would have " + text + ", more than " +
+                           formatted(static_cast<double>(kLargestImage) / 1e6, "%.0f") +
+                           " million in all; give a larger spacing or a smaller size");
+}
 
 Image empty_grid(const PhantomDescription& description, const PhantomField& field) {
     const PhantomImaging& imaging = description.imaging;
@@ -28,16 +43,14 @@ Image empty_grid(const PhantomDescription& description, const PhantomField& fiel
     for (int corner = 0; corner < 8; ++corner)
         box.extend(Vec3(imaging.axes.transpose() *
                         bounds.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
+    Vec3 size =
+        ((box.sizes() + Vec3::Constant(2.0 * imaging.margin)).array() / imaging.spacing.array())
+            .ceil();
+    if (imaging.size) size = Vec3((*imaging.size)[0], (*imaging.size)[1], (*imaging.size)[2]);
+    check_size(size);
     Image image;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double extent = box.sizes()[axis] + 2.0 * imaging.margin;
-        const int fitting = static_cast<int>(std::ceil(extent / imaging.spacing[axis]));
-        image.size[static_cast<std::size_t>(axis)] =
-            imaging.size ? (*imaging.size)[static_cast<std::size_t>(axis)] : fitting;
-    }
-    if (*std::min_element(image.size.begin(), image.size.end()) < 2 ||
-        image.voxel_count() > kLargestImage)
-        throw InvalidInput("the size of the phantom's image is not usable");
+    for (int axis = 0; axis < 3; ++axis)
+        image.size[static_cast<std::size_t>(axis)] = static_cast<int>(size[axis]);
     const Vec3 steps(image.size[0] - 1, image.size[1] - 1, image.size[2] - 1);
     const Vec3 first = box.center() - 0.5 * steps.cwiseProduct(imaging.spacing);
     image.index_to_patient.topLeftCorner<3, 3>() = imaging.axes * imaging.spacing.asDiagonal();
@@ -45,14 +58,28 @@ Image empty_grid(const PhantomDescription& description, const PhantomField& fiel
     return image;
 }
 
+/// Calls row(j, k) for all rows along i, on all threads; reports after every twentieth of them.
+template <class Row>
+void for_rows(const Image& grid, const Progress& progress, const std::string& what,
+              const Row& row) {
+    constexpr int kReports = 20;
+    const int slices = (grid.size[2] + kReports - 1) / kReports;
+    for (int from = 0; from < grid.size[2]; from += slices) {
+        progress.report(static_cast<double>(from) / grid.size[2], what);
+        const int count = std::min(slices, grid.size[2] - from) * grid.size[1];
+        tbb::parallel_for(0, count, [&](int r) {
+            progress.check_cancelled();
+            row(r % grid.size[1], from + r / grid.size[1]);
+        });
+    }
+}
+
 template <class Function>
 std::shared_ptr<const std::vector<float>> filled(const Image& grid, const Progress& progress,
-                                                 const Function& value) {
+                                                 const std::string& what, const Function& value) {
     auto voxels = std::make_shared<std::vector<float>>(grid.voxel_count());
-    tbb::parallel_for(0, grid.size[2], [&](int k) {
-        progress.check_cancelled();
-        for (int j = 0; j < grid.size[1]; ++j)
-            for (int i = 0; i < grid.size[0]; ++i) (*voxels)[grid.offset(i, j, k)] = value(i, j, k);
+    for_rows(grid, progress, what, [&](int j, int k) {
+        for (int i = 0; i < grid.size[0]; ++i) (*voxels)[grid.offset(i, j, k)] = value(i, j, k);
     });
     return voxels;
 }
@@ -88,24 +115,23 @@ std::vector<double> gaussian(double sigma_voxels) {
 
 /// Separable Gaussian along one index axis; the border voxel is repeated outside.
 std::vector<float> blurred_along(const Image& grid, const std::vector<float>& voxels, int axis,
-                                 double sigma) {
+                                 double sigma, const Progress& progress) {
     const auto kernel = gaussian(sigma / grid.spacing()[axis]);
     const int reach = static_cast<int>(kernel.size()) / 2;
     std::vector<float> result(voxels.size());
-    tbb::parallel_for(0, grid.size[2], [&](int k) {
-        for (int j = 0; j < grid.size[1]; ++j)
-            for (int i = 0; i < grid.size[0]; ++i) {
-                std::array<int, 3> at = {i, j, k};
-                const auto a = static_cast<std::size_t>(axis);
-                double sum = 0.0;
-                for (int n = -reach; n <= reach; ++n) {
-                    std::array<int, 3> from = at;
-                    from[a] = std::clamp(at[a] + n, 0, grid.size[a] - 1);
-                    sum += kernel[static_cast<std::size_t>(n + reach)] *
-                           voxels[grid.offset(from[0], from[1], from[2])];
-                }
-                result[grid.offset(i, j, k)] = static_cast<float>(sum);
+    for_rows(grid, progress, kImageText, [&](int j, int k) {
+        for (int i = 0; i < grid.size[0]; ++i) {
+            std::array<int, 3> at = {i, j, k};
+            const auto a = static_cast<std::size_t>(axis);
+            double sum = 0.0;
+            for (int n = -reach; n <= reach; ++n) {
+                std::array<int, 3> from = at;
+                from[a] = std::clamp(at[a] + n, 0, grid.size[a] - 1);
+                sum += kernel[static_cast<std::size_t>(n + reach)] *
+                       voxels[grid.offset(from[0], from[1], from[2])];
             }
+            result[grid.offset(i, j, k)] = static_cast<float>(sum);
+        }
     });
     return result;
 }
@@ -144,13 +170,16 @@ Image phantom_image(const PhantomDescription& description, const PhantomField& f
                     const Progress& progress) {
     const PhantomImaging& imaging = description.imaging;
     Image image = empty_grid(description, field);
-    std::vector<float> share = *filled(image, progress, [&](int i, int j, int k) {
-        return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
-    });
+    std::vector<float> share =
+        *filled(image, progress.part(0.0, 0.6), kImageText, [&](int i, int j, int k) {
+            return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
+        });
     for (int axis = 0; axis < 3; ++axis)
-        if (imaging.blur[axis] > 0.0) share = blurred_along(image, share, axis, imaging.blur[axis]);
+        if (imaging.blur[axis] > 0.0)
+            share = blurred_along(image, share, axis, imaging.blur[axis],
+                                  progress.part(0.6 + 0.1 * axis, 0.7 + 0.1 * axis));
     const double phase = 6.283 * uniform_noise(description.seed, 0);
-    image.voxels = filled(image, progress, [&](int i, int j, int k) {
+    image.voxels = filled(image, progress.part(0.9, 1.0), kImageText, [&](int i, int j, int k) {
         const std::size_t at = image.offset(i, j, k);
         const double contrast =
             (imaging.inside - imaging.outside) *
@@ -167,7 +196,7 @@ Image phantom_mask(const PhantomDescription& description, const PhantomField& fi
     const PhantomImaging& imaging = description.imaging;
     Image mask = empty_grid(description, field);
     const int step = std::max(1, imaging.mask_slice_step);
-    mask.voxels = filled(mask, progress, [&](int i, int j, int k) {
+    mask.voxels = filled(mask, progress, "making the phantom's mask", [&](int i, int j, int k) {
         const int drawn = std::min(k / step * step + step / 2, mask.size[2] - 1);
         if (deleted(imaging.deletions, i, j, drawn)) return 0.0F;
         const Vec3 p = mask.to_patient(Vec3(i, j, drawn));

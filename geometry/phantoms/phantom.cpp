@@ -16,26 +16,25 @@ Phantom make_phantom(const PhantomDescription& description, const Progress& prog
         return Eigen::AlignedBox3d(box.min() - Vec3::Constant(2.3 * description.surface_edge),
                                    box.max() + Vec3::Constant(2.3 * description.surface_edge));
     };
-    const auto surface_of = [&](const PhantomField& f) {
-        return exact_surface(f, surface_box(f), description.surface_edge, progress.silent());
+    const auto surface_of = [&](const PhantomField& f, const Progress& part) {
+        return exact_surface(f, surface_box(f), description.surface_edge, part);
     };
     Phantom phantom;
-    progress.report(0.0, "making the phantom's image");
-    phantom.image = phantom_image(description, field, progress.silent());
-    progress.report(0.5, "making the phantom's mask");
-    phantom.mask = phantom_mask(description, field, progress.silent());
-    progress.report(0.8, "making the phantom's surface");
-    phantom.exact = surface_of(field);
+    phantom.image = phantom_image(description, field, progress.part(0.0, 0.4));
+    phantom.mask = phantom_mask(description, field, progress.part(0.4, 0.6));
+    phantom.exact = surface_of(field, progress.part(0.6, 0.9));
     if (description.surface_noise > 0.0) {
         Positions noisy = phantom.exact.points();
-        for (std::size_t v = 0; v < noisy.size(); ++v)
+        for (std::size_t v = 0; v < noisy.size(); ++v) {
+            progress.check_cancelled();
             noisy[v] += description.surface_noise * normal_noise(description.seed, v) *
                         field.gradient(noisy[v]).normalized();
+        }
         phantom.noisy = phantom.exact.with_positions(std::move(noisy));
     }
     if (!description.neighbours.empty()) {
         const PhantomField other(description.neighbours);
-        phantom.neighbour = surface_of(other);
+        phantom.neighbour = surface_of(other, progress.part(0.9, 1.0));
     }
     return phantom;
 }

@@ -20,7 +20,7 @@ struct Phantom {
 
 /// Makes everything in a description; the same description gives the same bits.
 /// \throw InvalidInput if the description is not usable (no part, sizes not positive, an image
-/// above 512 Mi voxels)
+/// above 256 Mi voxels, a surface sampled at more points); Cancelled if the user cancels
 [[nodiscard]] Phantom make_phantom(const PhantomDescription& description,
                                    const Progress& progress = {});
 

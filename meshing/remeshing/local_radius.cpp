@@ -102,9 +102,11 @@ std::vector<LinePoint> line_points(const CenterlineGraph& lines,
     return result;
 }
 
-std::vector<double> radii_from_lines(const Surface& surface, const std::vector<LinePoint>& line) {
+std::vector<double> radii_from_lines(const Surface& surface, const std::vector<LinePoint>& line,
+                                     const Progress& cancel) {
     std::vector<double> radii(surface.vertex_count());
     tbb::parallel_for(std::size_t{0}, radii.size(), [&](std::size_t v) {
+        cancel.check_cancelled();
         double nearest = std::numeric_limits<double>::infinity();
         for (const auto& [position, radius] : line) {
             const double distance = (surface.points()[v] - position).norm() - radius;
@@ -139,18 +141,21 @@ double radius_from_rays(const SurfaceDistance& search, const Vec3& at, const Vec
     return lengths.empty() ? 0.0 : 0.5 * median(std::move(lengths));
 }
 
-std::vector<double> radii_from_rays(const Surface& surface, double limit) {
+std::vector<double> radii_from_rays(const Surface& surface, double limit, const Progress& cancel) {
     const SurfaceDistance search = distance_to(surface);
+    cancel.check_cancelled();
     const Positions normals = wall_normals(surface);
     const double farthest = bounds(surface).diagonal();
     const std::size_t stride = surface.vertex_count() / kMostRayVertices + 1;
     std::vector<double> radii(surface.vertex_count(), 0.0);
     tbb::parallel_for(std::size_t{0}, (radii.size() + stride - 1) / stride, [&](std::size_t i) {
+        cancel.check_cancelled();
         const std::size_t v = i * stride;
         radii[v] =
             std::min(limit, radius_from_rays(search, surface.points()[v], -normals[v], farthest));
     });
     fill_zeros(*surface.topology, radii);
+    cancel.check_cancelled();
     average(*surface.topology, 5, radii);
     return radii;
 }
@@ -178,8 +183,9 @@ std::vector<double> local_radii(const Surface& surface, const CenterlineGraph* l
     double limit = openings.empty() ? std::numeric_limits<double>::infinity() : 0.0;
     for (const Opening& opening : openings) limit = std::max(limit, opening.radius);
     const auto line = lines ? line_points(*lines, openings) : std::vector<LinePoint>{};
-    std::vector<double> radii =
-        line.empty() ? radii_from_rays(surface, limit) : radii_from_lines(surface, line);
+    std::vector<double> radii = line.empty() ? radii_from_rays(surface, limit, progress)
+                                             : radii_from_lines(surface, line, progress);
+    progress.check_cancelled();
     take_from_rims(surface, radii);
     return radii;
 }

@@ -50,7 +50,7 @@ constexpr double kQuality = 0.5;  // below it a triangle is improved individuall
 /// Angles, once the sizes have settled.
 Surface finished(Remesher& remesher, const Progress& progress) {
     for (int round = 0; round < kFinalRounds; ++round) {
-        progress.report(0.5 * round / kFinalRounds, "improving triangles");
+        progress.report(0.4 * round / kFinalRounds, "improving triangles");
         remesher.flip_edges(Remesher::FlipRule::Angle);
         remesher.relax(Remesher::RelaxRule::Shape);
     }
@@ -58,9 +58,10 @@ Surface finished(Remesher& remesher, const Progress& progress) {
         static_cast<int>(kPolishBudget / std::max<std::size_t>(remesher.mesh.triangle_count(), 1)),
         kFewestPolishRounds, kMostPolishRounds);
     for (int round = 0; round < polish_rounds; ++round) {
-        progress.report(0.5 + 0.5 * round / polish_rounds, "improving triangles");
+        progress.report(0.4 + 0.4 * round / polish_rounds, "improving triangles");
         polish(remesher);
     }
+    progress.report(0.8, "improving triangles");
     improve_worst(remesher, kQuality);
     remesher.keep_volume();
     return remesher.result();
@@ -74,13 +75,19 @@ double split_limit(int round) {
 void run_rounds(Remesher& remesher, int first, int rounds, const Progress& progress) {
     remesher.collapse_short_edges();  // before needles are split into many short edges
     for (int round = first; round < rounds; ++round) {
-        progress.report(static_cast<double>(round - first) / (rounds - first), "remeshing");
+        const auto report = [&](double of_round) {
+            progress.report((round - first + of_round) / (rounds - first), "remeshing");
+        };
+        report(0.0);
         remesher.split_long_edges(split_limit(round));
+        report(0.3);
         remesher.collapse_short_edges();
         if (round >= 2 && round + 2 < rounds)
             remesher.collapse_defects();  // sizes have settled, and settle again
+        report(0.6);
         remesher.flip_edges(Remesher::FlipRule::Valence);
         remesher.relax(Remesher::RelaxRule::Size);
+        report(0.8);
         remesher.relax(Remesher::RelaxRule::Shape);
     }
 }
@@ -119,14 +126,14 @@ bool is_ill_shaped(const Surface& surface, TriangleId t) {
 }
 
 /// The places where the result crosses itself, or a triangle could not be made well-shaped.
-Positions bad_places(const Surface& result) {
+Positions bad_places(const Surface& result, const Progress& cancel) {
     const Positions& points = result.points();
     Positions places;
     const auto add = [&](TriangleId t) {
         const auto& [a, b, c] = result.triangles()[t];
         places.push_back((points[a] + points[b] + points[c]) / 3.0);
     };
-    for (const auto& [s, t] : self_intersections(result)) {
+    for (const auto& [s, t] : self_intersections(result, cancel)) {
         add(s);
         add(t);
     }
@@ -207,12 +214,14 @@ Surface parted(const Surface& source, const Remesher& remesher, const Surface& r
     report.crossings_parted = crossings.size();
     report.crossing = result.points()[result.triangles()[crossings.front().first][0]];
     try {
+        progress.report(0.0, "parting walls that cross");
         Repaired repaired =
-            repair(result, {.keep_components = connected_components(*source.topology).count()});
+            repair(result, {.keep_components = connected_components(*source.topology).count()},
+                   progress.part(0.0, 0.3));
         const double lost = 1.0 - area(repaired.surface) / area(result);
         // repair turns every component outward, which would fill a cavity
         if (!repaired.report.turned_inside_out && lost < kCrumb)
-            return mended(remesher, repaired.surface, progress);
+            return mended(remesher, repaired.surface, progress.part(0.3, 1.0));
     } catch (const AlgorithmFailure&) {
         // reported below, in terms of this operation
     }
@@ -222,18 +231,18 @@ Surface parted(const Surface& source, const Remesher& remesher, const Surface& r
 Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, double gradation,
                              RemeshReport& report, const Progress& progress) {
     check_count(surface, sizes, report.edge);
-    constexpr double kFirst = 0.7, kMore = (1.0 - kFirst) / kMostAttempts;
+    constexpr double kFirst = 0.7, kLast = 0.95, kMore = (kLast - kFirst) / kMostAttempts;
     Remesher remesher(surface, target_lengths(sizes), surface, progress);
     Surface result = remeshed(remesher, 0, progress.part(0.0, kFirst));
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-        const Positions places = bad_places(result);
+        const Positions places = bad_places(result, progress.silent());
         if (places.empty()) return result;
         refine(surface, places, gradation, sizes);
         remesher.set_sizes(target_lengths(sizes));
         const double from = kFirst + attempt * kMore;
         result = remeshed(remesher, kRounds - kMendRounds, progress.part(from, from + kMore));
     }
-    return parted(surface, remesher, result, report, progress.silent());
+    return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
 }
 
 RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,

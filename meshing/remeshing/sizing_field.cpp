@@ -33,13 +33,14 @@ void require_parameters(const SizingParameters& p) {
 
 /// Normals averaged over about half an edge of the target mesh: finer bumps are noise that the new
 /// mesh cannot represent.
-Positions smoothed_normals(const Surface& surface, double edge) {
+Positions smoothed_normals(const Surface& surface, double edge, const Progress& cancel) {
     const CompressedRows& rings = surface.topology->rings();
     const VertexCaps caps = caps_of_vertices(surface);
     Positions now = wall_normals(surface), next = now;
     const double reach = 0.7 * edge / mean_edge_length(surface);
     const int passes = std::clamp(static_cast<int>(reach * reach), 1, 60);
     for (int pass = 0; pass < passes; ++pass) {
+        cancel.check_cancelled();
         tbb::parallel_for(std::size_t{0}, now.size(), [&](std::size_t v) {
             Vec3 sum = now[v];
             for (const VertexId u : rings.row(v))
@@ -53,8 +54,9 @@ Positions smoothed_normals(const Surface& surface, double edge) {
 
 /// Curvature [1/mm] from the change of the normals along the edges; on a cylinder that is the
 /// largest principal curvature, because the mean square over all directions is half its square.
-std::vector<double> curvatures(const Surface& surface, double edge) {
-    const Positions normals = smoothed_normals(surface, edge);
+std::vector<double> curvatures(const Surface& surface, double edge, const Progress& cancel) {
+    const Positions normals = smoothed_normals(surface, edge, cancel);
+    cancel.check_cancelled();
     const CompressedRows& rings = surface.topology->rings();
     const VertexCaps caps = caps_of_vertices(surface);
     const Positions& points = surface.points();
@@ -76,14 +78,16 @@ std::vector<double> curvatures(const Surface& surface, double edge) {
 
 /// Distance to the opposite wall outside [mm]; infinite if there is none within reach. Walls that
 /// do not face each other are one wall with a bump.
-std::vector<double> outer_gaps(const Surface& surface, double reach) {
+std::vector<double> outer_gaps(const Surface& surface, double reach, const Progress& cancel) {
     constexpr double kFacing = -0.7;
     const SurfaceDistance search = distance_to(surface);
+    cancel.check_cancelled();
     const double skin = 1e-6 * reach;  // skips the wall that the ray starts on
     const Positions normals = wall_normals(surface);
     const VertexCaps caps = caps_of_vertices(surface);
     std::vector<double> gaps(surface.vertex_count(), std::numeric_limits<double>::infinity());
     tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t v) {
+        cancel.check_cancelled();
         if (caps.patch[v] > 0 || normals[v].isZero()) return;
         const auto hit =
             search.first_hit(surface.points()[v] + skin * normals[v], normals[v], reach);
@@ -133,14 +137,19 @@ double usual_radius(const Surface& surface, const std::vector<double>& radii) {
     throw InvalidInput("the surface has no wall to measure the radius of");
 }
 
-void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes) {
-    ShortestPaths paths(sizes);  // a size is a distance that grows with the slope
+void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes,
+                 const Progress& cancel) {
+    constexpr std::size_t kTurns = 4096;  // a few milliseconds
+    ShortestPaths paths(sizes);           // a size is a distance that grows with the slope
     for (VertexId v = 0; v < sizes.size(); ++v) paths.start(v);
     const CompressedRows& rings = surface.topology->rings();
     const Positions& points = surface.points();
-    while (const auto at = paths.next())
+    std::size_t turns = 0;
+    while (const auto at = paths.next()) {
+        if (turns++ % kTurns == 0) cancel.check_cancelled();
         for (const VertexId u : rings.row(at->vertex))
             paths.lower(u, at->distance + slope * (points[u] - points[at->vertex]).norm());
+    }
 }
 
 std::vector<double> sizing_field(const Surface& surface, const std::vector<double>& radii,
@@ -148,12 +157,13 @@ std::vector<double> sizing_field(const Surface& surface, const std::vector<doubl
     require_parameters(parameters);
     const double usual = usual_radius(surface, radii);
     progress.report(0.0, "measuring curvature");
-    const std::vector<double> curvature = curvatures(surface, parameters.edge);
+    const std::vector<double> curvature = curvatures(surface, parameters.edge, progress);
     progress.report(0.4, "measuring gaps");
     double longest = parameters.max_edge;
     for (std::size_t v = 0; v < radii.size(); ++v)
         longest = std::max(longest, printable_edge(parameters.resolution, curvature[v], radii[v]));
-    const std::vector<double> gaps = outer_gaps(surface, 2.0 * parameters.gap_edges * longest);
+    const std::vector<double> gaps =
+        outer_gaps(surface, 2.0 * parameters.gap_edges * longest, progress);
     // An edge that the user wants long for its vessel exceeds `turn` on every wall.
     const double turn = std::max(parameters.turn, 1.5 * parameters.edge / usual);
     std::vector<double> sizes(radii.size());
@@ -166,7 +176,7 @@ std::vector<double> sizing_field(const Surface& surface, const std::vector<doubl
         sizes[v] = std::clamp(size, parameters.min_edge, most);
     }
     progress.report(0.8, "limiting the gradation");
-    limit_slope(surface, slope_of(parameters.gradation), sizes);
+    limit_slope(surface, slope_of(parameters.gradation), sizes, progress);
     return sizes;
 }
 

@@ -34,7 +34,9 @@ struct SizingParameters {
                                                const Progress& progress = {});
 
 /// Reduces sizes until |size(u) - size(v)| <= slope |u - v| along every edge.
-void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes);
+/// \throw Cancelled if the user cancels
+void limit_slope(const Surface& surface, double slope, std::vector<double>& sizes,
+                 const Progress& cancel = {});
 
 /// Slope of the size that keeps neighbouring edges within `gradation` of each other: a quarter of
 /// the factor minus 1, because real triangles scatter about their size.

@@ -14,18 +14,34 @@ namespace {
 constexpr int kMostIterations = 6;
 constexpr std::size_t kMostTriangles = 40'000'000;  // about 4 GiB while it is built
 
+/// Cancels a loop: asks every few milliseconds.
+class Turns {
+public:
+    explicit Turns(const Progress& progress) : progress_(progress) {}
+
+    void next() {
+        constexpr unsigned kTurns = 1U << 15U;
+        if (++turns_ % kTurns == 0) progress_.check_cancelled();
+    }
+
+private:
+    const Progress& progress_;
+    unsigned turns_ = 0;
+};
+
 struct Creases {
     std::vector<std::uint8_t> is_crease;              ///< by edge
     std::vector<std::uint32_t> count;                 ///< of crease edges, by vertex
     std::vector<std::array<VertexId, 2>> neighbours;  ///< the first two along creases, by vertex
 };
 
-Creases creases_of(const Surface& surface, const EdgeTable& table) {
+Creases creases_of(const Surface& surface, const EdgeTable& table, Turns& turns) {
     Creases creases{std::vector<std::uint8_t>(table.edges.size(), 0),
                     std::vector<std::uint32_t>(surface.vertex_count(), 0),
                     std::vector<std::array<VertexId, 2>>(surface.vertex_count())};
     const PatchLabels& labels = *surface.patch_labels;
     for (std::size_t e = 0; e < table.edges.size(); ++e) {
+        turns.next();
         const auto sides = table.half_edges.row(e);
         if (sides.size() > 2)
             throw InvalidInput("subdivide needs a manifold surface; use repair first");
@@ -47,30 +63,59 @@ double neighbour_weight(std::size_t valence) {
     return (5.0 / 8.0 - c * c) / n;
 }
 
-Vec3 moved_vertex(const Surface& surface, const Creases& creases, VertexId v) {
-    const Positions& points = surface.points();
+/// The vertex without its neighbours' part, of which each has this weight.
+struct OwnPart {
+    Vec3 place;
+    double weight = 0.0;
+};
+
+OwnPart own_part(const Positions& points, const Creases& creases, VertexId v,
+                 std::uint32_t valence) {
     if (creases.count[v] == 2) {
         const auto [a, b] = creases.neighbours[v];
-        return 0.75 * points[v] + 0.125 * (points[a] + points[b]);
+        return {0.75 * points[v] + 0.125 * (points[a] + points[b])};
     }
-    const auto ring = surface.topology->rings().row(v);
-    if (creases.count[v] != 0 || ring.empty()) return points[v];
-    const double weight = neighbour_weight(ring.size());
-    Vec3 sum = (1.0 - static_cast<double>(ring.size()) * weight) * points[v];
-    for (const VertexId u : ring) sum += weight * points[u];
-    return sum;
+    if (creases.count[v] != 0 || valence == 0) return {points[v]};
+    const double weight = neighbour_weight(valence);
+    return {(1.0 - static_cast<double>(valence) * weight) * points[v], weight};
+}
+
+/// New places of the old vertices. Neighbours are added by edge: one-rings cannot be cancelled.
+Positions moved_vertices(const Surface& surface, const EdgeTable& table, const Creases& creases,
+                         Turns& turns) {
+    const Positions& old = surface.points();
+    std::vector<std::uint32_t> valence(old.size(), 0);
+    for (const auto& edge : table.edges) {
+        turns.next();
+        for (const VertexId v : edge) ++valence[v];
+    }
+    Positions points;
+    std::vector<double> weights(old.size(), 0.0);
+    points.reserve(old.size() + table.edges.size());
+    for (VertexId v = 0; v < old.size(); ++v) {
+        turns.next();
+        const OwnPart part = own_part(old, creases, v, valence[v]);
+        points.push_back(part.place);
+        weights[v] = part.weight;
+    }
+    for (const auto& [a, b] : table.edges) {
+        turns.next();
+        if (weights[a] != 0.0) points[a] += weights[a] * old[b];
+        if (weights[b] != 0.0) points[b] += weights[b] * old[a];
+    }
+    return points;
 }
 
 VertexId apex(const Surface& surface, std::uint32_t half_edge) {
     return surface.triangles()[half_edge / 3][(half_edge % 3 + 2) % 3];
 }
 
-Positions new_points(const Surface& surface, const EdgeTable& table, const Creases& creases) {
+Positions new_points(const Surface& surface, const EdgeTable& table, const Creases& creases,
+                     Turns& turns) {
     const Positions& old = surface.points();
-    Positions points;
-    points.reserve(old.size() + table.edges.size());
-    for (VertexId v = 0; v < old.size(); ++v) points.push_back(moved_vertex(surface, creases, v));
+    Positions points = moved_vertices(surface, table, creases, turns);
     for (std::size_t e = 0; e < table.edges.size(); ++e) {
+        turns.next();
         const auto [a, b] = table.edges[e];
         if (creases.is_crease[e]) {
             points.push_back(0.5 * (old[a] + old[b]));
@@ -84,36 +129,65 @@ Positions new_points(const Surface& surface, const EdgeTable& table, const Creas
 }
 
 /// Number of the new vertex on each half-edge.
-std::vector<VertexId> middles(const Surface& surface, const EdgeTable& table) {
+std::vector<VertexId> middles(const Surface& surface, const EdgeTable& table, Turns& turns) {
     std::vector<VertexId> result(3 * surface.triangle_count());
-    for (std::size_t e = 0; e < table.edges.size(); ++e)
+    for (std::size_t e = 0; e < table.edges.size(); ++e) {
+        turns.next();
         for (const std::uint32_t h : table.half_edges.row(e))
             result[h] = static_cast<VertexId>(surface.vertex_count() + e);
+    }
     return result;
 }
 
-Surface subdivided_once(const Surface& surface) {
-    const EdgeTable table = edge_table(*surface.topology);
-    const Creases creases = creases_of(surface, table);
-    const std::vector<VertexId> middle = middles(surface, table);
+/// The four triangles of each, with its label.
+struct SplitTriangles {
     std::vector<Triangle> triangles;
     PatchLabels labels;
-    triangles.reserve(4 * surface.triangle_count());
-    labels.reserve(4 * surface.triangle_count());
+};
+
+SplitTriangles split_triangles(const Surface& surface, const EdgeTable& table, Turns& turns) {
+    const std::vector<VertexId> middle = middles(surface, table, turns);
+    SplitTriangles split;
+    split.triangles.reserve(4 * surface.triangle_count());
+    split.labels.reserve(4 * surface.triangle_count());
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        turns.next();
         const auto [a, b, c] = surface.triangles()[t];
         const VertexId ab = middle[3 * t], bc = middle[3 * t + 1], ca = middle[3 * t + 2];
-        triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        labels.insert(labels.end(), 4, (*surface.patch_labels)[t]);
+        split.triangles.insert(split.triangles.end(),
+                               {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+        split.labels.insert(split.labels.end(), 4, (*surface.patch_labels)[t]);
     }
-    Surface result = make_surface(new_points(surface, table, creases), std::move(triangles),
-                                  std::move(labels), surface.patches);
+    return split;
+}
+
+Surface subdivided_once(const Surface& surface, const Progress& progress) {
+    constexpr const char* kWhat = "subdividing";
+    progress.report(0.0, kWhat);
+    const EdgeTable table = edge_table(*surface.topology, progress);
+    progress.report(0.5, kWhat);
+    Turns turns(progress);
+    Positions points = new_points(surface, table, creases_of(surface, table, turns), turns);
+    progress.report(0.7, kWhat);
+    SplitTriangles split = split_triangles(surface, table, turns);
+    progress.report(0.9, kWhat);
+    Surface result = make_surface(std::move(points), std::move(split.triangles),
+                                  std::move(split.labels), surface.patches);
     for (const auto& [name, field] : surface.attributes) {
         std::vector<double> values = *field;
-        for (const auto& [a, b] : table.edges) values.push_back(0.5 * ((*field)[a] + (*field)[b]));
+        values.reserve(field->size() + table.edges.size());
+        for (const auto& [a, b] : table.edges) {
+            turns.next();
+            values.push_back(0.5 * ((*field)[a] + (*field)[b]));
+        }
         result.attributes[name] = std::make_shared<const std::vector<double>>(std::move(values));
     }
     return result;
+}
+
+/// Of all work, what is done after so many of the iterations; each costs four times the last.
+double done_after(int done, int iterations) {
+    return (std::pow(4.0, done) - 1.0) / (std::pow(4.0, iterations) - 1.0);
 }
 
 }  // namespace
@@ -127,10 +201,9 @@ Surface subdivide(const Surface& surface, int iterations, const Progress& progre
                            " triangles " + counted(static_cast<std::size_t>(iterations), "time") +
                            " makes more than 40 million; use fewer iterations");
     Surface result = surface;
-    for (int i = 0; i < iterations; ++i) {
-        progress.report(static_cast<double>(i) / iterations, "subdividing");
-        result = subdivided_once(result);
-    }
+    for (int i = 0; i < iterations; ++i)
+        result = subdivided_once(
+            result, progress.part(done_after(i, iterations), done_after(i + 1, iterations)));
     return result;
 }
 

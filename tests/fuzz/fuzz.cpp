@@ -104,9 +104,11 @@ public:
         const std::string& format = formats_[format_of(seed)];
         const Made made = make(seed, place, format);
         board.by_program = false;
-        Reading reading = format == "project"
-                              ? read_project(made.file, good_.at(made.specimen), made.by_rows)
-                              : under_limit(targets().at(format), made.file);
+        Reading reading = under_limit(targets().at(format), made.file, [&](const Target& target) {
+            return format == "project"
+                       ? read_project(made.file, good_.at(made.specimen), made.by_rows)
+                       : read_here(target, made.file);
+        });
         if (!targets().at(format).program || reading.verdict == Verdict::Finding) return reading;
         const std::uint64_t round = seed / formats_.size();
         const bool wanted = options_.every > 0 && round % options_.every == 0;
@@ -154,7 +156,8 @@ private:
         return made;
     }
 
-    static Reading under_limit(const Target& target, const fs::path& file);
+    static Reading under_limit(const Target& target, const fs::path& file,
+                               const std::function<Reading(const Target&)>& read);
 
     Options options_;
     Corpus corpus_;
@@ -170,7 +173,8 @@ std::uint64_t data_memory() {
 }
 
 /// As a worker process does: 16 times the file and 256 MiB. A sanitizer needs more for itself.
-Reading Fuzzer::under_limit(const Target& target, const fs::path& file) {
+Reading Fuzzer::under_limit(const Target& target, const fs::path& file,
+                            const std::function<Reading(const Target&)>& read) {
 #if !defined(__SANITIZE_ADDRESS__)
     if (target.has_limit) {
         constexpr std::uint64_t kBase = std::uint64_t{256} << 20U, kThreads = 300U << 20U;
@@ -181,7 +185,7 @@ Reading Fuzzer::under_limit(const Target& target, const fs::path& file) {
         setrlimit(RLIMIT_DATA, &limit);
     }
 #endif
-    const Reading reading = read_here(target, file);
+    const Reading reading = read(target);
     rlimit none{RLIM_INFINITY, RLIM_INFINITY};
     setrlimit(RLIMIT_DATA, &none);
     return reading;

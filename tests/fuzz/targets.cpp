@@ -242,7 +242,7 @@ const std::map<std::string, Target>& targets() {
         {"scene", {.read = read_as_scene, .program = false}},
         {"part", {.read = read_as_part, .program = false}},
         {"arguments", {.read = read_as_arguments, .program = false}},
-        {"project", {.has_limit = false}},
+        {"project", {}},
     };
     return all;
 }

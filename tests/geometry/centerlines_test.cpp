@@ -13,6 +13,7 @@
 #include "geometry/vessel/centerlines/thinning.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -358,5 +359,15 @@ SCENARIO("Lines agree with VMTK's", "[geometry][centerlines]") {
         const auto [distance, radius] = difference(lines_of_file(path), reference, pair.scale);
         CHECK(distance < 0.1);
         CHECK(radius < 0.05);
+    }
+}
+
+SCENARIO("Centerlines are cancelled while the lumen is thinned and the lines are centred",
+         "[geometry][centerlines][cancel]") {
+    const Surface tube = closed_tube(2.0, 20.0, 24, 40);
+    for (const double fraction : {0.0, 0.1, 0.16, 0.7}) {
+        StopAt stop(fraction);
+        CAPTURE(fraction);
+        CHECK_THROWS_AS(compute_centerlines(tube, {}, stop.progress()), Cancelled);
     }
 }

@@ -15,6 +15,7 @@
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/surface_ends.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 #include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
@@ -373,4 +374,38 @@ SCENARIO("Of outlets alone, the largest becomes the inlet", "[geometry][openings
     CHECK(named.patches[1] == Patch{"inlet", PatchKind::Inlet});
     CHECK(patch_shape(named, 1).plane.point.z() == Approx(kLength));
     CHECK(named.patches[2].kind == PatchKind::Outlet);
+}
+
+SCENARIO("Planning says how far it is, and can be cancelled", "[geometry][openings][cancel]") {
+    const Surface tube = ragged_tube();
+    StopAt never(2.0);
+    CHECK(plan_openings(tube, line_graph(), {}, never.progress()).openings.size() == 2);
+    CHECK(never.fractions().size() > 1);
+    StopAt stop(0.4);
+    CHECK_THROWS_AS(plan_openings(tube, line_graph(), {}, stop.progress()), Cancelled);
+}
+
+SCENARIO("Many cuts that fail in their first way are made again together", "[geometry][openings]") {
+    std::vector<Positions> branches;
+    for (int i = 0; i < 20; ++i) {
+        const Vec3 from(0, 0, 1.3 * i - 12.4), way(std::cos(2.4 * i), std::sin(2.4 * i), 0.2);
+        branches.push_back({from, Vec3(from + 7.0 * way)});
+    }
+    const Surface tree = closed_vessels(0.5, branches);
+    const auto graph = centerlines_of(tree);
+    const OpeningPlan plan = plan_openings(tree, *graph);
+    REQUIRE(plan.openings.size() > 15);
+    int passes = 1;
+    double last = 0.0;
+    const Progress count(
+        [&](double fraction, std::string_view) {
+            passes += fraction < last ? 1 : 0;
+            last = fraction;
+        },
+        {});
+    const ClippedSurface clipped = clip_openings(tree, plan, {.promote = true}, graph.get(), count);
+    CHECK(clipped.failed.empty());
+    CHECK(clipped.surface.patches.size() == plan.openings.size() + 1);
+    CAPTURE(passes);
+    CHECK(passes <= 6);
 }

@@ -1,5 +1,6 @@
 #include "geometry/image/extract_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -13,6 +14,7 @@
 #include "geometry/kernel/self_intersections.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 #include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
@@ -51,7 +53,13 @@ SCENARIO("A ball in an image becomes a sphere of its volume", "[images][extracti
     const bool mirrored = GENERATE(false, true);
     GIVEN(std::string("an oblique, anisotropic grid") + (mirrored ? ", mirrored" : "")) {
         const Image image = ball_image(10.0, 40, Vec3(0.6, 0.6, 0.8), mirrored);
-        const Surface ball = extracted(image, {.threshold = 50.0});
+        StopAt never(2.0);
+        const Surface ball =
+            extract_surface(image, {}, {.threshold = 50.0}, never.progress()).surface;
+        THEN("progress is reported while the surface is extracted") {
+            const auto inside = [](double fraction) { return fraction > 0.6 && fraction < 0.8; };
+            CHECK(std::ranges::count_if(never.fractions(), inside) > 2);
+        }
         THEN("the volume is right within 0.5 %, outward, closed, in its place") {
             CHECK(volume(ball) == Approx(ball_volume(10.0)).epsilon(0.005));
             CHECK(is_closed_manifold(ball));

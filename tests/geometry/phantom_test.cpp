@@ -9,9 +9,11 @@
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -115,4 +117,27 @@ SCENARIO("A phantom that is described badly is refused", "[geometry][phantom]") 
     PhantomDescription flat = sphere_of(1.0);
     flat.imaging.spacing = Vec3(0.5, 0.5, 0.0);
     CHECK_THROWS_AS(make_phantom(flat), InvalidInput);
+}
+
+SCENARIO("A phantom too large is refused with its size", "[geometry][phantom]") {
+    PhantomDescription large = sphere_of(5.0);
+    large.imaging.spacing = Vec3::Constant(0.01);
+    CHECK_THROWS_WITH(make_phantom(large), Contains("1600 x 1600 x 1600 voxels") &&
+                                               Contains("268 million") && Contains("spacing"));
+    large.imaging.spacing = Vec3::Constant(1e-9);  // more than an int can count
+    CHECK_THROWS_AS(make_phantom(large), InvalidInput);
+    PhantomDescription fine = sphere_of(5.0);
+    fine.surface_edge = 1e-4;
+    CHECK_THROWS_WITH(make_phantom(fine),
+                      Contains("edges of 0.0001 mm") && Contains("268 million"));
+    fine.surface_edge = -0.4;
+    CHECK_THROWS_WITH(make_phantom(fine), Contains("longer than 0 mm"));
+}
+
+SCENARIO("A phantom is cancelled while any of its parts is made", "[geometry][phantom][cancel]") {
+    for (const double fraction : {0.1, 0.5, 0.7, 0.8}) {
+        StopAt stop(fraction);
+        CAPTURE(fraction);
+        CHECK_THROWS_AS(make_phantom(sphere_of(5.0), stop.progress()), Cancelled);
+    }
 }

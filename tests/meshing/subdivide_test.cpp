@@ -5,6 +5,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stop_at.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -48,4 +49,11 @@ SCENARIO("Open boundaries stay in their plane when subdivided", "[meshing][subdi
 SCENARIO("Too many iterations are refused", "[meshing][subdivide]") {
     CHECK_THROWS_WITH(subdivide(cube(1.0), 0), Catch::Contains("iterations"));
     CHECK_THROWS_AS(subdivide(icosphere(1.0, 6), 6), InvalidInput);
+}
+
+SCENARIO("Subdivision is cancelled inside its last pass", "[meshing][subdivide][cancel]") {
+    for (const double fraction : {0.0, 0.4, 0.6}) {
+        StopAt stop(fraction);
+        CHECK_THROWS_AS(subdivide(icosphere(10.0, 3), 1, stop.progress()), Cancelled);
+    }
 }

@@ -1,9 +1,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <new>
+#include <random>
 
 #include <catch2/catch.hpp>
 #include <sqlite3.h>
+#include <sys/resource.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
@@ -12,7 +15,9 @@
 #include "workbench/project/compression.h"
 #include "workbench/project/database.h"
 #include "workbench/project/file_lock.h"
+#include "workbench/project/part_store.h"
 #include "workbench/project/source_files.h"
+#include "workbench/project/stored_text.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -50,6 +55,14 @@ std::string error_of(const std::function<void()>& call) {
         return error.what();
     }
     return "no such error";
+}
+
+/// [bytes] of this process's own data.
+std::uint64_t data_memory() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmData:")) return std::stoull(line.substr(7)) * 1024;
+    return 0;
 }
 
 /// The start of a zstd frame that announces a content of this size.
@@ -111,6 +124,66 @@ SCENARIO("A compressed part must not announce more than it can hold", "[session]
         CHECK_THROWS_AS(decompress(frame, size), InvalidInput);
     }
     CHECK_THROWS_AS(decompress(compress(zeros), 1000), InvalidInput);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+SCENARIO("Reading a part takes at most twice the memory that it announces", "[session][hostile]") {
+    constexpr std::size_t kPart = std::size_t{48} << 20U, kMargin = std::size_t{24} << 20U;
+    const std::string file = test::temporary_folder() + "/parts.vbench";
+    const BlobId id = [&] {
+        // Numbers without a pattern take as much in the file as in memory.
+        std::mt19937_64 random(1);
+        auto values = std::make_shared<std::vector<double>>(kPart / sizeof(double));
+        for (double& value : *values) value = static_cast<double>(random());
+        const Database database(file, OpenMode::Create);
+        PartStore::make_table(database);
+        return PartStore(database, 0)
+            .store(ScenePart(std::shared_ptr<const std::vector<double>>(values)), std::nullopt);
+    }();
+    const Database database(file, OpenMode::Read);
+    PartStore store(database, 0);
+    rlimit limit{};
+    getrlimit(RLIMIT_DATA, &limit);
+    const rlimit before = limit;
+    limit.rlim_cur = data_memory() + 2 * kPart + kMargin;
+    setrlimit(RLIMIT_DATA, &limit);
+    std::size_t size = 0;
+    try {
+        size = memory_bytes(store.load(id));
+    } catch (const std::bad_alloc&) {
+    }
+    setrlimit(RLIMIT_DATA, &before);
+    CHECK(size == kPart);
+}
+#endif
+
+SCENARIO("A small project must not announce more than a large one could hold",
+         "[session][hostile]") {
+    constexpr std::uint64_t kMiB = std::uint64_t{1} << 20U;
+    CHECK_NOTHROW(require_plausible(1024 * kMiB, 1, 1024 * kMiB));
+    CHECK_NOTHROW(require_plausible(4000 * kMiB, 5 * kMiB, 1024 * kMiB));
+    CHECK_THROWS_WITH(require_plausible(4000 * kMiB, kMiB, 1024 * kMiB),
+                      Contains("a file of 1048576 bytes announces"));
+    GIVEN("a project whose reports are long runs of blanks") {
+        const std::string file = new_project();
+        {
+            Session session = Session::open(file, options());
+            session.apply("scale", {}, {.variant = "cfd"});
+        }
+        const Database database(file, OpenMode::Write);
+        std::vector<std::pair<std::int64_t, Bytes>> details;
+        for (auto row = database.prepare("SELECT id, details FROM results"); row.step();)
+            details.emplace_back(row.integer(0),
+                                 pack_text(unpack_text(row.blob(1)) + std::string(17 * kMiB, ' ')));
+        REQUIRE(details.size() == 2);
+        for (const auto& [id, text] : details)
+            database.prepare("UPDATE results SET details = ? WHERE id = ?")
+                .bind(0, std::span<const std::byte>(text))
+                .bind(1, id)
+                .step();
+        CHECK_THAT(error_of<InvalidInput>([&] { (void)Session::open(file, options()).log(); }),
+                   Contains("announces a content"));
+    }
 }
 
 SCENARIO("A project's stored places stay inside its folder", "[session][hostile]") {

@@ -1,8 +1,14 @@
+#include <functional>
 #include <thread>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "meshing/remeshing/remesh.h"
+#include "meshing/remeshing/subdivide.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
@@ -60,4 +66,30 @@ SCENARIO("A cancel ends a long operation at once", "[workbench][cancel]") {
         CHECK(runner.snapshot()->log.size() == 1);
     }
     CHECK(cancelled >= 4);
+}
+
+SCENARIO("A cancel ends long computations in this process", "[workbench][cancel]") {
+    const Surface tube = test::fine_tube(10.0, 80.0, 240);
+    PhantomDescription ball;
+    ball.parts = {{"ball", SphereShape{Vec3::Zero(), 20.0}, 0.0}};
+    ball.imaging.spacing = Vec3::Constant(0.15);
+    using Run = std::function<void(const Progress&)>;
+    const std::vector<std::pair<std::string, Run>> long_runs = {
+        {"remesh", [&](const Progress& p) { (void)remesh(tube, {.edge = 0.1}, nullptr, p); }},
+        {"subdivide", [&](const Progress& p) { (void)subdivide(tube, 3, p); }},
+        {"centerlines", [&](const Progress& p) { (void)compute_centerlines(tube, {}, p); }},
+        {"phantom", [&](const Progress& p) { (void)make_phantom(ball, p); }}};
+    for (const auto& [name, run] : long_runs) {
+        CAPTURE(name);
+        std::stop_source stop;
+        std::chrono::steady_clock::time_point asked;
+        const std::jthread user([&] {
+            std::this_thread::sleep_for(150ms);
+            asked = std::chrono::steady_clock::now();
+            stop.request_stop();
+        });
+        CHECK_THROWS_AS(run(Progress({}, stop.get_token())), Cancelled);
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - asked;
+        CHECK(took.count() < kPrompt);
+    }
 }

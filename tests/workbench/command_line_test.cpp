@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -141,8 +142,9 @@ SCENARIO("measure prints every measure of a known shape", "[workbench][command-l
     vesselbench::write_surface(icosphere(5.2, 4), folder + "/grown.vtp");
     vesselbench::write_surface(icosphere(5.2, 5), folder + "/finer.vtp");
     vesselbench::write_surface(cube(2.0), folder + "/cube.vtp");
-    const auto measured = [&](const std::vector<std::string>& files) {
-        std::vector<std::string> arguments = {"measure", "--json"};
+    const auto measured = [&](const std::vector<std::string>& files,
+                              std::vector<std::string> arguments = {}) {
+        arguments.insert(arguments.begin(), {"measure", "--json"});
         for (const std::string& file : files) arguments.push_back(folder + file);
         return Json::parse(run(arguments).out);
     };
@@ -150,6 +152,8 @@ SCENARIO("measure prints every measure of a known shape", "[workbench][command-l
     CHECK(box["volume"] == Approx(8.0));
     CHECK(box["normal_curvature_deg"] == Approx(54.73561));  // of every corner
     CHECK_FALSE(box.contains("reference"));
+    CHECK(box["file_units"] == "mm");
+    CHECK(measured({"/cube.vtp"}, {"--units", "cm"})["file_units"] == "cm");
     const Json sphere = measured({"/ball.vtp"});
     CHECK(sphere["mean_curvature"]["integral"] == Approx(4.0 * M_PI * 5.0).epsilon(0.005));
     CHECK(sphere["mean_curvature"]["integral_abs"] == Approx(4.0 * M_PI * 5.0).epsilon(0.005));
@@ -165,7 +169,44 @@ SCENARIO("measure prints every measure of a known shape", "[workbench][command-l
     CHECK(shrunk["volume_change_percent"] == Approx(-11.1004).epsilon(1e-4));
     CHECK_FALSE(measured({"/finer.vtp", "/ball.vtp"})["reference"].contains("local_error"));
     const std::string people = run({"measure", folder + "/grown.vtp", ball}).out;
-    CHECK_THAT(people, Contains("reference local_error max"));
+    CHECK_THAT(people, Contains("reference local_error max") &&
+                           Contains("the file was read in mm (--units cm or m reads it"));
+}
+
+SCENARIO("centerlines says the unit in which it read the file", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), tube = folder + "/tube.vtp";
+    vesselbench::write_surface(closed_tube(2.0, 20.0, 24, 40), tube);
+    const std::vector<std::string> command = {"centerlines", tube, folder + "/lines.vtp"};
+    CHECK_THAT(run(command).out, Contains("the file was read in mm (--units cm or m reads it"));
+    auto as_json = command;
+    as_json.insert(as_json.end(), {"--units", "cm", "--json"});
+    const Json lines = Json::parse(run(as_json).out);
+    CHECK(lines["file_units"] == "cm");
+    CHECK(lines["branches"][0]["length"].get<double>() > 150.0);
+}
+
+SCENARIO("compact drops an undone volume mesh and keeps every edit", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), project = folder + "/tube.vbench";
+    vesselbench::write_surface(closed_tube(2.0, 20.0, 24, 40), folder + "/tube.vtp");
+    const auto done = [](const std::vector<std::string>& arguments) {
+        const ProgramRun result = run(arguments);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return result.out;
+    };
+    done({"new", project, folder + "/tube.vtp"});
+    done({"apply", project, "tetrahedralize", "size=0.4"});
+    done({"undo", project});
+    done({"apply", project, "tetrahedralize", "size=1"});
+    const auto size = std::filesystem::file_size(project);
+    CHECK_THAT(done({"compact", project}), Contains("tetrahedralize"));
+    CHECK(std::filesystem::file_size(project) < size / 2);
+    CHECK(Json::parse(done({"log", project, "--json"}))["edits"].size() == 2);
+    done({"undo", project});
+    done({"redo", project});
+    done({"export", project, folder + "/kept.vtu"});
+    CHECK_THAT(done({"replay", project}), !Contains("differs"));
+    CHECK_THAT(done({"compact", project}), Contains("nothing to drop"));
 }
 
 SCENARIO("A project that is not there or no project is bad input", "[workbench][command-line]") {

@@ -165,6 +165,12 @@ SCENARIO("What notes and names contain is shown escaped", "[workbench][hostile]"
     CHECK(noted.exit_code == 0);
     CHECK_THAT(noted.out, Contains("\\x1b[31m") && !Contains("\x1b"));
     CHECK_THAT(run({"log", project}).out, Contains("\\x1b]0;x\\x07") && !Contains("\x1b"));
+    REQUIRE(run({"apply", project, "repair", "--author", "red \x1b[32m"}).exit_code == 0);
+    for (const char* form : {"", "--json"}) {
+        std::vector<std::string> log = {"log", project};
+        if (*form != '\0') log.emplace_back(form);
+        CHECK_THAT(run(log).out, Contains("1b[32m") && !Contains("\x1b"));
+    }
     CHECK_THAT(run({"measure", folder + "/\x1b[31m.stl"}).err, !Contains("\x1b"));
 }
 

@@ -53,6 +53,10 @@ SCENARIO("JSON is read up to 64 levels and a limit of size", "[workbench][json]"
                Contains("a.json, line 2, column 66") && Contains("64 deep"));
     CHECK_THAT(error_of([] { (void)json_from_text("[1, 2, 3]", "a.json", 5); }),
                Contains("9 bytes") && Contains("at most 5"));
+    std::string many = "[0";
+    for (int i = 0; i < 8'000'001; ++i) many += ",0";  // 16 MB, which would take 130 or more
+    CHECK_THAT(error_of([&] { (void)json_from_text(many + "]", "a.json", kLargestStoredJson); }),
+               Contains("more than 8000000 values"));
 }
 
 SCENARIO("A mistake in JSON is shown by its line and column", "[workbench][json]") {

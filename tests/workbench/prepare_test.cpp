@@ -17,6 +17,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/support/skip.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/prepare/model_check.h"
 
@@ -212,6 +213,12 @@ SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     CHECK(report["quality"]["after"]["self_intersections"] == 0);
     CHECK(report["openings"].size() == 2);
     CHECK(report["openings"][0]["kind"] == "inlet");
+    CHECK(report["ends"].size() == 2);
+    for (const Json& end : report["ends"]) CHECK(end["opening"].is_string());
+    CHECK_THAT(text_of(out + "/report.html"), Contains("<h2>Vessel ends</h2>"));
+    // Of the ends that were cut off, too: they are no part of the way from the model.
+    CHECK(report["distance_from_source"]["largest_mm"].get<double>() >
+          2.0 * report["distance_to_source"]["largest_mm"].get<double>());
     CHECK(report["volume_mesh"]["cells"].get<int>() > 1000);
     CHECK(report["volume_mesh"] == report["steps"].back()["report"]["quality"]);
     CHECK(report["volume_mesh"]["smallest_dihedral_deg"].get<double>() > 5.0);
@@ -249,8 +256,28 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     REQUIRE(result.exit_code == 0);
     CHECK(names_in(out) == Names{"print.3mf", "print.stl", "project.vbench", "report.html",
                                  "report.json", "surface.stl", "surface.vtp"});
-    CHECK(Json::parse(text_of(out + "/report.json"))["print"].is_object());
+    const Json report = Json::parse(text_of(out + "/report.json"));
+    CHECK(report["print"].is_object());
+    for (const Json& step : report["steps"]) CHECK(step["operation"] != "extrude-opening");
     CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));
+}
+
+SCENARIO("Without OpenGL the report says why it has no pictures", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), file = folder + "/tube.stl";
+    const std::string no_driver = "export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent;";
+    write_surface(closed_tube(2.0, 20.0, 16, 20), file);
+    if (run({"picture", file, folder + "/a.png"}, no_driver).exit_code == 0)
+        return skip("this OpenGL cannot be switched off");
+    write_text(folder + "/recipe.json", R"([{"operation": "repair"}])");
+    const std::string out = folder + "/out";
+    const ProgramRun result = run({"prepare", file, "--units", "mm", "--for", "planning",
+                                   "--recipe", folder + "/recipe.json", "--out", out},
+                                  no_driver);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(Json::parse(text_of(out + "/report.json"))["warnings"].dump(),
+               Contains("the report has no pictures: "));
+    CHECK_THAT(text_of(out + "/report.html"), Contains("the report has no pictures: "));
 }
 
 SCENARIO("A print model is closed where its end could not be opened", "[workbench][prepare]") {

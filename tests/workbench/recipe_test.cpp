@@ -109,6 +109,8 @@ SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {
                 const auto names = operations_of(default_recipe(use));
                 INFO(input << " " << purpose);
                 CHECK(std::ranges::count(names, "remesh") == 1);
+                // A print gets no tubes unless asked.
+                CHECK(std::ranges::count(names, "extrude-opening") == (purpose == "cfd" ? 1 : 0));
                 for (const RecipeEntry& entry : default_recipe(use))
                     if (entry.given.operation().name == "remesh")
                         CHECK(entry.given->has("print_resolution") == (purpose == "rp"));

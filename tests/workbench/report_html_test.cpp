@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "workbench/report/log_json.h"
+
 using namespace vesselbench;
 using Catch::Matchers::Contains;
 using Json = nlohmann::ordered_json;
@@ -14,9 +16,17 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         "warnings": ["the inlet sits in a bend"],
         "steps": [{"step": "smoothing", "operation": "smooth", "resolved": {"lambda": 0.5},
                    "duration_s": 0.25, "change": {"volume_before_mm3": 200.0,
-                   "volume_after_mm3": 190.0, "triangles_after": 1234}}],
+                   "volume_after_mm3": 190.0, "triangles_after": 1234}},
+                  {"step": "source", "operation": "repair", "resolved": {},
+                   "change": {"volume_before_mm3": null, "volume_after_mm3": 200.0,
+                   "no_volume_change": "the triangles before were not oriented alike"}}],
         "quality": {"before": {"closed": false}, "after": {"closed": true, "triangles": 1234}},
         "openings": [{"name": "inlet", "kind": "inlet", "diameter": 4.25}],
+        "ends": [{"place_mm": [1, 2, 31.5], "diameter_mm": 3.75, "fate": "closed",
+                  "opening": null, "why": "it looks like an <aneurysm>"},
+                 {"place_mm": [4, 5, 6], "diameter_mm": 4.25, "fate": "opened",
+                  "opening": "inlet", "why": ""}],
+        "distance_from_source": {"mean_mm": 0.125, "largest_mm": 27.5},
         "volume_mesh": {"cells": 98765},
         "flow": {"inlets": [{"name": "inlet", "reynolds": 89.8}]},
         "casting": {"wax_grams": 12.5, "flow_cm3_s": 2.5, "size": {"least_mm": 0.5, "noise": 3e-15},
@@ -27,12 +37,47 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         report, pictures,
         std::vector<ReportSection>{{.key = "casting", .title = "Mould", .about = "To be cast."},
                                    {.key = "absent", .title = "Absent", .about = ""}});
-    for (const char* part : {"&lt;vessel&gt; &amp; co", "the inlet sits in a bend", "lambda=0.5",
-                             "-5 %", "98765", "4.25", "89.8", "<h2>Mould</h2>", "To be cast.",
-                             "wax grams", "12.5", "flow [cm&sup3;/s]", "least [mm] 0.5, noise 0<",
-                             "10 numbers", "data:image/png;base64,iVBORw==", "surface.vtp"})
+    for (const char* part : {"&lt;vessel&gt; &amp; co",
+                             "the inlet sits in a bend",
+                             "lambda=0.5",
+                             "-5 %",
+                             "98765",
+                             "4.25",
+                             "89.8",
+                             "<h2>Mould</h2>",
+                             "To be cast.",
+                             "wax grams",
+                             "12.5",
+                             "flow [cm&sup3;/s]",
+                             "least [mm] 0.5, noise 0<",
+                             "10 numbers",
+                             "<h2>Vessel ends</h2>",
+                             "<td>1, 2, 31.5</td><td class=n>3.75</td><td class=n>closed</td>",
+                             "it looks like an &lt;aneurysm&gt;",
+                             "Distance from the source",
+                             "27.5",
+                             "- (the triangles before were not oriented alike)",
+                             "data:image/png;base64,iVBORw==",
+                             "surface.vtp"})
         CHECK_THAT(page, Contains(part));
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(page.find("<vessel>") == std::string::npos);
     CHECK(page.find("Absent") == std::string::npos);
+}
+
+SCENARIO("Where there is no change of the volume, the reason is given", "[workbench][report]") {
+    SurfaceChange change{.volume_after = 200.0, .triangles_before = 80, .triangles_after = 80};
+    CHECK(change_text(change) ==
+          "volume 200.0 mm\u00B3 (no change: the triangles before were not oriented alike)");
+    change.volume_before = -200.0;
+    CHECK_THAT(change_text(change), Contains("the surface before was inside out"));
+    change.volume_before = 100.0;
+    CHECK(change_text(change) == "volume +100.00 %");
+    CHECK(change_text({.volume_after = 200.0, .triangles_after = 80}) ==
+          "volume 200.0 mm\u00B3, 80 triangles");
+    const auto result = std::make_shared<ResultRecord>();
+    result->change = {.volume_after = 200.0, .triangles_before = 80};
+    const LogEntry entry{.edit = {}, .result = result};
+    CHECK(log_json(entry)["change"]["no_volume_change"] ==
+          "the triangles before were not oriented alike");
 }

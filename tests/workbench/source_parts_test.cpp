@@ -6,6 +6,8 @@
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
+#include "tests/support/skip.h"
+#include "workbench/report/report_pictures.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -26,4 +28,27 @@ SCENARIO("A source's vertices are kept, lost or at a closed end", "[workbench][r
     CHECK(std::ranges::count(kept, SourceFate::Kept) ==
           static_cast<std::ptrdiff_t>(model.vertex_count()));
     CHECK_THROWS_AS(source_fates(source, Surface{}, {}), InvalidInput);
+}
+
+SCENARIO("The report draws the source with its closed ends and lost parts", "[workbench][report]") {
+    const Surface source = closed_tube(2.0, 30.0, 24, 60), model = closed_tube(2.0, 20.0, 24, 40);
+    const std::vector<std::uint8_t> all(model.vertex_count(), 1);
+    const auto titles = [&](const Surface& from, std::vector<ClosedEnd> closed) {
+        std::vector<std::string> list;
+        for (const ReportPicture& picture :
+             report_pictures(model, PictureSource{from, all, std::move(closed)})) {
+            CHECK(picture.png.size() > 1000);
+            list.push_back(picture.title);
+        }
+        return list;
+    };
+    try {
+        const auto drawn = titles(source, {{Vec3(0, 0, 0), 4.0}});
+        REQUIRE(drawn.size() == 9);
+        CHECK(drawn.back() ==
+              "The source, from above: blue is not in the model, violet ends are closed");
+        CHECK(titles(model, {}).size() == 6);
+    } catch (const GpuUnavailable& missing) {
+        skip(missing.what());
+    }
 }

@@ -21,9 +21,13 @@ std::string place_in(std::string_view text, std::size_t at) {
     return ", line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
-/// The place of the first bracket that is too deep; the end of the text if there is none.
-std::size_t too_deep(std::string_view text) {
-    std::size_t depth = 0;
+/// Each value of a text takes up to 64 bytes of memory, but only two of the text.
+constexpr std::size_t kMostValues = 8'000'000;
+
+/// The place of the first bracket that is too deep, or of the first value that is one too many; the
+/// end of the text if there is none.
+std::size_t first_excess(std::string_view text) {
+    std::size_t depth = 0, values = 0;
     bool in_text = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
@@ -35,6 +39,8 @@ std::size_t too_deep(std::string_view text) {
             return i;
         else if (!in_text && (c == ']' || c == '}') && depth > 0)
             --depth;
+        else if (!in_text && c == ',' && ++values > kMostValues)
+            return i;
     }
     return text.size();
 }
@@ -49,9 +55,12 @@ std::size_t too_deep(std::string_view text) {
 nlohmann::ordered_json json_from_text(std::string_view text, const std::string& name,
                                       std::size_t largest) {
     if (text.size() > largest) too_large(name, text.size(), largest);
-    if (const std::size_t at = too_deep(text); at < text.size())
-        throw InvalidInput(name + place_in(text, at) + ": lists and objects are more than " +
-                           std::to_string(kDeepestJson) + " deep inside each other");
+    if (const std::size_t at = first_excess(text); at < text.size())
+        throw InvalidInput(name + place_in(text, at) +
+                           (text[at] == ','
+                                ? ": there are more than " + std::to_string(kMostValues) + " values"
+                                : ": lists and objects are more than " +
+                                      std::to_string(kDeepestJson) + " deep inside each other"));
     try {
         return Json::parse(text);
     } catch (const Json::parse_error& error) {

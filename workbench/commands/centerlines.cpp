@@ -81,12 +81,15 @@ void find_centerlines(const CenterlineOptions& options, const Progress& progress
     const Surface surface = read_foreign_surface(options.surface, options.units);
     const CenterlineGraph graph = compute_centerlines(surface, {}, progress);
     write_centerlines(graph, options.out);
-    if (options.json)
-        std::cout << graph_json(graph).dump(2) << "\n";
-    else
-        print_table(graph);
-    if (!options.json && options.units.empty())
-        std::cout << "The file was read in mm (--units cm or m reads it otherwise).\n";
+    if (options.json) {
+        Json document = graph_json(graph);
+        document["file_units"] = assumed_units(options.units);
+        std::cout << document.dump(2) << "\n";
+        return;
+    }
+    print_table(graph);
+    std::cout << "Lengths in mm; the file was read in " << assumed_units(options.units)
+              << (options.units.empty() ? " (--units cm or m reads it otherwise)" : "") << ".\n";
 }
 
 }  // namespace vesselbench

@@ -77,7 +77,9 @@ void print_table(const Json& document, const std::string& units) {
                         numbers(patch["centroid"]), numbers(patch["normal"])});
     std::cout << as_columns(rows)
               << "\nLengths in mm, areas in mm2, volumes in mm3; the file was read in "
-              << (units.empty() ? "mm (--units cm or m reads it otherwise)" : units) << ".\n";
+              << (units.empty() ? assumed_units(units) + " (--units cm or m reads it otherwise)"
+                                : units)
+              << ".\n";
 }
 
 }  // namespace
@@ -96,9 +98,10 @@ void measure_surface(const MeasureOptions& options) {
             document["reference"]["histogram"] =
                 histogram_json(surface, reference, *options.histogram);
     }
-    if (options.json)
+    if (options.json) {
+        document["file_units"] = assumed_units(options.units);
         std::cout << document.dump(2) << "\n";
-    else {
+    } else {
         print_table(document, options.units);
         if (options.histogram) print_histogram(document["reference"]["histogram"]);
     }

@@ -57,8 +57,8 @@ void print_json(const PhantomDescription& description, const Phantom& phantom,
 void write_phantom(const PhantomOptions& options, const Progress& progress) {
     PhantomDescription description = phantom_named(options.name);
     description.seed = options.seed.value_or(description.seed);
-    progress.report(0.0, "making the phantom");
-    const Phantom phantom = make_phantom(description);
+    const Phantom phantom = make_phantom(description, progress.part(0.0, 0.8));
+    progress.report(0.8, "writing the phantom");
     const std::filesystem::path out = options.out;
     refuse_other_case(out, description);
     make_folder(out);

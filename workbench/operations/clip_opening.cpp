@@ -112,20 +112,21 @@ void require_most_kept(const Surface& before, const Surface& after) {
 Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
-    const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.7));
+    const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.5));
     if (!options.tip && surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
         !has_tube(*graph))
         throw AlgorithmFailure(
             "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
             "as it is wide; tip=x,y,z opens it nevertheless");
     for (int plans = 1;; ++plans) {
-        Clipping made{.plan = plan_openings(surface, *graph, options), .surface = {}};
+        Clipping made{.plan = plan_openings(surface, *graph, options, progress.part(0.5, 0.8)),
+                      .surface = {}};
         const bool for_flow = !options.tip && arguments.text("check") == "flow";
         if (for_flow) check_flow(made.plan);
         name_opening(made.plan, arguments);
         ClippedSurface clipped =
             clip_openings(surface, made.plan, inlet_choice(made.plan, arguments), graph.get(),
-                          progress.part(0.7, 1.0));
+                          progress.part(0.8, 1.0));
         if (clipped.failed.empty()) {
             made.surface = std::move(clipped.surface);
             if (!options.tip) require_most_kept(surface, made.surface);

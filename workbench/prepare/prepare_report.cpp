@@ -156,6 +156,16 @@ std::vector<ClosedEnd> closed_ends(const Json& document) {
     return closed;
 }
 
+/// Without OpenGL, a warning says why there are none.
+void add_pictures(PreparedReport& report, const Surface& surface,
+                  const std::optional<PictureSource>& source) {
+    try {
+        report.pictures = report_pictures(surface, source);
+    } catch (const GpuUnavailable& error) {
+        report.warnings.push_back(std::string("the report has no pictures: ") + error.what());
+    }
+}
+
 void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
     report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
@@ -204,13 +214,14 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     if (find_purpose(prepared.purpose).simulates_flow)
         for (const std::string& warning : add_flow(report, prepared, edits))
             made.warnings.push_back(warning);
+    progress.report(0.5, "drawing");
+    std::optional<PictureSource> compared_with;
+    if (source.surface)
+        compared_with.emplace(
+            PictureSource{*source.surface, comparable, closed_ends(made.document)});
+    add_pictures(made, surface, compared_with);
     report["warnings"] = made.warnings;
     report["products"] = prepared.products;
-    progress.report(0.5, "drawing");
-    made.pictures = source.surface
-                        ? report_pictures(surface, PictureSource{*source.surface, comparable,
-                                                                 closed_ends(made.document)})
-                        : report_pictures(surface, std::nullopt);
     return made;
 }
 

@@ -30,7 +30,7 @@ struct PreparedReport {
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the
-/// openings, flow, volume mesh; draws the pictures if OpenGL is available.
+/// openings, flow, volume mesh; draws the pictures, or warns that OpenGL is not available.
 [[nodiscard]] PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                                             const Progress& progress);
 

@@ -1,5 +1,6 @@
 #include "workbench/project/compression.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -65,11 +66,23 @@ Bytes shuffle(std::span<const std::byte> bytes, std::size_t word) {
 }
 
 Bytes unshuffle(std::span<const std::byte> bytes, std::size_t word) {
+    Bytes result(bytes.size());
+    unshuffle(bytes, word, result);
+    return result;
+}
+
+void unshuffle(std::span<const std::byte> bytes, std::size_t word, std::span<std::byte> result) {
     const std::size_t count = bytes.size() / word;
-    Bytes result(bytes.begin(), bytes.end());
     for (std::size_t b = 0; b < word; ++b)
         for (std::size_t i = 0; i < count; ++i) result[i * word + b] = bytes[b * count + i];
-    return result;
+    std::ranges::copy(bytes.subspan(count * word), result.begin() + count * word);
+}
+
+void require_plausible(std::uint64_t size, std::uint64_t file, std::uint64_t free,
+                       std::uint64_t ratio) {
+    if (size > free && size / ratio > file)
+        throw InvalidInput("the stored data is damaged: a file of " + std::to_string(file) +
+                           " bytes announces a content of " + std::to_string(size));
 }
 
 }  // namespace vesselbench

@@ -183,6 +183,10 @@ std::int64_t Database::number(const std::string& sql) const {
     return statement.integer(0);
 }
 
+std::uint64_t Database::bytes() const {
+    return static_cast<std::uint64_t>(number("PRAGMA page_count") * number("PRAGMA page_size"));
+}
+
 bool Database::has_moved() const {
     int moved = 0;
     return sqlite3_file_control(database_.get(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) ==

@@ -68,6 +68,9 @@ public:
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
+    /// [bytes] of the file's pages.
+    [[nodiscard]] std::uint64_t bytes() const;
+
     /// True if the file was deleted, renamed or replaced since it was opened: what is written now
     /// would be lost.
     [[nodiscard]] bool has_moved() const;

@@ -1,5 +1,6 @@
 #include "workbench/project/part_codec.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -306,7 +307,7 @@ PartDecoder::PartDecoder(std::span<const std::byte> blob) {
     kind_ = header.kind;
     extra_ = header.extra;
     content_ = read_payload(reader, header);
-    if (header.zstd != 0) content_ = unshuffle(content_, kLayouts[kind_].word);
+    shuffled_ = header.zstd != 0;  // put in order when the blob is gone: it may be as large
     if (content_.size() != header.size) throw InvalidInput("the stored data has the wrong size");
 }
 
@@ -314,6 +315,23 @@ PartDecoder::PartDecoder(const ScenePart& known) : kind_(static_cast<std::uint8_
     const Content content = content_of(known);
     extra_ = content.extra;
     content_.assign(content.bytes.begin(), content.bytes.end());
+}
+
+void PartDecoder::unshuffle_content() {
+    if (shuffled_) content_ = unshuffle(content_, kLayouts[kind_].word);
+    shuffled_ = false;
+}
+
+template <class T>
+std::vector<T> PartDecoder::take() {
+    std::vector<T> values(content_.size() / sizeof(T));
+    const auto bytes = std::as_writable_bytes(std::span(values));
+    if (shuffled_)
+        unshuffle(content_, kLayouts[kind_].word, bytes);
+    else
+        std::ranges::copy(content_, bytes.begin());
+    Bytes().swap(content_);
+    return values;
 }
 
 void PartDecoder::apply_difference(std::span<const std::byte> blob) {
@@ -328,6 +346,8 @@ void PartDecoder::apply_difference(std::span<const std::byte> blob) {
         throw InvalidInput("the stored difference has the wrong size");
     ByteReader parts(payload);
     const Bytes values = unshuffle(parts.get_bytes(header.changed * layout.element), layout.word);
+    unshuffle_content();
+    content_.reserve(header.size);  // resize alone would double it
     content_.resize(header.size);
     const std::uint64_t count = header.size / layout.element;
     std::uint64_t index = 0;
@@ -347,16 +367,17 @@ ScenePart PartDecoder::finish() {
         throw InvalidInput("the stored data has the wrong size");
     switch (kind_) {
         case kTopology:
-            return std::make_shared<const Topology>(array_of<Triangle>(content_), extra_);
+            return std::make_shared<const Topology>(take<Triangle>(), extra_);
         case kPositions:
-            return std::make_shared<const Positions>(array_of<Vec3>(content_));
+            return std::make_shared<const Positions>(take<Vec3>());
         case kLabels:
-            return std::make_shared<const PatchLabels>(array_of<std::uint16_t>(content_));
+            return std::make_shared<const PatchLabels>(take<std::uint16_t>());
         case kReals:
-            return std::make_shared<const std::vector<double>>(array_of<double>(content_));
+            return std::make_shared<const std::vector<double>>(take<double>());
         case kVoxels:
-            return std::make_shared<const std::vector<float>>(array_of<float>(content_));
+            return std::make_shared<const std::vector<float>>(take<float>());
         default:
+            unshuffle_content();
             return std::make_shared<const VolumeMesh>(volume_mesh_from(content_));
     }
 }

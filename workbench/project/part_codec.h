@@ -53,13 +53,19 @@ public:
     /// \throw InvalidInput if the blob is damaged or not a difference of this kind of part
     void apply_difference(std::span<const std::byte> blob);
 
+    /// The part; the decoder is then empty. At no time are there more than two copies of it.
     /// \throw InvalidInput if the content is inconsistent (a triangle without its vertices...)
     [[nodiscard]] ScenePart finish();
 
 private:
+    void unshuffle_content();
+    template <class T>
+    [[nodiscard]] std::vector<T> take();
+
     std::uint8_t kind_ = 0;
     std::uint64_t extra_ = 0;  ///< a topology's number of vertices
     Bytes content_;
+    bool shuffled_ = false;  ///< the content is still as it was compressed
 };
 
 }  // namespace vesselbench

@@ -111,8 +111,8 @@ ScenePart PartStore::load(BlobId id) {
             at = query.integer(0);
         }
     }
-    for (auto difference = differences.rbegin(); difference != differences.rend(); ++difference)
-        decoder->apply_difference(*difference);
+    for (; !differences.empty(); differences.pop_back())
+        decoder->apply_difference(differences.back());
     ScenePart part = decoder->finish();
     hold(id, part);
     return part;

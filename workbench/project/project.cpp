@@ -11,6 +11,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "workbench/project/compression.h"
 #include "workbench/project/database.h"
 #include "workbench/project/file_lock.h"
 #include "workbench/project/part_store.h"
@@ -22,6 +23,9 @@
 namespace vesselbench {
 
 namespace {
+
+/// [bytes] of a scene's parts: an embedded image and its mask take half of it.
+constexpr std::uint64_t kLargestScene = std::uint64_t{1} << 30;
 
 /// \throw IoError if that cannot be determined
 bool missing(const std::filesystem::path& path) {
@@ -105,6 +109,16 @@ struct ProjectFile::Parts {
             throw IoError(database.name() +
                           " was deleted, moved or replaced while it was open: the last change is "
                           "lost; open it again where it is now");
+    }
+
+    /// \throw InvalidInput if the file is too small for contents of this size
+    void check_plausible(std::uint64_t size, std::uint64_t free) const {
+        if (path.empty() || size <= free) return;
+        try {
+            require_plausible(size, database.bytes(), free);
+        } catch (const InvalidInput& error) {
+            throw InvalidInput(database.name() + ": " + error.what());
+        }
     }
 
     [[nodiscard]] SceneRow scene_row(ResultId id) const {
@@ -239,9 +253,13 @@ Scene ProjectFile::scene(ResultId id, const Progress& progress) const {
     if (id == 0) return {};
     const SceneRow row = parts_->scene_row(id);
     std::vector<ScenePart> parts;
+    std::set<const void*> counted;
+    std::uint64_t size = 0;
     for (const BlobId blob : row.blobs) {
         progress.check_cancelled();
         parts.push_back(parts_->store.load(blob));
+        if (counted.insert(identity(parts.back())).second) size += memory_bytes(parts.back());
+        parts_->check_plausible(size, kLargestScene);
     }
     return put_together(row.manifest, parts);
 }

@@ -10,6 +10,7 @@
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/project/compression.h"
 #include "workbench/project/stored_text.h"
 
 namespace vesselbench {
@@ -34,8 +35,28 @@ Bytes packed_details(const ResultRecord& result) {
                          .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-void unpack_details(std::span<const std::byte> blob, ResultRecord& result) {
-    const Json json = json_from_text(unpack_text(blob), "a result", kLargestStoredJson);
+/// Unpacks the texts of a log: all together must be plausible for a file of its size.
+class TextBudget {
+public:
+    explicit TextBudget(const Database& database) : file_(database.bytes()) {}
+
+    /// \throw InvalidInput if the text is damaged, or one too many
+    std::string unpack(std::span<const std::byte> blob) {
+        constexpr std::uint64_t kLargestLog = std::uint64_t{32} << 20;
+        constexpr std::uint64_t kRatio = 250;  // texts compress less than arrays
+        std::string text = unpack_text(blob);
+        size_ += text.size();
+        require_plausible(size_, file_, kLargestLog, kRatio);
+        return text;
+    }
+
+private:
+    std::uint64_t file_;
+    std::uint64_t size_ = 0;
+};
+
+void unpack_details(std::span<const std::byte> blob, ResultRecord& result, TextBudget& budget) {
+    const Json json = json_from_text(budget.unpack(blob), "a result", kLargestStoredJson);
     JsonFields fields(json, "a result");
     result.resolved = arguments_from_stored(fields.required<std::string>("resolved"));
     result.warnings = fields.required<std::vector<std::string>>("warnings");
@@ -93,7 +114,7 @@ EditPlace place_in(const Statement& row, int column) {
     return {static_cast<Step>(step), std::move(variant)};
 }
 
-EditRecord edit_from(const Statement& row) {
+EditRecord edit_from(const Statement& row, TextBudget& budget) {
     EditRecord record;
     record.edit = edit_ref_in(row, 0);
     record.place = place_in(row, 2);
@@ -101,11 +122,11 @@ EditRecord edit_from(const Statement& row) {
     record.author = text_in(row, 5, kLongestText);
     record.time = text_in(row, 6, kLongestName);
     record.note = text_in(row, 7, kLongestText);
-    record.given = arguments_from_stored(unpack_text(row.blob(8)));
+    record.given = arguments_from_stored(budget.unpack(row.blob(8)));
     return record;
 }
 
-ResultRecord result_from(const Statement& row) {
+ResultRecord result_from(const Statement& row, TextBudget& budget) {
     ResultRecord record;
     record.id = id_in(row, 0);
     record.edit = edit_ref_in(row, 1);
@@ -115,7 +136,7 @@ ResultRecord result_from(const Statement& row) {
     record.duration = row.real(6);
     record.program_version = text_in(row, 7, kLongestName);
     record.device = text_in(row, 8, kLongestName);
-    unpack_details(row.blob(9), record);
+    unpack_details(row.blob(9), record, budget);
     return record;
 }
 
@@ -266,13 +287,14 @@ std::map<EditRef, EditRecord> read_edits(const Database& database,
     const std::string pairs = number_list(edits, [](EditRef edit) {
         return "(" + std::to_string(edit.id) + "," + std::to_string(edit.revision) + ")";
     });
+    TextBudget budget(database);
     std::map<EditRef, EditRecord> records;
     for (auto row = database.prepare(
              "SELECT edit, revision, step, variant, operation, author, time, note, given"
              " FROM edits WHERE (edit, revision) IN (VALUES " +
              (pairs.empty() ? "(0,0)" : pairs) + ")");
          row.step();) {
-        EditRecord record = guarded(database, [&] { return edit_from(row); });
+        EditRecord record = guarded(database, [&] { return edit_from(row, budget); });
         records.emplace(record.edit, std::move(record));
     }
     check_complete(database, records.size(), edits.size(), "an edit");
@@ -281,13 +303,14 @@ std::map<EditRef, EditRecord> read_edits(const Database& database,
 
 std::map<ResultId, ResultRecord> read_results(const Database& database,
                                               const std::vector<ResultId>& results) {
+    TextBudget budget(database);
     std::map<ResultId, ResultRecord> records;
     for (auto row = database.prepare(
              "SELECT id, edit, revision, input, stale, time, duration, version, device, details"
              " FROM results WHERE id IN (" +
              number_list(results, [](ResultId id) { return std::to_string(id); }) + ")");
          row.step();) {
-        ResultRecord record = guarded(database, [&] { return result_from(row); });
+        ResultRecord record = guarded(database, [&] { return result_from(row, budget); });
         records.emplace(record.id, std::move(record));
     }
     check_complete(database, records.size(), results.size(), "a result");

@@ -19,11 +19,20 @@ void add_part(std::string& text, const std::string& part) {
     text += (text.empty() ? "" : ", ") + part;
 }
 
+/// Why there is no change of the volume; empty if there is one, or nothing to compare.
+std::string no_volume_reason(const SurfaceChange& change) {
+    if (change.triangles_before == 0 || !change.volume_after || volume_change(change)) return "";
+    return change.volume_before ? "the surface before was inside out"
+                                : "the triangles before were not oriented alike";
+}
+
 void add_result(Json& json, const ResultRecord& result) {
     json["resolved"] = to_json(result.resolved);
     json["duration_s"] = result.duration;
     json["warnings"] = result.warnings;
     json["change"] = change_json(result.change);
+    if (const std::string why = no_volume_reason(result.change); !why.empty())
+        json["change"]["no_volume_change"] = why;
     json["report"] = result.report.empty() ? Json() : Json::parse(result.report, nullptr, false);
     json["program_version"] = result.program_version;
     json["device"] = result.device;
@@ -36,6 +45,9 @@ std::string change_text(const SurfaceChange& change) {
     if (const auto part = volume_change(change)) {
         const double percent = 100.0 * *part;
         if (std::abs(percent) >= 0.005) add_part(text, formatted(percent, "volume %+.2f %%"));
+    } else if (const std::string why = no_volume_reason(change); !why.empty()) {
+        add_part(text,
+                 formatted(*change.volume_after, "volume %.1f mm\u00B3 (no change: ") + why + ")");
     } else if (change.volume_after && !change.volume_before) {
         add_part(text, formatted(*change.volume_after, "volume %.1f mm\u00B3"));
     }

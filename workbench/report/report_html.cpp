@@ -149,7 +149,8 @@ std::string step_row(const Json& step) {
     const Json& change = part_of(step, "change");
     const Json &before = part_of(change, "volume_before_mm3"),
                &after = part_of(change, "volume_after_mm3");
-    std::string volume = "-";
+    const Json& no_volume = part_of(change, "no_volume_change");
+    std::string volume = no_volume.is_string() ? "- (" + shown(no_volume) + ")" : "-";
     if (before.is_number() && after.is_number() && before.get<double>() > 0)
         volume = number_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
     std::string arguments;

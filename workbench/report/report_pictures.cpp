@@ -85,14 +85,10 @@ Series series_of_source(const PictureSource& source, const Surface& model) {
 
 std::vector<ReportPicture> report_pictures(const Surface& surface,
                                            const std::optional<PictureSource>& source) {
-    try {
-        std::vector<ReportPicture> pictures;
-        series_of_model(surface, source).draw_into(pictures, surface);
-        if (source) series_of_source(*source, surface).draw_into(pictures, source->surface);
-        return pictures;
-    } catch (const GpuUnavailable&) {
-        return {};
-    }
+    std::vector<ReportPicture> pictures;
+    series_of_model(surface, source).draw_into(pictures, surface);
+    if (source) series_of_source(*source, surface).draw_into(pictures, source->surface);
+    return pictures;
 }
 
 double deviation_of_full_colour(std::vector<double> deviations) {

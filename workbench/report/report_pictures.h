@@ -23,7 +23,7 @@ struct PictureSource {
 
 /// The surface from three sides, and coloured by its deviation from the source (blue inside, red
 /// outside of it); the source with its closed ends and lost parts in colours of their own, if there
-/// are any. Empty without usable OpenGL.
+/// are any. \throw GpuUnavailable without usable OpenGL
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
     const Surface& surface, const std::optional<PictureSource>& source);
 

@@ -114,11 +114,11 @@ bool near_opening(const Anchors& anchors, const Vec3& p) {
 
 /// Candidates for blind ends, one component after the other. A component without any known end
 /// starts from one of its two farthest points.
-void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors) {
+void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors, const Progress& cancel) {
     std::vector<float> all(grid.lumen.size(), std::numeric_limits<float>::infinity());
     for (const VoxelId seed : grid.voxels) {
         if (std::isfinite(all[seed])) continue;
-        const auto from_seed = geodesic_distance(grid, seed);
+        const auto from_seed = geodesic_distance(grid, seed, cancel);
         VoxelId root = farthest(from_seed, grid);
         bool known = false;
         for (const VoxelId v : anchors.fixed) {
@@ -128,10 +128,10 @@ void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors) {
             }
         }
         if (!known) anchors.blind.push_back(root);
-        const auto from_root = geodesic_distance(grid, root);
+        const auto from_root = geodesic_distance(grid, root, cancel);
         for (const VoxelId v : grid.voxels) all[v] = std::min(all[v], from_root[v]);
     }
-    for (const VoxelId v : summits(grid, all, 4.0 * grid.spacing)) {
+    for (const VoxelId v : summits(grid, all, 4.0 * grid.spacing, cancel)) {
         const bool taken = std::count(anchors.fixed.begin(), anchors.fixed.end(), v) +
                                std::count(anchors.blind.begin(), anchors.blind.end(), v) >
                            0;
@@ -192,19 +192,20 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
     Attempt attempt;
     attempt.components = keep_large_components(grid, kSmallestComponent);
     if (grid.voxels.empty()) return attempt;
-    measure_depth(grid);
+    measure_depth(grid, progress);
     progress.report(0.4, "finding ends");
     Anchors anchors;
     anchor_openings(wall, grid, anchors);
     anchor_points(parameters.ends, grid, anchors);
     const bool needs_ends = anchors.fixed.size() < 2;
-    if (parameters.find_blind_ends || needs_ends) anchor_blind_ends(grid, anchors);
+    if (parameters.find_blind_ends || needs_ends) anchor_blind_ends(grid, anchors, progress);
     std::vector<VoxelId> all = anchors.fixed;
     all.insert(all.end(), anchors.blind.begin(), anchors.blind.end());
     progress.report(0.5, "thinning the lumen");
     auto curve = thin(grid, grid.voxels, all, progress);
-    curve = prune(grid, std::move(curve), anchors.fixed, anchors.blind,
-                  {parameters.blind_beyond_parent, parameters.blind_slenderness});
+    progress.report(0.8, "thinning the lumen");
+    curve = prune(grid, std::move(curve), {anchors.fixed, anchors.blind},
+                  {parameters.blind_beyond_parent, parameters.blind_slenderness}, progress);
     const Skeleton skeleton = skeleton_of(grid, curve);
     attempt.loops = loop_count(skeleton);
     attempt.rough = rough_graph(grid, skeleton, anchors);
@@ -216,7 +217,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
 CenterlineGraph compute_centerlines(const Surface& surface, const CenterlineParameters& parameters,
                                     const Progress& progress) {
     check(parameters);
-    const VesselWall wall = vessel_wall_of(surface);
+    const VesselWall wall = vessel_wall_of(surface, progress);
     if (!(wall.volume > 0.0)) {
         throw InvalidInput("the surface encloses no lumen: check units and orientation");
     }

@@ -12,6 +12,9 @@
 namespace vesselbench {
 namespace {
 
+/// A loop checks for a cancel after so many turns: within milliseconds.
+constexpr std::size_t kTurns = 4096;
+
 constexpr int kBorder = 2;  ///< outer voxels around the lumen's box
 
 /// Two voxels that are 26-neighbours are at most sqrt(3) voxels apart; if both are this far from
@@ -213,13 +216,15 @@ void transform_line(float* f, std::size_t n, std::size_t step, std::vector<float
     }
 }
 
-void transform_axis(std::vector<float>& f, const std::array<int, 3>& size, int axis) {
+void transform_axis(std::vector<float>& f, const std::array<int, 3>& size, int axis,
+                    const Progress& cancel) {
     const std::size_t n[3] = {static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]),
                               static_cast<std::size_t>(size[2])};
     const std::size_t steps[3] = {1, n[0], n[0] * n[1]};
     const int u = axis == 0 ? 1 : 0;
     const int v = axis == 2 ? 1 : 2;
     tbb::parallel_for(std::size_t{0}, n[v], [&](std::size_t j) {
+        cancel.check_cancelled();
         std::vector<float> work(n[axis]);
         std::vector<int> parabola(n[axis] + 1);
         std::vector<float> border(n[axis] + 2);
@@ -296,23 +301,29 @@ LumenGrid voxelise(const Positions& points, std::span<const Triangle> triangles,
     for (int axis = 0; axis < 3; ++axis) {
         progress.check_cancelled();
         Scan scan(grid, axis);
-        for (const Triangle& t : triangles) scan.cross(points, t);
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            if (t % kTurns == 0) progress.check_cancelled();
+            scan.cross(points, triangles[t]);
+        }
         scan.vote(rule, votes);
     }
     grid.lumen.resize(count);
     for (std::size_t v = 0; v < count; ++v) grid.lumen[v] = votes[v] >= 2 ? 1 : 0;
-    for (const Triangle& t : triangles) clear_wall(points, t, grid);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (t % kTurns == 0) progress.check_cancelled();
+        clear_wall(points, triangles[t], grid);
+    }
     list_voxels(grid);
     return grid;
 }
 
-void measure_depth(LumenGrid& grid) {
+void measure_depth(LumenGrid& grid, const Progress& cancel) {
     constexpr float kFar = 1e12F;
     grid.depth.resize(grid.lumen.size());
     for (std::size_t v = 0; v < grid.lumen.size(); ++v) {
         grid.depth[v] = grid.lumen[v] ? kFar : 0.0F;
     }
-    for (int axis = 0; axis < 3; ++axis) transform_axis(grid.depth, grid.size, axis);
+    for (int axis = 0; axis < 3; ++axis) transform_axis(grid.depth, grid.size, axis, cancel);
     // The nearest outer voxel is in the clearance band, on average in its middle.
     const auto spacing = static_cast<float>(grid.spacing);
     const auto clearance = static_cast<float>(0.5 * kClearance * grid.spacing);
@@ -355,17 +366,20 @@ std::size_t keep_large_components(LumenGrid& grid, double fraction) {
     return kept;
 }
 
-std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from) {
+std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from, const Progress& cancel) {
     const auto offsets = grid.neighbour_offsets();
     const auto lengths = grid.neighbour_lengths();
     std::vector<float> distance(grid.lumen.size(), std::numeric_limits<float>::infinity());
     ShortestPaths paths(distance);
     paths.lower(from, 0.0F);
-    while (const auto at = paths.next())
+    std::size_t turns = 0;
+    while (const auto at = paths.next()) {
+        if (turns++ % kTurns == 0) cancel.check_cancelled();
         for (std::size_t n = 0; n < 26; ++n) {
             const auto w = static_cast<VoxelId>(static_cast<int>(at->vertex) + offsets[n]);
             if (grid.lumen[w]) paths.lower(w, at->distance + lengths[n]);
         }
+    }
     return distance;
 }
 

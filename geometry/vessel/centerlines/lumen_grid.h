@@ -65,7 +65,8 @@ enum class InsideRule : std::uint8_t {
 
 /// Fills in `depth`. Source: Felzenszwalb and Huttenlocher, "Distance transforms of sampled
 /// functions", Theory of Computing 8, 2012.
-void measure_depth(LumenGrid& grid);
+/// \throw Cancelled if the user cancels
+void measure_depth(LumenGrid& grid, const Progress& cancel);
 
 /// Keeps the voxels whose component has at least `fraction` of the largest one's voxels
 /// (26-neighbours).
@@ -73,7 +74,8 @@ void measure_depth(LumenGrid& grid);
 std::size_t keep_large_components(LumenGrid& grid, double fraction);
 
 /// Shortest path length [mm] through the lumen from a voxel to every lumen voxel, #voxels; infinite
-/// if there is no path.
-[[nodiscard]] std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from);
+/// if there is no path. \throw Cancelled if the user cancels
+[[nodiscard]] std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from,
+                                                   const Progress& cancel);
 
 }  // namespace vesselbench

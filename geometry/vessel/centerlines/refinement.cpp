@@ -408,8 +408,10 @@ CenterlineGraph refine(const RoughGraph& rough, const WallSections& wall, double
         hold_end(rough, works.back(), false);
     }
     for (int round = 0; round < kRounds; ++round) {
-        progress.report(static_cast<double>(round) / kRounds, "centring the lines");
-        for (Work& work : works) {
+        for (std::size_t w = 0; w < works.size(); ++w) {
+            Work& work = works[w];
+            const double of_round = static_cast<double>(w) / static_cast<double>(works.size());
+            progress.report((round + of_round) / kRounds, "centring the lines");
             centre_points(work, wall, round < kCoarseRounds ? 0.1 : 0.05);
             smooth_points(work);
             if (round % 2 == 1 && round + 1 < kExtendAfter) space_evenly(work);

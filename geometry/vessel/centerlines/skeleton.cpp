@@ -168,9 +168,11 @@ double significance(const LumenGrid& grid, const Skeleton& skeleton, std::size_t
 }
 
 std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
-                           std::span<const VoxelId> fixed, std::vector<VoxelId>& blind,
-                           const BlindBranchRule& rule) {
+                           const CurveAnchors& anchors, const BlindBranchRule& rule,
+                           const Progress& cancel) {
+    const auto& [fixed, blind] = anchors;
     for (;;) {
+        cancel.check_cancelled();
         const Skeleton skeleton = skeleton_of(grid, curve);
         const auto degree = skeleton.degrees();
         double least = 1.0;
@@ -191,15 +193,16 @@ std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
         }
         if (!weakest) break;
         std::erase(blind, *weakest);
-        std::vector<VoxelId> anchors(fixed.begin(), fixed.end());
-        anchors.insert(anchors.end(), blind.begin(), blind.end());
-        curve = thin(grid, curve, anchors, {});
+        std::vector<VoxelId> kept(fixed.begin(), fixed.end());
+        kept.insert(kept.end(), blind.begin(), blind.end());
+        curve = thin(grid, curve, kept, cancel);
     }
     return curve;
 }
 
-std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic,
-                             double height) {
+std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic, double height,
+                             const Progress& cancel) {
+    constexpr std::uint32_t kTurns = 4096;  // a few milliseconds
     std::vector<VoxelId> order;
     for (const VoxelId v : grid.voxels) {
         if (std::isfinite(geodesic[v])) order.push_back(v);
@@ -214,6 +217,7 @@ std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geode
     std::vector<VoxelId> found;
     const auto offsets = grid.neighbour_offsets();
     for (std::uint32_t r = 0; r < order.size(); ++r) {
+        if (r % kTurns == 0) cancel.check_cancelled();
         const VoxelId v = order[r];
         rank[v] = r;
         for (const int o : offsets) {

@@ -38,17 +38,23 @@ struct BlindBranchRule {
 [[nodiscard]] double significance(const LumenGrid& grid, const Skeleton& skeleton,
                                   std::size_t branch, std::size_t tip, const BlindBranchRule& rule);
 
+/// Anchors of a curve's ends.
+struct CurveAnchors {
+    std::span<const VoxelId> fixed;  ///< kept whatever their branch
+    std::vector<VoxelId>& blind;     ///< kept if their branch is significant
+};
+
 /// The curve without insignificant blind branches, removed in ascending order of significance.
-/// \param fixed anchors that are kept whatever their branch
-/// \param blind anchors that are kept if their branch is significant; on return the remaining ones
+/// \param anchors on return the remaining ones
+/// \throw Cancelled if the user cancels
 [[nodiscard]] std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
-                                         std::span<const VoxelId> fixed,
-                                         std::vector<VoxelId>& blind, const BlindBranchRule& rule);
+                                         const CurveAnchors& anchors, const BlindBranchRule& rule,
+                                         const Progress& cancel);
 
 /// Voxels at which the geodesic distance has a maximum that rises at least `height` [mm] above the
 /// highest pass to a higher one: candidates for the ends of blind branches, by voxel index. The
-/// highest maximum of every component is one of them.
+/// highest maximum of every component is one of them. \throw Cancelled if the user cancels
 [[nodiscard]] std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic,
-                                           double height);
+                                           double height, const Progress& cancel);
 
 }  // namespace vesselbench

@@ -99,7 +99,8 @@ std::size_t component_count(std::size_t vertex_count, std::span<const Triangle> 
 }
 
 /// Determines the inside rule, and the number of handles if the closed triangles form a manifold.
-void judge_connectivity(VesselWall& wall) {
+void judge_connectivity(VesselWall& wall, const Progress& cancel) {
+    constexpr std::size_t kTurns = 4096;  // a few milliseconds
     const auto edges = directed_edges(wall.closed);
     std::size_t repeated = 0;
     for (std::size_t i = 1; i < edges.size(); ++i) repeated += edges[i] == edges[i - 1] ? 1 : 0;
@@ -107,6 +108,7 @@ void judge_connectivity(VesselWall& wall) {
     wall.rule = defects > kOrientationDefects ? InsideRule::Parity : InsideRule::Winding;
     bool manifold = repeated == 0;
     for (std::size_t i = 0; manifold && i < edges.size(); ++i) {
+        if (i % kTurns == 0) cancel.check_cancelled();
         manifold = std::binary_search(edges.begin(), edges.end(),
                                       DirectedEdge(edges[i].second, edges[i].first));
     }
@@ -156,7 +158,7 @@ void measure(VesselWall& wall) {
 
 }  // namespace
 
-VesselWall vessel_wall_of(const Surface& surface) {
+VesselWall vessel_wall_of(const Surface& surface, const Progress& progress) {
     if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
     VesselWall wall;
     wall.points = surface.points();
@@ -172,8 +174,11 @@ VesselWall vessel_wall_of(const Surface& surface) {
     if (!(wall.area > 0.0)) {
         throw InvalidInput("the surface has no wall; all of its triangles are flat closures");
     }
-    judge_connectivity(wall);
+    progress.report(0.0, "looking at the wall");
+    judge_connectivity(wall, progress);
+    progress.check_cancelled();
     wall.distance = std::make_shared<const SurfaceDistance>(distance_to(wall.points, wall.closed));
+    progress.check_cancelled();
     if (wall.ends.empty()) separate_flat_closures(wall);
     return wall;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/lumen_grid.h"
@@ -31,8 +32,9 @@ struct VesselWall {
 };
 
 /// In a closed surface without labels, flat discs that close vessels are found and used as ends.
-/// \throw InvalidInput if a coordinate is not finite, or there is no wall
-[[nodiscard]] VesselWall vessel_wall_of(const Surface& surface);
+/// \throw InvalidInput if a coordinate is not finite, or there is no wall; Cancelled if the user
+///        cancels
+[[nodiscard]] VesselWall vessel_wall_of(const Surface& surface, const Progress& progress = {});
 
 /// The size of the thin vessels: half the inner distance to the opposite wall [mm] such that only
 /// `fraction` [-] of the wall's area is below it. Measured by about 2000 rays.

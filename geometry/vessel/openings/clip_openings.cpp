@@ -71,26 +71,29 @@ public:
 
 private:
     /// Makes all cuts from the start. A cut that fails has damaged the surface: false, and the next
-    /// pass makes it in another way, or not at all.
+    /// pass makes it in another way, or not at all. The other cuts are still tried: on a bad mesh
+    /// most of them fail in the first way, and a pass for each would take minutes.
     bool pass() {
         base_ = surface_;
         EditableSurface edited(base_);
         problems_.resize(openings_.size());
+        damaged_ = false;
         for (std::size_t i = 0; i < openings_.size(); ++i) {
             if (openings_[i].way != OpeningWay::Cut || tries_[i] == kTries) continue;
             progress_.report(static_cast<double>(i) / static_cast<double>(openings_.size()),
                              "cutting");
-            if (!cut(edited, i)) return false;
+            cut(edited, i);
         }
-        base_ = edited.to_surface();
-        return true;
+        if (!damaged_) base_ = edited.to_surface();
+        return !damaged_;
     }
 
     /// Moving vertices may pinch the rim on a bad mesh; cutting without moving never does.
-    bool cut(EditableSurface& edited, std::size_t i) {
+    void cut(EditableSurface& edited, std::size_t i) {
         const Plane& plane = openings_[i].place.plane;
         auto curve = cross_section_at(base_, plane);
         if (!curve || !is_untouched(edited, *curve)) {
+            if (damaged_) return;  // perhaps there: the next pass judges it
             base_ = edited.to_surface();
             edited = EditableSurface(base_);
             curve = cross_section_at(base_, plane);
@@ -115,10 +118,10 @@ private:
                             "place");
         edited.remove(*branch);
         clean_rim(edited, made.rim);
-        return cap(edited, i, made.rim);
+        cap(edited, i, made.rim);
     }
 
-    bool cap(EditableSurface& edited, std::size_t i, const std::vector<VertexId>& wall) {
+    void cap(EditableSurface& edited, std::size_t i, const std::vector<VertexId>& wall) {
         const Plane& plane = openings_[i].place.plane;
         const std::vector<VertexId> rim(wall.rbegin(), wall.rend());
         try {
@@ -126,15 +129,16 @@ private:
             const std::uint16_t label = edited.add_patch({mark_of(i), PatchKind::Cut});
             close_flat(edited, rim, plane, mean_edge(edited, rim), label);
         } catch (const AlgorithmFailure& failure) {
-            return fail(i, kTries, failure.what());
+            fail(i, kTries, failure.what());
         }
-        return true;
     }
 
-    bool fail(std::size_t i, int tries, const std::string& why) {
+    /// On a damaged surface a cut is never given up: the damage may be the reason.
+    void fail(std::size_t i, int tries, const std::string& why) {
+        if (damaged_ && tries == kTries) return;
         problems_[i] = tries == kTries ? why : "";
         tries_[i] = tries;
-        return false;
+        damaged_ = true;
     }
 
     bool is_untouched(const EditableSurface& edited, const SectionCurve& curve) const {
@@ -154,6 +158,7 @@ private:
     Surface base_;
     std::vector<int> tries_;             ///< by opening
     std::vector<std::string> problems_;  ///< by opening
+    bool damaged_ = false;               ///< the pass has a cut that failed
 };
 
 class Clipper {

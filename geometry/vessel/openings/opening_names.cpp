@@ -19,6 +19,27 @@ std::vector<double> patch_areas(const Surface& surface) {
     return areas;
 }
 
+struct Moment {
+    Vec3 of_area = Vec3::Zero();  ///< [mm^3]
+    double area = 0.0;            ///< [mm^2]
+};
+
+/// By patch; 0 for the wall. One pass for all: a tree has hundreds of openings.
+std::vector<Moment> patch_moments(const Surface& surface) {
+    std::vector<Moment> moments(surface.patches.size());
+    const auto triangles = surface.triangles();
+    const Positions& x = surface.points();
+    for (TriangleId t = 0; t < triangles.size(); ++t) {
+        const std::uint16_t label = (*surface.patch_labels)[t];
+        if (surface.patches[label].kind == PatchKind::Wall) continue;
+        const double area = 0.5 * area_normal(x, triangles[t]).norm();
+        const auto& [a, b, c] = triangles[t];
+        moments[label].area += area;
+        moments[label].of_area += area * (x[a] + x[b] + x[c]) / 3.0;
+    }
+    return moments;
+}
+
 int rank(PatchKind kind) {
     switch (kind) {
         case PatchKind::Inlet:
@@ -178,9 +199,10 @@ std::vector<std::size_t> likely_inlets(const Surface& surface) {
 std::optional<std::size_t> nearest_opening(const Surface& surface, const Vec3& point) {
     std::optional<std::size_t> best;
     double nearest = std::numeric_limits<double>::infinity();
+    const std::vector<Moment> moments = patch_moments(surface);
     for (std::size_t p = 0; p < surface.patches.size(); ++p) {
-        if (surface.patches[p].kind == PatchKind::Wall) continue;
-        const double d = (patch_shape(surface, p).plane.point - point).norm();
+        if (surface.patches[p].kind == PatchKind::Wall || !(moments[p].area > 0.0)) continue;
+        const double d = (moments[p].of_area / moments[p].area - point).norm();
         if (d < nearest) {
             nearest = d;
             best = p;

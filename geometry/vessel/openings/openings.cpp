@@ -49,16 +49,19 @@ OpeningPlace place_on(const Plane& plane, double diameter, const Vec3& tip,
 
 class Planner {
 public:
-    Planner(const Surface& surface, const CenterlineGraph& graph, const OpeningPlanOptions& options)
+    Planner(const Surface& surface, const CenterlineGraph& graph, const OpeningPlanOptions& options,
+            const Progress& progress)
         : surface_(surface),
           graph_(graph),
           options_(options),
+          progress_(progress),
           ends_(find_surface_ends(surface, graph)),
           made_(ends_.size()),
           records_(ends_.size()),
           decided_(ends_.size(), false),
           trials_(surface, graph, ends_) {
         for (std::size_t e = 0; e < ends_.size(); ++e) {
+            progress_.check_cancelled();
             records_[e] = {.place = ends_[e].centre, .diameter = ends_[e].diameter};
             in_side_.push_back(lies_in_side(e));
         }
@@ -107,8 +110,10 @@ private:
         name_inlets();
         for (const Vec3& point : options_.open) wanted_.push_back(end_meant(point, "open"));
         leave_closed();
-        for (std::size_t e = 0; e < ends_.size(); ++e)
+        for (std::size_t e = 0; e < ends_.size(); ++e) {
+            report_decided();
             if (!decided_[e] && ends_[e].is_visible()) static_cast<void>(keep(e));
+        }
         const bool blind_too = opens_blind_ends();
         std::vector<std::size_t> order(ends_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -119,14 +124,22 @@ private:
             return ends_[e].is_visible() ? 0 : doubts[e].empty() ? 1 : 2;
         };
         for (const int turn : {0, 1, 2})
-            for (const std::size_t e : order)
+            for (const std::size_t e : order) {
+                report_decided();
                 if (!decided_[e] && rank(e) == turn)
                     plan_end(e, blind_too || is_wanted(e), doubts[e]);
+            }
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (is_wanted(e) && !made_[e])
                 throw AlgorithmFailure(std::string("the ") + (is_inlet(e) ? "inlet" : "end") +
                                        " at " + place_text(ends_[e].centre) +
                                        " cannot be opened: " + records_[e].why);
+    }
+
+    /// \throw Cancelled if the user cancels
+    void report_decided() const {
+        const auto decided = static_cast<double>(std::ranges::count(decided_, true));
+        progress_.report(decided / static_cast<double>(decided_.size()), "deciding about the ends");
     }
 
     void name_inlets() {
@@ -397,6 +410,7 @@ private:
     }
 
     bool is_free(const OpeningPlace& place, std::size_t e) {
+        progress_.check_cancelled();
         if (has_failed(e, place.plane.point)) return false;
         if (options_.tip && is_fixed()) return true;  // as the user says
         const std::string problem = trials_.problem_of(place, e);
@@ -498,6 +512,7 @@ private:
     const Surface& surface_;
     const CenterlineGraph& graph_;
     OpeningPlanOptions options_;
+    const Progress& progress_;
     std::vector<SurfaceEnd> ends_;
     std::vector<std::optional<PlannedOpening>> made_;  ///< by end
     std::vector<EndRecord> records_;                   ///< by end
@@ -572,8 +587,8 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 }
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
-                          const OpeningPlanOptions& options) {
-    return Planner(surface, graph, options).run();
+                          const OpeningPlanOptions& options, const Progress& progress) {
+    return Planner(surface, graph, options, progress).run();
 }
 
 void check_flow(const OpeningPlan& plan) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/fading_ends.h"
 #include "geometry/vessel/openings/opening_place.h"
 
@@ -104,9 +105,11 @@ inline constexpr double kEndReach = 1.5;
 /// of them is wider. Every other end is cut at the chosen place (choose_opening_place); else at the
 /// nearest place with a whole section; else its branch is removed if it is a stub, shorter than its
 /// parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no branch
-/// has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be opened
+/// has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be opened;
+/// Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
-                                        const OpeningPlanOptions& options = {});
+                                        const OpeningPlanOptions& options = {},
+                                        const Progress& progress = {});
 
 /// What a flow needs of a plan: two openings, the largest end among them.
 /// \throw AlgorithmFailure that lists all ends with their reasons, and what to do

@@ -6,12 +6,16 @@
 
 namespace vesselbench {
 
+std::string assumed_units(const std::string& given) {
+    return given.empty() ? "mm" : given;
+}
+
 Surface read_foreign_surface(const std::string& file, const std::string& units,
                              const Progress& progress) {
     const Operation& load = loading_operation(InputKind::Surface);
     GivenArguments given(load);
     given.set("file", file);
-    given.set("units", to_string(length_unit_from(units.empty() ? "mm" : units)));
+    given.set("units", to_string(length_unit_from(assumed_units(units))));
     Progress reading = progress;
     return *run_operation(load, {}, checked_arguments(given), reading).scene.surface;
 }

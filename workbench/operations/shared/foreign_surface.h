@@ -7,6 +7,9 @@
 
 namespace vesselbench {
 
+/// The unit in which read_foreign_surface() reads a file: as given, or mm.
+[[nodiscard]] std::string assumed_units(const std::string& given);
+
 /// Reads a surface file in a worker process, by the operation load-surface: the program survives
 /// whatever a damaged file does to its reader. [mm]
 /// \param units of the file: "mm", "cm" or "m"; empty: mm, to avoid a guess
