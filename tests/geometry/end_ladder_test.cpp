@@ -140,6 +140,17 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK(made.failed.empty());
             CHECK(is_closed_manifold(made.surface));
         }
+        THEN("none farther inside is, if the cut lost a vessel") {
+            REQUIRE(second.openings.size() == 2);
+            const OpeningPlace& nearer = upper(second).place;
+            REQUIRE(nearer.plane.point.z() > chosen.plane.point.z());
+            const OpeningPlan third = plan_openings(
+                tube, line_graph(), {.failed = {{nearer.tip, nearer.plane.point, "lost", true}}});
+            for (const PlannedOpening& opening : third.openings) {
+                const double z = opening.place.plane.point.z();
+                CHECK((z < 15.0 || z > nearer.plane.point.z()));
+            }
+        }
         THEN("strictly, it is a failure") {
             CHECK_THROWS_AS(
                 plan_openings(

@@ -144,7 +144,8 @@ void require_most_kept(const Surface& before, const Surface& after) {
 FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
     FailedCut failed{.why = "a cut there would lose " + formatted(lost.length, "%.1f") +
                             " mm of vessel at " + place_text(lost.place) + ", " +
-                            formatted(lost.diameter) + " mm wide"};
+                            formatted(lost.diameter) + " mm wide",
+                     .lost = true};
     for (const PlannedClosing& closing : plan.closings)
         if (closing.way == ClosingWay::RemoveStub &&
             (closing.place - lost.tip).norm() < 0.5 * lost.diameter) {

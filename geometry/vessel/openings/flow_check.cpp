@@ -139,15 +139,22 @@ private:
         for (const EndRecord& end : problem_.ends) {
             const auto e = end_near(ends, end.place);
             if (end.sac || !e || !ends[*e].tip) continue;
-            const auto place = nearest_opening_place(
-                surface_, graph_, *ends[*e].tip,
-                [&](const OpeningPlace& at) { return trials.problem_of(at, *e).empty(); });
+            const auto place =
+                nearest_opening_place(surface_, graph_, *ends[*e].tip, [&](const OpeningPlace& at) {
+                    return !has_failed(at) && trials.problem_of(at, *e).empty();
+                });
             if (!place) continue;
             return "\nvesselbench apply project.vbench clip-opening tip=" +
                    coordinates_argument(place->tip) + " distance=" + formatted(place->distance) +
                    " cuts it there (then, with prepare: --resume)";
         }
         return "";
+    }
+
+    [[nodiscard]] bool has_failed(const OpeningPlace& place) const {
+        return std::ranges::any_of(options_.failed, [&](const FailedCut& failed) {
+            return (failed.place - place.plane.point).norm() < 0.01 * place.diameter;
+        });
     }
 
     [[nodiscard]] std::string by_closing() const {

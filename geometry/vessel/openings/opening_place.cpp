@@ -137,10 +137,11 @@ public:
         return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
     }
 
-    /// A vessel that can go: narrower than the one that it leaves.
+    /// A vessel that can go: narrower than the one that it leaves, and long enough to tell.
     bool is_side_branch() const {
         const auto blind = blind_branch(graph_, tip_);
-        return blind && radius < blind->parent && !is_trunk(graph_, tip_);
+        return blind && blind->widest < std::min(blind->parent, blind->length) &&
+               !is_trunk(graph_, tip_);
     }
 
     /// True if there is neither an open border nor a known cap at the tip: the end may be rounded.

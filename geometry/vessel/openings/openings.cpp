@@ -288,8 +288,12 @@ private:
     }
 
     const FailedCut* failure_at(std::size_t e, const Vec3& place) const {
+        const double same = 1e-6 * (1.0 + ends_[e].diameter);
+        const Vec3 tip = tip_place(ends_[e]);
         const auto found = std::ranges::find_if(options_.failed, [&](const FailedCut& failed) {
-            return (failed.place - place).norm() < 1e-6 * (1.0 + ends_[e].diameter);
+            const double beyond = (place - tip).norm() - (failed.place - tip).norm();
+            return (failed.place - place).norm() < same ||
+                   (failed.lost && (failed.tip - tip).norm() < same && beyond > -same);
         });
         return found == options_.failed.end() ? nullptr : &*found;
     }
