@@ -141,6 +141,7 @@ void require_most_kept(const Surface& before, const Surface& after) {
 }
 
 /// The place of a plan that has to go so that a vessel stays: its stub, or the cut next to it.
+/// \throw AlgorithmFailure if there is neither
 FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
     FailedCut failed{.why = "a cut there would lose " + formatted(lost.length, "%.1f") +
                             " mm of vessel at " + place_text(lost.place) + ", " +
@@ -160,6 +161,7 @@ FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
         failed.tip = opening.place.tip;
         failed.place = opening.place.plane.point;
     }
+    if (std::isinf(least)) throw AlgorithmFailure(failed.why);
     return failed;
 }
 
@@ -167,6 +169,7 @@ FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
 std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& graph,
                                   const Clipping& made) {
     std::vector<FailedCut> wrong;
+    if (made.plan.openings.empty()) return wrong;
     for (const std::size_t patch : openings_in_walls(before, made.surface)) {
         const Vec3 at = patch_shape(made.surface, patch).plane.point;
         const auto opening = std::ranges::min_element(
@@ -175,8 +178,9 @@ std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& 
         wrong.push_back({opening->place.tip, opening->place.plane.point,
                          "the opening at " + place_text(at) + " would lie in a vessel's side"});
     }
-    for (const LostVessel& lost : lost_vessels(graph, made.surface))
-        wrong.push_back(cut_that_lost(made.plan, lost));
+    const std::vector<LostVessel> lost = lost_vessels(graph, made.surface);
+    if (lost.empty() || !lost_vessels(graph, before).empty()) return wrong;  // lines lie outside
+    for (const LostVessel& vessel : lost) wrong.push_back(cut_that_lost(made.plan, vessel));
     return wrong;
 }
 
