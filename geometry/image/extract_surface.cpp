@@ -267,6 +267,7 @@ void choose_body(const Field& field, const ExtractionParameters& parameters, Ext
     result.bodies = choice.bodies;
     result.hollows = choice.hollows;
     result.largest_dropped = choice.largest_dropped;
+    result.dropped_vessel = choice.dropped_vessel;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "geometry/image/image.h"
 #include "geometry/image/threshold.h"
 #include "geometry/image/voxel_topology.h"
+#include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
@@ -74,9 +75,10 @@ struct Extraction {
     std::vector<std::string> reasons;     ///< one sentence for each decision
     std::optional<VoxelTopology> before;  ///< of the inside voxels, if there was any cleaning
     std::optional<VoxelTopology> after;
-    std::size_t bodies = 0;        ///< found
-    std::size_t hollows = 0;       ///< found
-    double largest_dropped = 0.0;  ///< [mm^3]
+    std::size_t bodies = 0;                    ///< found
+    std::size_t hollows = 0;                   ///< found
+    double largest_dropped = 0.0;              ///< [mm^3]
+    std::optional<PieceShape> dropped_vessel;  ///< the longest body dropped that is a vessel
 };
 
 /// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels, or

@@ -53,11 +53,22 @@ ShellChoice counted(const Shells& shells, const std::vector<bool>& chosen) {
     return choice;
 }
 
+/// A hollow in a body is none.
+std::optional<PieceShape> dropped_vessel(const Surface& surface, const Shells& shells,
+                                         const std::vector<bool>& chosen) {
+    std::vector<PieceShape> shapes = piece_shapes(surface.points(), surface.triangles(),
+                                                  shells.of_triangle, shells.volumes.size());
+    std::erase_if(shapes,
+                  [&](const PieceShape& shape) { return !(shells.volumes[shape.piece] > 0.0); });
+    return longest_dropped_vessel(shapes, chosen);
+}
+
 ShellChoice only(const Surface& surface, const Shells& shells, std::size_t shell) {
     std::vector<bool> chosen(shells.volumes.size(), false);
     chosen[shell] = true;
     ShellChoice choice = counted(shells, chosen);
     choice.surface = part_of(surface, shells, chosen);
+    if (choice.bodies > 1) choice.dropped_vessel = dropped_vessel(surface, shells, chosen);
     return choice;
 }
 

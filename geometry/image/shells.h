@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
+#include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -13,10 +15,11 @@ namespace vesselbench {
 
 /// Pieces of an iso-surface: a shell is outward (a body) or inward (a cavity in a body).
 struct ShellChoice {
-    Surface surface;               ///< the chosen shells
-    std::size_t bodies = 0;        ///< number of outward shells
-    std::size_t hollows = 0;       ///< number of inward shells
-    double largest_dropped = 0.0;  ///< volume [mm^3] of the largest body dropped
+    Surface surface;                           ///< the chosen shells
+    std::size_t bodies = 0;                    ///< number of outward shells
+    std::size_t hollows = 0;                   ///< number of inward shells
+    double largest_dropped = 0.0;              ///< volume [mm^3] of the largest body dropped
+    std::optional<PieceShape> dropped_vessel;  ///< the longest body dropped that is a vessel
 };
 
 /// The body of largest volume, without its cavities.

@@ -3,17 +3,23 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/flow_check.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/repair/repair.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stop_at.h"
 #include "tests/support/surface_facts.h"
@@ -134,6 +140,17 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             const ClippedSurface made = clip_openings(tube, second);
             CHECK(made.failed.empty());
             CHECK(is_closed_manifold(made.surface));
+        }
+        THEN("none farther inside is, if the cut lost a vessel") {
+            REQUIRE(second.openings.size() == 2);
+            const OpeningPlace& nearer = upper(second).place;
+            REQUIRE(nearer.plane.point.z() > chosen.plane.point.z());
+            const OpeningPlan third = plan_openings(
+                tube, line_graph(), {.failed = {{nearer.tip, nearer.plane.point, "lost", true}}});
+            for (const PlannedOpening& opening : third.openings) {
+                const double z = opening.place.plane.point.z();
+                CHECK((z < 15.0 || z > nearer.plane.point.z()));
+            }
         }
         THEN("strictly, it is a failure") {
             CHECK_THROWS_AS(
@@ -282,15 +299,105 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     const EndRecord outlet{.diameter = 2.0, .fate = EndFate::Kept, .opening = 1};
     EndRecord aorta{.place = {1, 2, 3}, .diameter = 20.0, .why = "the vessels form a loop there"};
     OpeningPlan plan{.openings = {{}, {}}, .ends = {aorta, inlet, outlet}};
-    CHECK_THROWS_WITH(check_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop") &&
-                                            Contains("open=1,2,3 opens it") &&
-                                            Contains("closed=1,2,3"));
-    plan.ends[0].tried = true;
-    CHECK_THROWS_WITH(check_flow(plan), Contains("tip=1,2,3 distance="));
+    CHECK_THROWS_WITH(check_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
     plan.ends[0].sac = true;
     CHECK_NOTHROW(check_flow(plan));
     plan.ends[0] = {.diameter = 3.2};
     CHECK_NOTHROW(check_flow(plan));
+    THEN("also if the end was removed, unless it is no wider than the cut that took it along") {
+        plan.ends[0] = {.diameter = 3.6, .fate = EndFate::Removed, .why = "a stub"};
+        CHECK_THROWS_WITH(check_flow(plan), Contains("is removed (a stub)"));
+        plan.openings[0].place.diameter = 3.5;
+        CHECK_NOTHROW(check_flow(plan));
+    }
+}
+
+SCENARIO("The widest vessel beside open rims does not stay closed unnoticed",
+         "[geometry][openings]") {
+    const auto with_rims = [](double reach) {
+        const Surface capped = blind_trunk(reach);
+        std::vector<bool> wall(capped.triangle_count());
+        for (TriangleId t = 0; t < wall.size(); ++t)
+            wall[t] = capped.patch_of(t).kind == PatchKind::Wall;
+        const Surface open = select_triangles(capped, wall);
+        return open.with_patches(PatchLabels(open.triangle_count(), 0), {open.patches[0]});
+    };
+    GIVEN("that it is as long as it is wide") {
+        const Surface surface = with_rims(8.5);
+        CHECK(plan_openings(surface, *centerlines_of(surface)).openings.size() == 3);
+    }
+    GIVEN("that it is shorter") {
+        const Surface surface = with_rims(6.0);
+        const auto graph = centerlines_of(surface);
+        const OpeningPlan plan = plan_openings(surface, *graph);
+        const EndRecord end = end_at(plan, Vec3(8, 0, 0));
+        CAPTURE(end.why, end.diameter);
+        CHECK(end.fate == EndFate::Closed);
+        CHECK_FALSE(end.sac);
+        const std::string place = coordinates_argument(end.place);
+        CHECK_THROWS_WITH(
+            check_flow(plan, surface, *graph, {}),
+            Contains("the largest end") && Contains("--resume --set clip-opening.open=" + place));
+        THEN("the argument that the failure names opens it") {
+            const OpeningPlan opened = plan_openings(surface, *graph, {.open = {end.place}});
+            CHECK(opened.openings.size() == 3);
+            CHECK_NOTHROW(check_flow(opened, surface, *graph, {}));
+        }
+        THEN("it may be left closed on purpose") {
+            CHECK_NOTHROW(check_flow(plan_openings(surface, *graph, {.closed = {end.place}})));
+        }
+    }
+}
+
+SCENARIO("A failure names all ends, and a way on that was tried", "[geometry][openings]") {
+    const Surface tube = ragged_tube();
+    const CenterlineGraph line = line_graph();
+    GIVEN("that one end was cut wherever it can be, and failed") {
+        OpeningPlanOptions options;
+        for (OpeningPlan plan = plan_openings(tube, line, options); plan.openings.size() == 2;
+             plan = plan_openings(tube, line, options)) {
+            const OpeningPlace& place = upper(plan).place;
+            options.failed.push_back({place.tip, place.plane.point, "it failed"});
+        }
+        const OpeningPlan plan = plan_openings(tube, line, options);
+        std::string text;
+        try {
+            check_flow(plan, tube, line, options);
+        } catch (const AlgorithmFailure& failure) {
+            text = failure.what();
+        }
+        const std::string command = "project.vbench clip-opening tip=0,0,30 distance=";
+        REQUIRE_THAT(text, Contains("there is one only") && Contains("\n  kept at ") &&
+                               Contains("\n  closed at ") && Contains("it failed") &&
+                               Contains(command));
+        const double distance = std::stod(text.substr(text.find(command) + command.size()));
+        CHECK(plan_openings(tube, line, {.tip = Vec3(0, 0, 30), .distance = distance})
+                  .openings.size() == 1);
+    }
+    GIVEN("that it stays closed as asked") {
+        const OpeningPlanOptions options{.closed = {Vec3(0, 0, 30)}};
+        CHECK_THROWS_WITH(check_flow(plan_openings(tube, line, options), tube, line, options),
+                          Contains("none of these ends can be opened"));
+    }
+}
+
+SCENARIO("A loop is no obstacle to ends outside it", "[geometry][openings]") {
+    const auto ring = [](const Vec3& p) {
+        const double torus = std::hypot(std::hypot(p.x(), p.y()) - 8.0, p.z()) - 1.5;
+        return std::min({torus, capsule(p, Vec3(-22, 0, 0), Vec3(-8, 0, 0), 1.8),
+                         capsule(p, Vec3(8, 0, 0), Vec3(22, 0, 0), 1.5)});
+    };
+    const Surface surface =
+        repair(iso_surface(ring, {Vec3(-26, -12, -4), Vec3(26, 12, 4)}, 0.4)).surface;
+    const auto graph = centerlines_of(surface);
+    const OpeningPlan plan = plan_openings(surface, *graph);
+    REQUIRE(plan.openings.size() == 2);
+    CHECK_NOTHROW(check_flow(plan));
+    const ClippedSurface made = clip_openings(surface, plan);
+    CHECK(made.failed.empty());
+    CHECK(connectivity(*made.surface.topology).genus == std::optional(1));
+    for (std::size_t p = 1; p < made.surface.patches.size(); ++p)
+        CHECK(std::abs(patch_shape(made.surface, p).plane.point.x()) > 18.0);
 }
 
 SCENARIO("The inlet is the end that was named", "[geometry][openings]") {

@@ -286,8 +286,25 @@ SCENARIO("Hollows are closed and noise is left out", "[images][extraction]") {
     CHECK(extraction.hollows == 1);
     CHECK(extraction.bodies == 2);
     CHECK(extraction.largest_dropped > 0.0);
+    CHECK_FALSE(extraction.dropped_vessel);
     CHECK(connectivity(*extraction.surface.topology).components == 1);
     CHECK(volume(extraction.surface) == Approx(ball_volume(8.0)).epsilon(0.03));
+}
+
+SCENARIO("A vessel that is broken off is noticed, however small", "[images][extraction]") {
+    const Image grid = ball_image(10.0, 40, Vec3(0.6, 0.6, 0.6));
+    const Vec3 middle = middle_of(grid);
+    const Image image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        const Vec3 off = p - middle;
+        const bool vessel = std::hypot(off.x() - 9.0, off.y()) < 0.7 && std::abs(off.z()) < 5.0;
+        return off.norm() < 7.0 || vessel ? 1.0 : 0.0;
+    });
+    const Extraction extraction =
+        extract_surface(image, {}, {.method = ExtractionMethod::Threshold, .threshold = 0.5});
+    CHECK(extraction.largest_dropped < 0.02 * volume(extraction.surface));
+    REQUIRE(extraction.dropped_vessel);
+    CHECK(extraction.dropped_vessel->length == Approx(10.0).margin(1.0));
+    CHECK((extraction.dropped_vessel->centre - middle - Vec3(9, 0, 0)).norm() < 0.5);
 }
 
 SCENARIO("Thresholds that leave nothing or everything are refused", "[images][extraction]") {

@@ -18,7 +18,9 @@
 #include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/repair/repair.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -162,6 +164,63 @@ SCENARIO("A vessel that a later surface has no longer is found", "[geometry][ope
         CHECK(lost_vessels(*graph, opened).empty());
         CHECK(openings_in_walls(with_branch, opened).empty());
     }
+}
+
+SCENARIO("A lost subtree is found, though each of its branches is short", "[geometry][openings]") {
+    // A branch 2.5 diameters long beyond its parent's wall, and two of as many behind its end.
+    const auto tree = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -20), Vec3(0, 0, 20), 2.0),
+                         capsule(p, Vec3::Zero(), Vec3(7, 0, 0), 1.0),
+                         capsule(p, Vec3(7, 0, 0), Vec3(10, 0, 4), 1.0),
+                         capsule(p, Vec3(7, 0, 0), Vec3(10, 0, -4), 1.0)});
+    };
+    const Surface whole =
+        repair(iso_surface(tree, {Vec3(-4, -4, -24), Vec3(13, 4, 24)}, 0.4)).surface;
+    const Surface rest = mapped(closed_tube(2.0, 44.0, 40, 90),
+                                [](const Vec3& p) { return Vec3(p - Vec3(0, 0, 22)); });
+    const auto line = [](std::size_t from, std::size_t to, const Vec3& a, const Vec3& b) {
+        CenterlineBranch branch{.start_node = from, .end_node = to, .points = {}, .radii = {}};
+        for (int i = 0; i <= 20; ++i) {
+            branch.points.emplace_back(a + i / 20.0 * (b - a));
+            branch.radii.push_back(a.x() == 0.0 && b.x() == 0.0 ? 2.0 : 1.0);
+        }
+        return branch;
+    };
+    const Vec3 root = Vec3::Zero(), fork(7, 0, 0), up(10, 0, 4), down(10, 0, -4), top(0, 0, 20);
+    const CenterlineGraph graph = {
+        .nodes = {{root, 2.0, {0, 1, 4}},
+                  {fork, 1.0, {1, 2, 3}},
+                  {up, 1.0, {2}},
+                  {down, 1.0, {3}},
+                  {top, 2.0, {0}},
+                  {-top, 2.0, {4}}},
+        .branches = {line(0, 4, root, top), line(0, 1, root, fork), line(1, 2, fork, up),
+                     line(1, 3, fork, down), line(0, 5, root, -top)}};
+    REQUIRE(lost_vessels(graph, whole).empty());
+    const auto lost = lost_vessels(graph, rest);
+    REQUIRE(lost.size() == 1);
+    CHECK(lost[0].length == Approx(9.7).margin(0.5));
+    CHECK(lost[0].diameter == Approx(2.0));
+    CHECK(lost[0].root.x() == Approx(2.3).margin(0.4));
+    CHECK(lost[0].tip.x() == Approx(10.0));
+    THEN("not if it was taken away as asked") {
+        CHECK(lost_vessels(graph, rest, std::vector<Removal>{{whole, rest}}).empty());
+        CHECK(lost_vessels(graph, rest, std::vector<Removal>{{rest, rest}}).size() == 1);
+    }
+}
+
+SCENARIO("The trunk is not removed", "[geometry][remove-branch]") {
+    const auto fork = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -18), Vec3::Zero(), 2.5),
+                         capsule(p, Vec3::Zero(), Vec3(8, 0, 16), 1.8),
+                         capsule(p, Vec3::Zero(), Vec3(-8, 0, 16), 1.8)});
+    };
+    const Surface surface =
+        repair(iso_surface(fork, {Vec3(-12, -5, -22), Vec3(12, 5, 20)}, 0.5)).surface;
+    CHECK_THROWS_WITH(removed_at(surface, Vec3(0, 0, -18)),
+                      Catch::Contains("is the trunk") && Catch::Contains("clip-opening tip="));
+    const auto graph = compute_centerlines(surface);
+    CHECK_FALSE(is_trunk(graph, nearest_tip(graph, Vec3(8, 0, 16)).value()));
 }
 
 SCENARIO("An opening in a vessel's side is found", "[geometry][openings]") {

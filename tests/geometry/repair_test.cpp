@@ -87,6 +87,19 @@ SCENARIO("Loose, doubled and turned triangles are put together", "[geometry][rep
         check_clean(repaired.surface);
         CHECK(repaired.report.removed_components == 1);
         CHECK(volume(repaired.surface) == Approx(volume(sphere)));
+        CHECK_FALSE(repaired.report.removed_vessel);
+    }
+    GIVEN("a piece of a vessel beside it, of few triangles") {
+        const Surface piece = mapped(closed_tube(0.2, 3.0, 6, 4),
+                                     [](const Vec3& p) { return Vec3(p.z(), 9.0 + p.y(), p.x()); });
+        const Surface both = merged(merged(icosphere(0.6, 1, Vec3(9, 0, 0)), sphere), piece);
+        const Repaired repaired = repair(both);
+        CHECK(repaired.report.removed_components == 2);
+        REQUIRE(repaired.report.removed_vessel);
+        CHECK(repaired.report.removed_vessel->length == Approx(3.0).epsilon(0.05));
+        CHECK(repaired.report.removed_vessel->diameter == Approx(0.4).epsilon(0.15));
+        REQUIRE(repaired.report.keeping_it == 3);
+        CHECK_FALSE(repair(both, {.keep_components = 3}).report.removed_vessel);
     }
 }
 

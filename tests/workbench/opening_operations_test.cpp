@@ -14,6 +14,8 @@
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
@@ -239,6 +241,62 @@ SCENARIO("A closed end is opened by the argument that its reason names", "[workb
                       Contains("no vessel ends near open=90,0,0"));
     CHECK_THROWS_AS(run("clip-opening", surface, {{"open", std::vector<double>{16, 0}}}),
                     UsageError);
+}
+
+SCENARIO("The inlet beside one end is an opening that the point is at", "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    const auto clipped = [&](const Surface& surface, const Vec3& tip, std::vector<double> inlet) {
+        return run("clip-opening", surface,
+                   {{"tip", tip}, {"distance", 12.0}, {"inlet", std::move(inlet)}});
+    };
+    GIVEN("a point at another end, which is not open") {
+        CHECK_THROWS_WITH(
+            clipped(tube, Vec3(0, 0, 30), {0, 0, 0}),
+            Contains("no opening is near inlet=0,0,0; the nearest one, inlet, is at"));
+    }
+    GIVEN("the tip itself, far from the cut") {
+        const Outcome one = clipped(tube, Vec3(0, 0, 30), {0, 0, 30});
+        CHECK(one.scene.surface->patches[1] == Patch{"inlet", PatchKind::Inlet});
+        check_replay("clip-opening", tube, one);
+        AND_GIVEN("then the other end as the inlet") {
+            const Outcome other = run("clip-opening", *one.scene.surface,
+                                      {{"tip", Vec3(0, 0, 0)}, {"inlet", std::vector{0., 0., 0.}}});
+            const Surface& made = *other.scene.surface;
+            REQUIRE(made.patches.size() == 3);
+            CHECK(made.patches[1] == Patch{"inlet", PatchKind::Inlet});
+            CHECK(patch_shape(made, 1).plane.point.z() < 5.0);
+            CHECK(made.patches[2].kind == PatchKind::Outlet);
+            check_replay("clip-opening", *one.scene.surface, other);
+        }
+    }
+    GIVEN("that all ends are open, and another one shall be the inlet") {
+        const Outcome all = run("clip-opening", tube, {{"inlet", std::vector{0., 0., 0.}}});
+        const Outcome again =
+            run("clip-opening", *all.scene.surface, {{"inlet", std::vector{0., 0., 30.}}});
+        const Surface& made = *again.scene.surface;
+        CHECK(patch_shape(made, 1).plane.point.z() == Approx(30.0));
+        CHECK(made.patches[1] == Patch{"inlet", PatchKind::Inlet});
+        CHECK(made.patches[2].kind == PatchKind::Outlet);
+        check_replay("clip-opening", *all.scene.surface, again);
+    }
+}
+
+SCENARIO("Large closed ends are named in a warning, small ones are counted",
+         "[workbench][openings]") {
+    const auto body = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -20), Vec3(0, 0, 20), 3.0),
+                         capsule(p, Vec3(0, 0, 10), Vec3(20, 0, 10), 2.2),
+                         capsule(p, Vec3(0, 0, -10), Vec3(16, 0, -10), 1.1)});
+    };
+    const Surface closed = iso_surface(body, {Vec3(-5, -5, -25), Vec3(24, 5, 25)}, 0.5);
+    Surface surface = *run("repair", closed, {}).scene.surface;
+    for (const double z : {-23.0, 23.0})
+        surface = *run("clip-opening", surface, {{"tip", Vec3(0, 0, z)}}).scene.surface;
+    const Outcome outcome = run("clip-opening", surface, {});
+    std::string warnings;
+    for (const std::string& warning : outcome.warnings) warnings += warning + "\n";
+    CHECK_THAT(warnings, Contains("the end at (2") && Contains("was closed: a closed end") &&
+                             Contains("1 smaller end stayed closed"));
 }
 
 SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {

@@ -2,7 +2,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
+#include <regex>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -10,6 +13,7 @@
 #include "geometry/formats/image_file.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/image_shapes.h"
@@ -62,6 +66,24 @@ Surface wavy_sheet(int cells) {
             triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
         }
     return make_surface(std::move(points), std::move(triangles));
+}
+
+/// The options of prepare that an error names: "(with prepare: --resume --set a.b=c)".
+std::vector<std::string> options_in(const std::string& error) {
+    std::smatch found;
+    REQUIRE(std::regex_search(error, found, std::regex("\\(with prepare: ([^)]+)\\)")));
+    std::istringstream words(found[1]);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+/// Runs the command that an error names: "vesselbench change project.vbench 4 edge=0.3, then".
+ProgramRun followed(const std::string& error, const std::string& folder) {
+    std::smatch found;
+    REQUIRE(std::regex_search(error, found, std::regex("\nvesselbench (.+), then --resume")));
+    std::istringstream words(found[1]);
+    std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+    std::ranges::replace(command, std::string("project.vbench"), folder + "/project.vbench");
+    return run(command);
 }
 
 void check_bad_input(const ProgramRun& result) {
@@ -130,11 +152,21 @@ SCENARIO("A phantom becomes a model for planning and one for surgery simulation"
 }
 
 SCENARIO("A model that has lost a vessel is an error", "[workbench][prepare]") {
-    const Surface tube = closed_tube(2.0, 30.0, 40, 90);
-    CHECK_NOTHROW(check_vessels(tube, closed_tube(2.0, 29.0, 40, 90), {}));
-    CHECK_THROWS_WITH(
-        check_vessels(tube, closed_tube(2.0, 12.0, 40, 90), {}),
-        Contains("lost vessels") && Contains("diameter 4") && Contains("clip-opening"));
+    const Surface tube = closed_tube(2.0, 30.0, 40, 90), half = closed_tube(2.0, 12.0, 40, 90);
+    CHECK(compared_vessels({tube, {}}, closed_tube(2.0, 29.0, 40, 90)).lost.empty());
+    const VesselCheck check = compared_vessels({tube, {}}, half);
+    REQUIRE(check.lost.size() == 1);
+    CHECK(check.lost[0].diameter == Approx(4.0).epsilon(0.05));
+    CHECK(check.lost[0].tip.z() > 28.0);
+    THEN("not if it was cut off there as asked") {
+        CHECK(compared_vessels({tube, {{tube, half}}}, half).lost.empty());
+        CHECK(compared_vessels({tube, {{half, half}}}, half).lost.size() == 1);
+    }
+    THEN("where vessels cannot be looked for, a warning says so") {
+        const Surface nothing =
+            make_surface({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Triangle{0, 1, 2}});
+        CHECK_THAT(compared_vessels({nothing, {}}, half).warning, Contains("could not be"));
+    }
 }
 
 SCENARIO("What has no vessel in it is refused", "[workbench][prepare]") {
@@ -189,13 +221,107 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
         {"operation": "repair"},
         {"operation": "clip-opening"},
         {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 2.5}}])";
-    const ProgramRun result = run({"prepare", folder + "/side.stl", "--units", "mm", "--for", "cfd",
-                                   "--recipe", folder + "/recipe.json", "--out", folder + "/out"});
+    const auto prepared = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command = {
+            "prepare",  folder + "/side.stl",    "--units", "mm",           "--for", "planning",
+            "--recipe", folder + "/recipe.json", "--out",   folder + "/out"};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    const ProgramRun result = prepared({});
     INFO(result.err);
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 1.3") &&
-                               Contains("clip-opening tip="));
+                               Contains("lost by edit 4, remesh:"));
     CHECK(names_in(folder + "/out") == Names{"project.vbench"});
+    THEN("it stays one after a cut by hand, which takes away what lies beyond it only") {
+        const std::string project = folder + "/out/project.vbench";
+        REQUIRE(run({"apply", project, "clip-opening", "tip=0,0,21", "distance=4"}).exit_code == 0);
+        const ProgramRun again = prepared({"--resume"});
+        INFO(again.err);
+        CHECK(again.exit_code == 1);
+        CHECK_THAT(again.err, Contains("the model has lost vessels:"));
+    }
+    THEN("the command in its text mends it") {
+        CHECK(followed(result.err, folder + "/out").exit_code == 0);
+        const ProgramRun again = prepared({"--resume"});
+        INFO(again.err);
+        CHECK(again.exit_code == 0);
+        CHECK(Json::parse(text_of(folder + "/out/report.json"))["openings"].size() == 3);
+    }
+    THEN("a distance for all cuts does not hide it") {
+        const ProgramRun other = prepared({"--set", "clip-opening.distance=3"});
+        INFO(other.err);
+        CHECK(other.exit_code == 1);
+        CHECK_THAT(other.err, Contains("the model has lost vessels:"));
+    }
+}
+
+SCENARIO("An end that should be open ends prepare with a command that goes on",
+         "[workbench][prepare]") {
+    // A trunk too short to be taken for one, beside two open rims.
+    const auto body = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 1.6),
+                         capsule(p, Vec3::Zero(), Vec3(6, 0, 0), 2.0)});
+    };
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const Surface closed = iso_surface(body, {Vec3(-5, -5, -22), Vec3(11, 5, 22)}, 0.3);
+    std::vector<bool> kept(closed.triangle_count());
+    for (TriangleId t = 0; t < kept.size(); ++t)
+        kept[t] = std::abs(closed.points()[closed.triangles()[t][0]].z()) < 15.0;
+    write_surface(select_triangles(closed, kept), folder + "/trunk.stl");
+    write_text(folder + "/recipe.json",
+               R"([{"operation": "repair"}, {"operation": "clip-opening"}])");
+    const auto prepared = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> command = {
+            "prepare",  folder + "/trunk.stl",  "--units", "mm", "--for", "planning", "--out", out,
+            "--recipe", folder + "/recipe.json"};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    const ProgramRun stopped = prepared({});
+    INFO(stopped.err);
+    REQUIRE(stopped.exit_code == 1);
+    std::size_t listed = 0;
+    for (std::size_t at = 0; (at = stopped.err.find("\n  ", at)) != std::string::npos; ++at)
+        ++listed;
+    CHECK(listed == 3);
+    CHECK_THAT(stopped.err, Contains("the largest end") && Contains("  closed at "));
+    const std::vector<std::string> way_on = options_in(stopped.err);
+    REQUIRE(way_on.size() == 3);
+    const ProgramRun resumed = prepared(way_on);
+    INFO(resumed.err);
+    CHECK(resumed.exit_code == 0);
+    CHECK(Json::parse(text_of(out + "/report.json"))["openings"].size() == 3);
+}
+
+SCENARIO("An opening in a vessel's side ends prepare with a command that mends it",
+         "[workbench][prepare]") {
+    const auto bow = [](const Vec3& p) {
+        const double along = p.z() > 0.0 ? std::hypot(p.x(), p.z()) : std::abs(p.x());
+        return std::max(std::hypot(along - 8.0, p.y()) - 2.0, -12.1 - p.z());
+    };
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(iso_surface(bow, {Vec3(-12, -4, -14), Vec3(12, 4, 12)}, 0.4),
+                  folder + "/bow.stl");
+    write_text(folder + "/recipe.json",
+               R"([{"operation": "repair"}, {"operation": "clip-opening"}])");
+    const auto prepared = [&](const std::string& more) {
+        return run({"prepare", folder + "/bow.stl", "--units", "mm", "--for", "planning", "--out",
+                    out, "--recipe", folder + "/recipe.json", more});
+    };
+    REQUIRE(prepared("--set=clip-opening.strict=false").exit_code == 0);
+    REQUIRE(run({"apply", out + "/project.vbench", "clip-opening", "planes=0,0,10,0,0,9.8,0,0,1,0",
+                 "names=outlet:side"})
+                .exit_code == 0);
+    const ProgramRun stopped = prepared("--resume");
+    INFO(stopped.err);
+    CHECK(stopped.exit_code == 1);
+    CHECK_THAT(stopped.err, Contains("the opening 'side' at (") && Contains("vessel's side"));
+    CHECK(followed(stopped.err, out).exit_code == 0);
+    const ProgramRun resumed = prepared("--resume");
+    INFO(resumed.err);
+    CHECK(resumed.exit_code == 0);
 }
 
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {

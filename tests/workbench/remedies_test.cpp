@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <regex>
 #include <string>
 
@@ -6,9 +8,13 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -74,6 +80,82 @@ SCENARIO("extrude-opening and tetrahedralize: clip-opening makes the openings",
     CHECK(volume(after("extrude-opening", clipped)) > 1.1 * volume(clipped));
     CHECK(run("tetrahedralize", clipped, {}).scene.volume_mesh);
     CHECK(run("tetrahedralize", after("fill-hole", tube), {}).scene.volume_mesh);
+}
+
+namespace {
+
+/// The point behind a word of the text: "tip=1,2,3".
+Vec3 point_behind(const std::string& word, const std::string& text) {
+    CAPTURE(text);
+    std::smatch found;
+    const std::string number = "(-?[0-9.e+-]+)";
+    REQUIRE(
+        std::regex_search(text, found, std::regex(word + number + "," + number + "," + number)));
+    return {std::stod(found[1]), std::stod(found[2]), std::stod(found[3])};
+}
+
+}  // namespace
+
+SCENARIO("extrude-opening: clip-opening makes a dented cap flat", "[workbench][remedies]") {
+    const Surface dented = mapped(closed_tube(2.0, 30.0, 40, 90), [](const Vec3& p) {
+        const bool middle = p.z() > 29.9 && std::hypot(p.x(), p.y()) < 1.0;
+        return Vec3(p.x(), p.y(), middle ? p.z() - 1.0 : p.z());
+    });
+    const Vec3 tip = point_behind("clip-opening tip=", refusal_of("extrude-opening", dented));
+    const Surface flat = after("clip-opening", dented, {{"tip", tip}});
+    CHECK(flat.patches == dented.patches);
+    CHECK(volume(after("extrude-opening", flat)) > 1.1 * volume(flat));
+}
+
+SCENARIO("remove-branch: clip-opening opens the trunk instead", "[workbench][remedies]") {
+    const auto fork = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(0, 0, -18), Vec3::Zero(), 2.5),
+                         capsule(p, Vec3::Zero(), Vec3(8, 0, 16), 1.8),
+                         capsule(p, Vec3::Zero(), Vec3(-8, 0, 16), 1.8)});
+    };
+    const Surface surface =
+        after("repair", iso_surface(fork, {Vec3(-12, -5, -22), Vec3(12, 5, 20)}, 0.5));
+    const std::string text = refusal_of("remove-branch", surface, {{"tip", Vec3(0, 0, -20)}});
+    CHECK_THAT(text, Contains("is the trunk"));
+    const Surface opened =
+        after("clip-opening", surface, {{"tip", point_behind("clip-opening tip=", text)}});
+    REQUIRE(opened.patches.size() == 2);
+    CHECK(patch_shape(opened, 1).plane.point.z() < -15.0);
+}
+
+SCENARIO("clip-opening: an inlet far from every opening is opened first", "[workbench][remedies]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    const Arguments far = {{"tip", Vec3(0, 0, 30)}, {"inlet", std::vector{0.0, 0.0, 0.0}}};
+    const Vec3 tip = point_behind("clip-opening tip=", refusal_of("clip-opening", tube, far));
+    const Surface made = after("clip-opening", after("clip-opening", tube, {{"tip", tip}}), far);
+    REQUIRE(made.patches.size() == 3);
+    CHECK(made.patches[1].kind == PatchKind::Inlet);
+    CHECK(patch_shape(made, 1).plane.point.z() < 1.0);
+}
+
+SCENARIO("clip-opening: the further inlets that it proposes become inlets",
+         "[workbench][remedies]") {
+    // Two vessels side by side that meet behind.
+    const auto pair = [](const Vec3& p) {
+        return std::min({capsule(p, Vec3(-5, 0, -18), Vec3(0, 0, 0), 2.2),
+                         capsule(p, Vec3(5, 0, -18), Vec3(0, 0, 0), 2.0),
+                         capsule(p, Vec3::Zero(), Vec3(0, 0, 18), 2.0)});
+    };
+    const Surface surface =
+        after("repair", iso_surface(pair, {Vec3(-9, -5, -22), Vec3(9, 5, 22)}, 0.5));
+    const Outcome first = run("clip-opening", surface, {});
+    std::string proposed;
+    for (const std::string& warning : first.warnings)
+        if (warning.find("the same way as the inlet") != std::string::npos) proposed = warning;
+    CAPTURE(proposed);
+    std::smatch found;
+    REQUIRE(std::regex_search(proposed, found, std::regex("give inlet=([0-9.,e+-]+)")));
+    const auto given = arguments_from_texts(find_operation("clip-opening"),
+                                            std::vector<std::string>{"inlet=" + found[1].str()});
+    const Surface made = after("clip-opening", surface, *given.operator->());
+    CHECK(made.patches[1] == Patch{"inlet_1", PatchKind::Inlet});
+    CHECK(made.patches[2] == Patch{"inlet_2", PatchKind::Inlet});
+    CHECK(made.patches[3].kind == PatchKind::Outlet);
 }
 
 SCENARIO("tetrahedralize: keep-component and repair make one sound part", "[workbench][remedies]") {

@@ -82,6 +82,14 @@ SCENARIO("repair lists its actions, and its replay gives the same bits", "[workb
     CHECK(outcome.report->at("removed_components") == 1);
     CHECK(outcome.report->at("places").at("component").size() == 1);
     CHECK_FALSE(outcome.warnings.empty());
+    const Scene broken = scene_of(
+        merged(fine_tube(2.0, 30.0, 48), mapped(closed_tube(0.3, 6.0, 6, 4), [](const Vec3& p) {
+                   return Vec3(p.x() + 9.0, p.y(), p.z());
+               })));
+    const Outcome lost = run("repair", broken, {});
+    REQUIRE(lost.warnings.size() == 1);
+    CHECK_THAT(lost.warnings[0], Catch::Contains("a vessel; keep_components=2 keeps it"));
+    CHECK(run("repair", broken, {{"keep_components", std::int64_t{2}}}).warnings.empty());
     const Outcome again = run("repair", scene, outcome.resolved);
     CHECK(again.scene.surface->points() == outcome.scene.surface->points());
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -10,6 +11,8 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/flow_check.h"
+#include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
@@ -86,14 +89,43 @@ void name_opening(OpeningPlan& plan, const Arguments& arguments) {
         for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
 }
 
-/// With one end alone, the inlets are the nearest openings; with all of them, the ends that were
-/// named.
+/// With all ends, the inlets are those that were named. With one alone, they are chosen when it is
+/// open (with_inlets).
 InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
-    if (arguments.has("tip")) return {.points = points_of(arguments, "inlet")};
+    if (arguments.has("tip")) return {};
     InletChoice choice{.promote = true};
     for (const std::size_t inlet : plan.inlets)
         choice.points.push_back(plan.openings[inlet].place.plane.point);
     return choice;
+}
+
+/// An opening so far away is not meant by a point [diameters].
+constexpr double kFarthestInlet = 2.0;
+
+/// The opening that a point means: near the opening, or near the tip that was cut there.
+/// \throw AlgorithmFailure if there is none; the text names the nearest one
+Vec3 inlet_meant(const Surface& surface, const OpeningPlan& plan, const Vec3& point) {
+    const auto nearest = nearest_opening(surface, point);
+    if (!nearest) throw AlgorithmFailure("there is no opening that could be the inlet");
+    const PatchShape shape = patch_shape(surface, *nearest);
+    if ((shape.plane.point - point).norm() <= kFarthestInlet * shape.diameter()) return point;
+    for (const PlannedOpening& opening : plan.openings) {
+        const Vec3& at = opening.place.plane.point;
+        const auto patch = nearest_opening(surface, at);
+        const double reach = kFarthestInlet * patch_shape(surface, *patch).diameter();
+        if ((opening.place.tip - point).norm() <= reach) return at;
+    }
+    throw AlgorithmFailure(
+        "no opening is near inlet=" + coordinates_argument(point) + "; the nearest one, " +
+        surface.patches[*nearest].name + ", is at " + place_text(shape.plane.point) +
+        ": open the inlet's own end first (clip-opening tip=" + coordinates_argument(point) + ")");
+}
+
+/// The surface with the openings near some points as its inlets.
+Surface with_inlets(const Surface& surface, const OpeningPlan& plan, Positions points) {
+    if (points.empty()) return surface;
+    for (Vec3& point : points) point = inlet_meant(surface, plan, point);
+    return name_openings(surface, {}, points);
 }
 
 /// Ends are small parts of vessels. Centerlines of an organ lead through its lobes, and a cut
@@ -108,32 +140,94 @@ void require_most_kept(const Surface& before, const Surface& after) {
                                "single end");
 }
 
+/// The place of a plan that has to go so that a vessel stays: its stub, or the cut next to it.
+/// \throw AlgorithmFailure if there is neither
+FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
+    FailedCut failed{.why = "a cut there would lose " + formatted(lost.length, "%.1f") +
+                            " mm of vessel at " + place_text(lost.place) + ", " +
+                            formatted(lost.diameter) + " mm wide",
+                     .lost = true};
+    for (const PlannedClosing& closing : plan.closings)
+        if (closing.way == ClosingWay::RemoveStub &&
+            (closing.place - lost.tip).norm() < 0.5 * lost.diameter) {
+            failed.tip = failed.place = closing.place;
+            return failed;
+        }
+    double least = std::numeric_limits<double>::infinity();
+    for (const PlannedOpening& opening : plan.openings) {
+        const double distance = (opening.place.plane.point - lost.root).norm();
+        if (opening.way != OpeningWay::Cut || distance >= least) continue;
+        least = distance;
+        failed.tip = opening.place.tip;
+        failed.place = opening.place.plane.point;
+    }
+    if (std::isinf(least)) throw AlgorithmFailure(failed.why);
+    return failed;
+}
+
+/// Cuts that were made, but have opened a vessel's side or lost a vessel: places to be avoided.
+std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& graph,
+                                  const Clipping& made) {
+    std::vector<FailedCut> wrong;
+    if (made.plan.openings.empty()) return wrong;
+    for (const std::size_t patch : openings_in_walls(before, made.surface)) {
+        const Vec3 at = patch_shape(made.surface, patch).plane.point;
+        const auto opening = std::ranges::min_element(
+            made.plan.openings, {},
+            [&](const PlannedOpening& o) { return (o.place.plane.point - at).norm(); });
+        wrong.push_back({opening->place.tip, opening->place.plane.point,
+                         "the opening at " + place_text(at) + " would lie in a vessel's side"});
+    }
+    const std::vector<LostVessel> lost = lost_vessels(graph, made.surface);
+    if (lost.empty() || !lost_vessels(graph, before).empty()) return wrong;  // lines lie outside
+    for (const LostVessel& vessel : lost) wrong.push_back(cut_that_lost(made.plan, vessel));
+    return wrong;
+}
+
+/// \throw AlgorithmFailure for a closed surface without a tube
+void require_tube(const Surface& surface, const CenterlineGraph& graph) {
+    if (surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
+        !has_tube(graph))
+        throw AlgorithmFailure(
+            "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
+            "as it is wide; tip=x,y,z opens it nevertheless");
+}
+
+[[noreturn]] void give_up(const FailedCut& failed, const OpeningPlanOptions& options) {
+    if (options.tip) throw AlgorithmFailure(failed.why);
+    Positions closed = options.closed;
+    closed.push_back(failed.tip);
+    throw AlgorithmFailure(failed.why + closing_advice(closed));
+}
+
 /// Plans and cuts; where a cut fails, plans again without it.
 Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
     const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.5));
-    if (!options.tip && surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
-        !has_tube(*graph))
-        throw AlgorithmFailure(
-            "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
-            "as it is wide; tip=x,y,z opens it nevertheless");
+    if (!options.tip) require_tube(surface, *graph);
+    const bool for_flow = !options.tip && arguments.text("check") == "flow";
+    const bool chosen = !options.distance && !options.radii && !options.strict;
     for (int plans = 1;; ++plans) {
         Clipping made{.plan = plan_openings(surface, *graph, options, progress.part(0.5, 0.8)),
                       .surface = {}};
-        const bool for_flow = !options.tip && arguments.text("check") == "flow";
-        if (for_flow) check_flow(made.plan);
+        if (for_flow) check_flow(made.plan, surface, *graph, options);
         name_opening(made.plan, arguments);
         ClippedSurface clipped =
             clip_openings(surface, made.plan, inlet_choice(made.plan, arguments), graph.get(),
                           progress.part(0.8, 1.0));
-        if (clipped.failed.empty()) {
-            made.surface = std::move(clipped.surface);
-            if (!options.tip) require_most_kept(surface, made.surface);
+        made.surface = std::move(clipped.surface);
+        if (clipped.failed.empty() && options.tip) {
+            made.surface = with_inlets(made.surface, made.plan, points_of(arguments, "inlet"));
             return made;
         }
+        if (clipped.failed.empty()) {
+            require_most_kept(surface, made.surface);
+            if (chosen) clipped.failed = wrong_cuts(surface, *graph, made);
+            if (clipped.failed.empty()) return made;
+        }
         if (options.strict || options.tip || plans == kMostPlans)
-            throw AlgorithmFailure(clipped.failed.front().why);
+            give_up(clipped.failed.front(), options);
         options.failed.insert(options.failed.end(), clipped.failed.begin(), clipped.failed.end());
     }
 }
@@ -156,12 +250,12 @@ OpeningPlan stored_plan(const Arguments& arguments) {
 
 /// A plan of all openings names all of them. One of a single end, or typed by hand, leaves the
 /// others to the inlets that are asked for.
-InletChoice stored_inlet(const OpeningPlan& plan, const Surface& clipped,
-                         const Arguments& arguments) {
+Positions stored_inlets(const OpeningPlan& plan, const Surface& clipped,
+                        const Arguments& arguments) {
     const auto others = std::ranges::count_if(
         clipped.patches, [](const Patch& patch) { return patch.kind != PatchKind::Wall; });
     if (static_cast<std::size_t>(others) <= plan.openings.size()) return {};
-    return {.points = points_of(arguments, "inlet")};
+    return points_of(arguments, "inlet");
 }
 
 Clipping repeat(const Surface& surface, const Arguments& arguments, const Progress& progress) {
@@ -173,9 +267,8 @@ Clipping repeat(const Surface& surface, const Arguments& arguments, const Progre
     ClippedSurface clipped =
         clip_openings(surface, made.plan, {}, graph.get(), progress.part(0.7, 1.0));
     if (!clipped.failed.empty()) throw AlgorithmFailure(clipped.failed.front().why);
-    const InletChoice inlet = stored_inlet(made.plan, clipped.surface, arguments);
-    made.surface = inlet.points.empty() ? std::move(clipped.surface)
-                                        : name_openings(clipped.surface, {}, inlet.points);
+    made.surface = with_inlets(clipped.surface, made.plan,
+                               stored_inlets(made.plan, clipped.surface, arguments));
     return made;
 }
 

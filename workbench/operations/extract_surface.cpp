@@ -82,6 +82,13 @@ Report report_of(const Extraction& extraction) {
 std::vector<std::string> warnings_of(const Extraction& extraction) {
     std::vector<std::string> warnings;
     const double kept = volume(extraction.surface);
+    if (const auto& vessel = extraction.dropped_vessel)
+        warnings.push_back(
+            "of " + counted(extraction.bodies, "body", "bodies") + ", one dropped at " +
+            place_text(vessel->centre) + " is " + formatted(vessel->length) + " mm long and " +
+            formatted(vessel->diameter) +
+            " mm wide: a vessel that is broken off, perhaps; closing=1 bridges a gap of two "
+            "voxels, and component=all keeps all");
     if (extraction.largest_dropped > kNoticeable * kept) {
         std::ostringstream text;
         text << "there are " << extraction.bodies << " bodies; the largest one dropped has "

@@ -78,8 +78,15 @@ ordered_json report_json(const RepairReport& report) {
 
 std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before) {
     std::vector<std::string> warnings;
-    if (static_cast<double>(report.removed_component_triangles) >
-        kWorthAWarning * static_cast<double>(before.triangle_count()))
+    if (const auto& vessel = report.removed_vessel)
+        warnings.push_back(
+            "repair removed " + counted(report.removed_components, "unconnected piece") +
+            ", the longest of which, at " + place_text(vessel->centre) + ", is " +
+            formatted(vessel->length) + " mm long and " + formatted(vessel->diameter) +
+            " mm wide: a vessel; keep_components=" + std::to_string(report.keeping_it) +
+            " keeps it");
+    else if (static_cast<double>(report.removed_component_triangles) >
+             kWorthAWarning * static_cast<double>(before.triangle_count()))
         warnings.push_back("repair removed " +
                            counted(report.removed_components, "unconnected piece") + " with " +
                            counted(report.removed_component_triangles, "triangle") +

@@ -1,51 +1,177 @@
 #include "workbench/prepare/model_check.h"
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
-#include <string>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
-#include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "workbench/operations/shared/opening_arguments.h"
+#include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// Empty for a surface without vessels, such as a heart's.
-std::shared_ptr<const CenterlineGraph> lines_of(const Surface& surface, const Progress& progress) {
-    try {
-        return centerlines_of(surface, {}, progress);
-    } catch (const AlgorithmFailure&) {
-        return nullptr;
+/// Edges that show a vessel: so many to its diameter.
+constexpr double kEdgesAcross = 4.0;
+
+bool cuts_ends(const LogEntry& entry) {
+    return find_operation(entry.edit.operation).recipe.cuts_ends;
+}
+
+/// True for an edit that takes away what its caller says.
+bool takes_as_asked(const LogEntry& entry) {
+    if (!cuts_ends(entry)) return find_operation(entry.edit.operation).usual_step == Step::Branches;
+    return std::ranges::any_of(std::array{"distance", "radii", "planes"},
+                               [&](const char* name) { return entry.edit.given.has(name); });
+}
+
+/// The variant's edits that are done or can be, in their order.
+std::vector<LogEntry> edits_of(const Session& session, const std::string& variant) {
+    std::vector<LogEntry> edits = session.log();
+    std::erase_if(edits, [&](const LogEntry& entry) {
+        const std::string& its = entry.edit.place.variant;
+        return entry.status == EditStatus::Stale || !(its.empty() || its == variant);
+    });
+    return edits;
+}
+
+/// From the first edit that cuts ends on.
+std::vector<LogEntry> edits_from_first_cut(const Session& session, const std::string& variant) {
+    std::vector<LogEntry> edits = edits_of(session, variant);
+    edits.erase(edits.begin(), std::ranges::find_if(edits, cuts_ends));
+    return edits;
+}
+
+/// Places that stay closed: those given to the edit, and another one.
+std::string closed_argument(const LogEntry& entry, const Vec3& place) {
+    std::string text = "closed=";
+    if (entry.edit.given.has("closed"))
+        for (const double number : entry.edit.given.list("closed"))
+            text += formatted(number, "%.5g") + ",";
+    return text + coordinates_argument(place);
+}
+
+/// The command that mends an edit, and how to go on.
+std::string change_command(const LogEntry& entry, const std::string& arguments) {
+    const std::string id = std::to_string(entry.edit.edit.id);
+    return arguments.empty()
+               ? "\nvesselbench remove project.vbench " + id + ", then --resume"
+               : "\nvesselbench change project.vbench " + id + " " + arguments + ", then --resume";
+}
+
+/// What to do about an edit that opened an end where it should not, or lost its vessel.
+std::string without_end(const LogEntry& entry, const Vec3& tip) {
+    const bool by_hand = entry.edit.given.has("tip") || entry.edit.given.has("planes");
+    return change_command(entry, by_hand ? "" : closed_argument(entry, tip));
+}
+
+bool has_edge(const Operation& operation) {
+    return std::ranges::count(operation.parameters, std::string("edge"), &Parameter::name) > 0;
+}
+
+/// The edit after which the vessels are missing first, and what to do about it.
+std::string remedy_for(Session& session, const std::string& variant, const BeforeOpenings& before,
+                       const CenterlineGraph& lines) {
+    for (const LogEntry& entry : edits_from_first_cut(session, variant)) {
+        const Surface after = surface_of(session.scene_after(entry.edit.edit.id));
+        const std::vector<LostVessel> lost = lost_vessels(lines, after, before.asked);
+        if (lost.empty()) continue;
+        const Operation& operation = find_operation(entry.edit.operation);
+        const std::string edge = formatted(lost.back().diameter / kEdgesAcross, "%.2g");
+        const std::string by =
+            "\nlost by edit " + std::to_string(entry.edit.edit.id) + ", " + operation.name + ":";
+        if (cuts_ends(entry)) return by + without_end(entry, lost.front().tip);
+        return by + change_command(entry, has_edge(operation) ? "mode=uniform edge=" + edge : "");
     }
+    return "";
+}
+
+/// The edit that made an opening, and the tip that it cut.
+struct Cutter {
+    LogEntry entry;
+    Vec3 tip = Vec3::Zero();
+};
+
+std::optional<Cutter> cutter_of(const Session& session, const std::string& variant,
+                                const Vec3& opening) {
+    std::optional<Cutter> found;
+    double least = std::numeric_limits<double>::infinity();
+    for (const LogEntry& entry : edits_from_first_cut(session, variant)) {
+        if (!cuts_ends(entry) || !entry.result || !entry.result->resolved.has("planes")) continue;
+        for (const PlannedOpening& made : openings_in(entry.result->resolved.list("planes"))) {
+            const double distance = (made.place.plane.point - opening).norm();
+            if (distance >= least) continue;
+            least = distance;
+            found = {entry, made.place.tip};
+        }
+    }
+    return found;
 }
 
 }  // namespace
 
-void check_vessels(const Surface& before, const Surface& after, const Progress& progress) {
-    const auto lines = lines_of(before, progress);
-    if (!lines) return;
-    const auto lost = lost_vessels(*lines, after);
-    if (lost.empty()) return;
-    std::string text;
-    for (const LostVessel& vessel : lost)
-        text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
-                ", diameter " + formatted(vessel.diameter) + " mm";
-    throw AlgorithmFailure("the model has lost vessels:" + text +
-                           "\nopen their ends by hand with clip-opening tip=x,y,z distance=..., or "
-                           "remesh finer; a branch that is not wanted is taken away with "
-                           "remove-branch before clip-opening");
+std::optional<BeforeOpenings> before_openings(Session& session, const std::string& variant) {
+    std::optional<BeforeOpenings> before;
+    EditId last = 0;
+    for (const LogEntry& entry : edits_of(session, variant)) {
+        const EditId id = entry.edit.edit.id;
+        if (!before && cuts_ends(entry) && last != 0)
+            before = BeforeOpenings{surface_of(session.scene_after(last)), {}};
+        if (before && takes_as_asked(entry))
+            before->asked.push_back(
+                {surface_of(session.scene_after(last)), surface_of(session.scene_after(id))});
+        last = id;
+    }
+    return before;
 }
 
-void check_openings(const Surface& before, const Surface& after) {
-    for (const std::size_t p : openings_in_walls(before, after))
-        throw AlgorithmFailure(
-            "the opening '" + after.patches[p].name + "' at " +
-            place_text(patch_shape(after, p).plane.point) +
-            " lies in a vessel's side: leave that end closed with --set clip-opening.closed=" +
-            coordinates_argument(patch_shape(after, p).plane.point));
+VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
+                             const Progress& progress) {
+    const auto without_lines = [](const std::exception& failure) {
+        return VesselCheck{.warning = std::string("lost vessels could not be looked for: ") +
+                                      failure.what()};
+    };
+    try {
+        const auto lines = centerlines_of(before.surface, {}, progress);
+        return {.lost = lost_vessels(*lines, after, before.asked), .warning = ""};
+    } catch (const AlgorithmFailure& failure) {
+        return without_lines(failure);
+    } catch (const InvalidInput& failure) {
+        return without_lines(failure);
+    }
+}
+
+std::string check_vessels(Session& session, const std::string& variant, const Progress& progress) {
+    const auto before = before_openings(session, variant);
+    if (!before) return "";
+    const VesselCheck check =
+        compared_vessels(*before, surface_of(session.scene(variant)), progress);
+    if (check.lost.empty()) return check.warning;
+    std::string text;
+    for (const LostVessel& vessel : check.lost)
+        text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
+                ", diameter " + formatted(vessel.diameter) + " mm";
+    const auto lines = centerlines_of(before->surface, {}, progress);
+    throw AlgorithmFailure("the model has lost vessels:" + text +
+                           remedy_for(session, variant, *before, *lines));
+}
+
+void check_openings(Session& session, const std::string& variant) {
+    const auto before = before_openings(session, variant);
+    if (!before) return;
+    const Surface after = surface_of(session.scene(variant));
+    for (const std::size_t p : openings_in_walls(before->surface, after)) {
+        const Vec3 at = patch_shape(after, p).plane.point;
+        const auto cutter = cutter_of(session, variant, at);
+        throw AlgorithmFailure("the opening '" + after.patches[p].name + "' at " + place_text(at) +
+                               " lies in a vessel's side: the end has to stay closed" +
+                               (cutter ? without_end(cutter->entry, cutter->tip) : ""));
+    }
 }
 
 }  // namespace vesselbench

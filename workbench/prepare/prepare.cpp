@@ -150,13 +150,15 @@ std::vector<std::string> apply_checked(Session& session, const Recipe& recipe,
                          static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
     auto warnings = apply_recipe(session, Recipe(recipe.begin(), then), variant, tell,
                                  progress.part(0.0, 0.98 * until));
-    if (const auto before = surface_before_openings(session, variant))
-        check_openings(*before, surface_of(session.scene(variant)));
+    check_openings(session, variant);
     const auto more = apply_recipe(session, Recipe(then, recipe.end()), variant, tell,
                                    progress.part(0.98 * until, 0.98));
     warnings.insert(warnings.end(), more.begin(), more.end());
-    if (const auto before = surface_before_openings(session, variant))
-        check_vessels(*before, surface_of(session.scene(variant)), progress.part(0.98, 1.0));
+    const std::string warning = check_vessels(session, variant, progress.part(0.98, 1.0));
+    if (!warning.empty()) {
+        tell("warning: " + warning);
+        warnings.push_back(warning);
+    }
     return warnings;
 }
 

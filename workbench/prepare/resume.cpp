@@ -115,27 +115,4 @@ void refuse_late_settings(std::span<const std::string> settings, const Recipe& r
     }
 }
 
-std::optional<Surface> surface_before_openings(Session& session, const std::string& variant) {
-    const std::vector<LogEntry> log = session.log();
-    std::optional<EditId> before;
-    const LogEntry* cut = nullptr;
-    EditId last = 0;
-    for (const LogEntry& entry : log) {
-        if (!is_of(entry.edit.place, variant) || entry.status == EditStatus::Stale) continue;
-        const Operation& operation = find_operation(entry.edit.operation);
-        if (operation.recipe.cuts_ends) {
-            before = last;
-            cut = &entry;
-        } else if (cut != nullptr && (operation.usual_step == Step::Source ||
-                                      operation.usual_step == Step::Branches)) {
-            return std::nullopt;
-        }
-        last = entry.edit.edit.id;
-    }
-    if (cut == nullptr || *before == 0) return std::nullopt;
-    for (const char* asked : {"tip", "distance", "radii", "planes"})
-        if (cut->edit.given.has(asked)) return std::nullopt;
-    return surface_of(session.scene_after(*before));
-}
-
 }  // namespace vesselbench

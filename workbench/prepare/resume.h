@@ -1,11 +1,9 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 
-#include "geometry/kernel/surface.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/session/session.h"
 
@@ -25,10 +23,5 @@ namespace vesselbench {
 /// \throw UsageError if a setting "operation.parameter=value" is of an edit that has been made
 void refuse_late_settings(std::span<const std::string> settings, const Recipe& rest,
                           const std::vector<LogEntry>& log);
-
-/// The surface before clip-opening decided by itself which ends to open where. Empty if it has not,
-/// or vessels were cut or removed afterwards: one that is missing then was not lost.
-[[nodiscard]] std::optional<Surface> surface_before_openings(Session& session,
-                                                             const std::string& variant);
 
 }  // namespace vesselbench

@@ -161,7 +161,8 @@ void check(const Surface& surface, std::size_t patch, const PatchShape& shape,
                            "' is wall: only a cap can be extruded");
     if (shape.flatness > kLargestFlatness * shape.diameter())
         throw AlgorithmFailure("the cap '" + surface.patches[patch].name +
-                               "' is not flat: clip it first (clip-opening)");
+                               "' is not flat: clip it first with clip-opening tip=" +
+                               coordinates_argument(shape.plane.point));
 }
 
 class Extruder {

@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
@@ -136,6 +137,13 @@ public:
         return std::max(reach_of_cut(), length - furcation_zone_end(graph_, branch_, other));
     }
 
+    /// A vessel that can go: narrower than the one that it leaves, and long enough to tell.
+    bool is_side_branch() const {
+        const auto blind = blind_branch(graph_, tip_);
+        return blind && blind->widest < std::min(blind->parent, blind->length) &&
+               !is_trunk(graph_, tip_);
+    }
+
     /// True if there is neither an open border nor a known cap at the tip: the end may be rounded.
     bool is_blind() const {
         const Vec3 tip = graph_.nodes[tip_].position;
@@ -229,9 +237,10 @@ double first_whole(const BranchFromEnd& branch, bool blind, const Vec3& tip) {
     double first = 0.5 * kSearchStep * branch.radius;
     while (first < utmost && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
     if (first >= utmost)
-        fail(tip,
-             "has no whole section before its furcation or its other end: remove it "
-             "(remove-branch), or give the distance from its tip");
+        fail(tip, "has no whole section before its furcation or its other end: " +
+                      std::string(branch.is_side_branch() ? "remove it with remove-branch tip=" +
+                                                                coordinates_argument(tip)
+                                                          : "give the distance from its tip"));
     return first;
 }
 

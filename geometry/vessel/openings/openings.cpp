@@ -28,8 +28,6 @@ constexpr double kLeastRiseAtTip = 30.0;
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
 constexpr double kNoticedTiltDeg = 2.0;
-/// Ends at least this wide beside the largest opening count as large [-].
-constexpr double kAsLarge = 1.1;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
 
@@ -230,7 +228,7 @@ private:
             return close(e, "it lies in the side of a vessel that passes there");
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
-            records_[e].sac = blind && (blind->bulges || blind->is_short());
+            records_[e].sac = blind && blind->bulges;
             return close(e,
                          "a closed end: the surface's own rims are its openings" + opening_text(e));
         }
@@ -243,14 +241,16 @@ private:
         close(e, records_[e].why);
     }
 
-    /// A blind branch beside open rims is an end after all if it is the widest one, and long.
+    /// A blind branch beside open rims is an end after all if it is the widest one and no sac:
+    /// long, or a trunk.
     bool is_wider_than_all(std::size_t e) const {
         for (std::size_t other = 0; other < ends_.size(); ++other)
             if (ends_[other].is_visible() && made_[other] &&
                 ends_[other].diameter >= ends_[e].diameter)
                 return false;
         const auto blind = blind_branch(graph_, *ends_[e].tip);
-        return !options_.strict && blind && !blind->is_short() && !blind->bulges;
+        return !options_.strict && blind && !blind->bulges &&
+               (!blind->is_short() || is_trunk(e, *blind));
     }
 
     /// As long as it is wide, and wider than every visible end: it is where the blood enters, and
@@ -284,7 +284,7 @@ private:
         const SurfaceEnd& end = ends_[e];
         if (!end.tip || end.patch || has_failed(e, graph_.nodes[*end.tip].position)) return false;
         const auto blind = blind_branch(graph_, *end.tip);
-        return blind && blind->is_stub();
+        return blind && blind->is_stub() && blind->length < kMostGivenUp * end.diameter;
     }
 
     /// The place of the cuts was given.
@@ -297,9 +297,18 @@ private:
     }
 
     bool has_failed(std::size_t e, const Vec3& place) const {
-        return std::ranges::any_of(options_.failed, [&](const FailedCut& failed) {
-            return (failed.place - place).norm() < 1e-6 * (1.0 + ends_[e].diameter);
+        return failure_at(e, place) != nullptr;
+    }
+
+    const FailedCut* failure_at(std::size_t e, const Vec3& place) const {
+        const double same = 1e-6 * (1.0 + ends_[e].diameter);
+        const Vec3 tip = tip_place(ends_[e]);
+        const auto found = std::ranges::find_if(options_.failed, [&](const FailedCut& failed) {
+            const double beyond = (place - tip).norm() - (failed.place - tip).norm();
+            return (failed.place - place).norm() < same ||
+                   (failed.lost && (failed.tip - tip).norm() < same && beyond > -same);
         });
+        return found == options_.failed.end() ? nullptr : &*found;
     }
 
     // --- keeping ---------------------------------------------------------------------------------
@@ -411,7 +420,10 @@ private:
 
     bool is_free(const OpeningPlace& place, std::size_t e) {
         progress_.check_cancelled();
-        if (has_failed(e, place.plane.point)) return false;
+        if (const FailedCut* failed = failure_at(e, place.plane.point)) {
+            records_[e].why = failed->why;
+            return false;
+        }
         if (options_.tip && is_fixed()) return true;  // as the user says
         const std::string problem = trials_.problem_of(place, e);
         if (problem.empty()) return true;
@@ -503,7 +515,8 @@ private:
     /// An end's own vessel, beyond the others, is at least this long [diameters of the end].
     static constexpr double kLeastOwnVessel = 0.1;
 
-    /// A cut farther from its tip [diameters] would lose a vessel (lost_vessels).
+    /// A cut farther from its tip [diameters], or the removal of a longer stub, would lose a vessel
+    /// (lost_vessels).
     static constexpr double kMostGivenUp = 2.8;
 
     /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
@@ -523,42 +536,6 @@ private:
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened
     OpeningPlan plan_;
 };
-
-std::string ends_text(const OpeningPlan& plan) {
-    std::string text;
-    for (const EndRecord& end : plan.ends)
-        text += "\n  " + to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
-                formatted(end.diameter) + " mm" + (end.why.empty() ? "" : ": " + end.why);
-    return text;
-}
-
-/// Closed ends that nobody wanted closed, the widest first, at most `count`.
-std::vector<EndRecord> largest_closed(const OpeningPlan& plan, std::size_t count) {
-    std::vector<EndRecord> closed;
-    for (const EndRecord& end : plan.ends)
-        if (end.fate == EndFate::Closed && !end.asked) closed.push_back(end);
-    std::ranges::stable_sort(closed, std::greater{}, &EndRecord::diameter);
-    closed.resize(std::min(closed.size(), count));
-    return closed;
-}
-
-/// What to do about ends that should not be closed.
-std::string remedy(const std::vector<EndRecord>& ends) {
-    std::vector<std::string> open, by_hand, closed;
-    for (const EndRecord& end : ends) {
-        const std::string place = coordinates_argument(end.place);
-        (end.tried ? by_hand : open).push_back(place);
-        closed.push_back(place);
-    }
-    std::vector<std::string> ways;
-    if (!open.empty()) ways.push_back("clip-opening open=" + joined(open, ",") + " opens it");
-    if (!by_hand.empty())
-        ways.push_back("clip-opening tip=" + by_hand.front() + " distance=MM cuts it by hand");
-    if (!closed.empty())
-        ways.push_back("closed=" + joined(closed, ",") + " leaves it closed on purpose");
-    ways.emplace_back("check=none makes a model that is not for flow");
-    return "\n" + joined(ways, "; ") + " (with prepare: --set clip-opening.NAME=VALUE)";
-}
 
 }  // namespace
 
@@ -589,25 +566,6 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                           const OpeningPlanOptions& options, const Progress& progress) {
     return Planner(surface, graph, options, progress).run();
-}
-
-void check_flow(const OpeningPlan& plan) {
-    if (plan.openings.size() < 2)
-        throw AlgorithmFailure("a flow needs two openings, and there " +
-                               std::string(plan.openings.empty() ? "is none" : "is one only") +
-                               ". The ends found:" + ends_text(plan) +
-                               remedy(largest_closed(plan, 2 - plan.openings.size())));
-    double largest = 0.0;
-    for (const EndRecord& end : plan.ends)
-        if (end.opening) largest = std::max(largest, end.diameter);
-    for (const EndRecord& end : plan.ends)
-        if (end.fate == EndFate::Closed && !end.sac && !end.asked &&
-            end.diameter > kAsLarge * largest)
-            throw AlgorithmFailure(
-                "the largest end, at " + place_text(end.place) + " with a diameter of " +
-                formatted(end.diameter) + " mm, is closed (" + end.why +
-                "): blood would enter elsewhere. The ends found:" + ends_text(plan) +
-                remedy({end}));
 }
 
 }  // namespace vesselbench

@@ -49,7 +49,7 @@ struct EndRecord {
     EndFate fate = EndFate::Closed;
     std::string why;     ///< may be empty: opened at the chosen place
     bool plain = false;  ///< kept, or opened at the chosen place
-    bool sac = false;    ///< closed since it looks like an aneurysm
+    bool sac = false;    ///< it looks like an aneurysm: closed, however wide
     bool asked = false;  ///< closed since the caller wants it so
     bool tried = false;  ///< closed since it could not be cut
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
@@ -68,6 +68,7 @@ struct FailedCut {
     Vec3 tip = Vec3::Zero();  ///< [mm]
     Vec3 place = Vec3::Zero();
     std::string why;
+    bool lost = false;  ///< a vessel went with it: so it would from farther inside
 };
 
 struct OpeningPlanOptions {
@@ -87,6 +88,9 @@ struct OpeningPlanOptions {
     Positions closed;  ///< near the ends that stay closed [mm]
     std::vector<FailedCut> failed;  ///< places to be avoided
 };
+
+/// Ends at least this wide beside the largest opening count as large [-].
+inline constexpr double kAsLarge = 1.1;
 
 /// A border or a cap belongs to a tip within this many of its diameters [-].
 inline constexpr double kEndReach = 1.5;
@@ -110,9 +114,5 @@ inline constexpr double kEndReach = 1.5;
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {},
                                         const Progress& progress = {});
-
-/// What a flow needs of a plan: two openings, the largest end among them.
-/// \throw AlgorithmFailure that lists all ends with their reasons, and what to do
-void check_flow(const OpeningPlan& plan);
 
 }  // namespace vesselbench

@@ -14,6 +14,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/openings/vessel_tube.h"
 
 namespace vesselbench {
@@ -265,12 +266,18 @@ BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph
                             const BranchRemovalParameters& parameters) {
     const BranchRoot root = branch_root(graph, tip);
     const Vec3 at = graph.nodes[tip].position;
+    if (is_trunk(graph, tip))
+        throw AlgorithmFailure("the vessel with its tip at " + place_text(at) +
+                               " is the trunk that the others leave: open it, or cut it there, "
+                               "with clip-opening tip=" +
+                               coordinates_argument(at));
     auto removed = triangles_to_remove(surface, root, at, parameters.margin);
     const auto rim = single_rim(surface, removed);
     if (rim.size() < 3)
         throw AlgorithmFailure(
             "the branch with its tip at " + place_text(at) +
-            " is as wide as its parent vessel: cut it there with clip-opening instead");
+            " is as wide as its parent vessel: cut it there with clip-opening tip=" +
+            coordinates_argument(at) + " instead");
     BranchRemoval result{.mouth = root.mouth, .removed_area = area_of(surface, removed)};
     EditableSurface edited(surface);
     edited.remove(removed);

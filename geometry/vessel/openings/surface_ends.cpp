@@ -164,15 +164,27 @@ std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_
         const double r = radius_at(branch, place_from_node(graph, index, root, s).abscissa);
         neck = std::min(neck, r);
         found.widest = std::max(found.widest, r);
-        found.bulges = found.bulges || r > kSacToNeck * neck;
+        found.necked = found.necked || r > kSacToNeck * neck;
     }
-    for (const std::size_t other : graph.nodes[root].branches)
-        if (other != index)
-            found.parent = std::max(found.parent, radius_beyond(graph, other, root));
-    found.bulges = found.bulges || found.widest > kSacToNeck * found.parent ||
+    found.narrowest = std::numeric_limits<double>::infinity();
+    for (const std::size_t other : graph.nodes[root].branches) {
+        if (other == index) continue;
+        const double radius = radius_beyond(graph, other, root);
+        found.parent = std::max(found.parent, radius);
+        found.narrowest = std::min(found.narrowest, radius);
+    }
+    found.bulges = found.necked || found.widest > kSacToNeck * found.parent ||
                    (found.length < kBallLength * found.widest &&
                     rise_behind_neck(graph, index, root) > kBallToNeck);
     return found;
+}
+
+bool is_trunk(const CenterlineGraph& graph, std::size_t tip) {
+    const auto blind = blind_branch(graph, tip);
+    if (!blind || blind->necked || (blind->bulges && blind->is_short())) return false;
+    const double radius = tip_radius(graph, tip);
+    const double widest = tip_radius(graph, tips_by_radius(graph).front());
+    return kAsLarge * radius >= widest && radius > kAsLarge * blind->narrowest;
 }
 
 }  // namespace vesselbench

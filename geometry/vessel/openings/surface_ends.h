@@ -31,10 +31,12 @@ struct SurfaceEnd {
 
 /// The part of a branch beyond the wall of the vessel it leaves.
 struct BlindBranch {
-    double length = 0.0;  ///< [mm]
-    double widest = 0.0;  ///< largest radius [mm]
-    double parent = 0.0;  ///< radius of the widest other vessel at the furcation [mm]
-    bool bulges = false;  ///< wider than its neck, or than every vessel it joins: a sac
+    double length = 0.0;     ///< [mm]
+    double widest = 0.0;     ///< largest radius [mm]
+    double parent = 0.0;     ///< radius of the widest other vessel at the furcation [mm]
+    double narrowest = 0.0;  ///< radius of the narrowest other one [mm]
+    bool bulges = false;     ///< wider than its neck, or than every vessel it joins: a sac
+    bool necked = false;     ///< wider than its own neck by as much as sacs only are
 
     /// Not longer than a sac may be.
     [[nodiscard]] bool is_short() const;
@@ -46,5 +48,9 @@ struct BlindBranch {
 /// Empty for a vessel without a furcation.
 [[nodiscard]] std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph,
                                                       std::size_t tip);
+
+/// True for a vessel that others leave: none of the ends is clearly wider, it is clearly wider than
+/// one of the vessels at its furcation, and it is no sac.
+[[nodiscard]] bool is_trunk(const CenterlineGraph& graph, std::size_t tip);
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
@@ -44,6 +45,8 @@ struct RepairReport {
     std::size_t duplicate_triangles = 0;
     std::size_t removed_components = 0;
     std::size_t removed_component_triangles = 0;
+    std::optional<PieceShape> removed_vessel;  ///< the longest one that is a vessel
+    std::size_t keeping_it = 0;                ///< number of components to keep so that it stays
     std::size_t non_manifold_edges = 0;
     std::size_t non_manifold_vertices = 0;
     std::size_t turned_triangles = 0;    ///< to make the orientation consistent

@@ -9,6 +9,7 @@
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/point_welder.h"
 
 namespace vesselbench {
@@ -92,6 +93,20 @@ void check_main_part(const std::vector<Part>& order, double whole) {
         " % of the area: this is not a connected surface; export it again with shared points");
 }
 
+/// Of the parts behind the first `count`, the longest vessel.
+void note_vessel(const TriangleSoup& mesh, const Components& parts, const std::vector<Part>& order,
+                 std::size_t count, RepairReport& report) {
+    std::vector<bool> kept(order.size(), false);
+    for (std::size_t i = 0; i < std::min(count, order.size()); ++i) kept[order[i].number] = true;
+    const auto vessel = longest_dropped_vessel(
+        piece_shapes(mesh.points, mesh.triangles, parts.of_triangle, parts.count()), kept);
+    if (!vessel || (report.removed_vessel && report.removed_vessel->length >= vessel->length))
+        return;
+    report.removed_vessel = vessel;
+    const auto rank = std::ranges::find(order, vessel->piece, &Part::number) - order.begin();
+    report.keeping_it = static_cast<std::size_t>(rank) + 1;
+}
+
 }  // namespace
 
 double mean_side(const TriangleSoup& mesh) {
@@ -155,6 +170,7 @@ void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport
     if (parts.count() <= 1) return;
     const std::vector<Part> order = parts_by_area(mesh, parts);
     check_main_part(order, area_of(mesh));
+    note_vessel(mesh, parts, order, count, report);
     std::vector<std::uint8_t> drop(parts.count(), 0);
     for (std::size_t i = count; i < order.size(); ++i) {
         drop[order[i].number] = 1;
