@@ -36,6 +36,12 @@ bool skipped(const Device& device, DeviceCommand command) {
     return skip;
 }
 
+/// Later commands see what dispatches have written.
+void wait_for_writes(const Device& device) {
+    ++device.counts->barriers;
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 [[noreturn]] void report_out_of_memory(const std::string& label, std::size_t bytes) {
     throw GpuUnavailable("the device is out of memory for " + label + " (" + std::to_string(bytes) +
                          " bytes)");
@@ -45,6 +51,8 @@ bool skipped(const Device& device, DeviceCommand command) {
 void allocate(const Device& device, unsigned target, std::size_t bytes, const void* content,
               const std::string& label) {
     collect_errors(device);
+    ++device.counts->allocations;
+    if (content != nullptr) device.counts->uploaded += bytes;
     glBufferData(target, static_cast<GLsizeiptr>(bytes), content, GL_STATIC_COPY);
     if (fails_by_intent(device, DeviceCommand::Allocate) || glGetError() != GL_NO_ERROR)
         report_out_of_memory(label, bytes);
@@ -80,6 +88,7 @@ std::string info_log(unsigned id, bool linked) {
 
 Program make_compute_program(const Device& device, const std::string& name) {
     const ShaderSource source = assemble_shader(*device.shaders, name + ".comp");
+    ++device.counts->compiles;
     Program program(glCreateProgram());
     const unsigned shader = glCreateShader(GL_COMPUTE_SHADER);
     const char* text = source.text.c_str();
@@ -106,6 +115,7 @@ Buffer make_storage(const Device& device, std::size_t bytes, const std::string& 
 
 void copy_storage(const Device& device, const Buffer& from, const Buffer& to, std::size_t bytes) {
     if (skipped(device, DeviceCommand::Copy)) return;
+    device.counts->copied += bytes;
     glBindBuffer(GL_COPY_READ_BUFFER, from.id());
     glBindBuffer(GL_COPY_WRITE_BUFFER, to.id());
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -141,7 +151,8 @@ void dispatch(const Device& device, const Program& program, std::size_t elements
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<unsigned>(elements));
     glDispatchCompute(static_cast<unsigned>(in_row), static_cast<unsigned>(rows), 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    ++device.counts->dispatches;
+    wait_for_writes(device);
 }
 
 void dispatch_group(const Device& device, const Program& program, std::size_t elements) {
@@ -149,7 +160,8 @@ void dispatch_group(const Device& device, const Program& program, std::size_t el
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<unsigned>(elements));
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    ++device.counts->dispatches;
+    wait_for_writes(device);
 }
 
 void finish_device() {
@@ -193,6 +205,8 @@ void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte>
     glBindBuffer(GL_COPY_WRITE_BUFFER, id);
     allocate(device, GL_COPY_WRITE_BUFFER, bytes.size(), nullptr, "reading");
     copy_storage(device, buffer, staging, bytes.size());
+    ++device.counts->reads;
+    device.counts->read_back += bytes.size();
     if (!skipped(device, DeviceCommand::Read))
         glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()),
                            bytes.data());

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "gpu/device_counts.h"
 #include "gpu/device_health.h"
 
 namespace vesselbench {
@@ -33,6 +34,7 @@ struct Device {
     /// Asked before each command, by tests: true if it is to fail. Null: none fails by intent.
     std::function<bool(DeviceCommand)> fails;
     std::shared_ptr<DeviceHealth> health = std::make_shared<DeviceHealth>();
+    std::shared_ptr<DeviceCounts> counts = std::make_shared<DeviceCounts>();
 };
 
 /// The device of the current context.
