@@ -38,7 +38,7 @@ void main() {
     double weights = 0.0lf, area = 0.0lf, angles = 0.0lf;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i) {
-        dvec3 to_next = exact_edge(v, corners[i].x), to_last = exact_edge(v, corners[i].y);
+        dvec3 to_next = exact_edge(v, corner(i).x), to_last = exact_edge(v, corner(i).y);
         add_triangle(to_next, to_last, sum, weights);
         CornerShare share = corner_share(to_next, to_last);
         flow += share.flow;

@@ -1,6 +1,6 @@
 // The reference of each moved vertex: the original vertex that it drifts to along the original's edges
 // (geometry/kernel/local_error.h).
-layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
+layout(std430, binding = 5) restrict readonly buffer OriginalShifts { vec4 original_shifts[]; };
 layout(std430, binding = 7) buffer References { uint references[]; };
 
 // From a vertex to the original place of another one.
@@ -26,10 +26,10 @@ uint drifted(uint reference, uint v) {
         uint from = reference, end = first_corner(from + 1u);
         for (uint i = first_corner(from); i < end; ++i)
             for (int k = 0; k < 2; ++k) {
-                float squared = squared_to(corners[i][k], v);
+                float squared = squared_to(corner(i)[k], v);
                 if (!(squared < closest)) continue;
                 closest = squared;
-                reference = corners[i][k];
+                reference = corner(i)[k];
                 closer = true;
             }
     }

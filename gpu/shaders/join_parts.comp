@@ -25,7 +25,7 @@ void main() {
     if (v >= element_count || labels[v] == none) return;
     uint end = offsets[v + 1u];
     for (uint i = offsets[v]; i < end; ++i) {
-        uint u = neighbours[i];
+        uint u = neighbour(i);
         if (u < v && labels[u] != none) join(u, v);
     }
 }

@@ -17,7 +17,7 @@ void main() {
     float weights = 0.0;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i)
-        add_triangle(edge(v, corners[i].x), edge(v, corners[i].y), sum, weights);
+        add_triangle(edge(v, corner(i).x), edge(v, corner(i).y), sum, weights);
     if (!(weights > 0.0)) return;
     vec3 moved = own.xyz + own.w * factors.x * (sum / weights);
     if (cell != 0) moved = inside_cell(start[v].xyz, moved);

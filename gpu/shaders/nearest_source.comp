@@ -10,10 +10,10 @@
 #include "staircase_search.glsl"
 #include "cells.glsl"
 
-layout(std430, binding = 1) writeonly buffer Doubts { uint doubts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Doubts { uint doubts[]; };
 layout(std430, binding = 2) buffer Nearest { uint nearest[]; };
-layout(std430, binding = 5) readonly buffer CellOffsets { uint cell_offsets[]; };
-layout(std430, binding = 6) readonly buffer Sources { uint sources_by_cell[]; };
+layout(std430, binding = 5) restrict readonly buffer CellOffsets { uint cell_offsets[]; };
+layout(std430, binding = 6) restrict readonly buffer Sources { uint sources_by_cell[]; };
 layout(location = 1) uniform double reach;  // [mm]
 
 const double slack = 1.0lf + 1e-9lf;  // for rounding
@@ -71,7 +71,7 @@ bool walk_arrives(uint v, uint source) {
     for (uint steps = 0u; v != source; ++steps) {
         uint from = v, end = offsets[from + 1u];
         for (uint i = offsets[from]; i < end; ++i) {
-            uint u = neighbours[i];
+            uint u = neighbour(i);
             if (u == source) return true;
             double there = squared_length(exact_at(u) - goal);
             if (there < here) {

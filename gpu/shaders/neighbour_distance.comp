@@ -23,9 +23,9 @@ struct Dipole {
 };
 
 layout(std430, binding = 1) buffer Distances { float distances[]; };
-layout(std430, binding = 3) readonly buffer Nodes { Node nodes[]; };
-layout(std430, binding = 4) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 5) readonly buffer Dipoles { Dipole dipoles[]; };
+layout(std430, binding = 3) restrict readonly buffer Nodes { Node nodes[]; };
+layout(std430, binding = 4) restrict readonly buffer Corners { vec4 corners[]; };
+layout(std430, binding = 5) restrict readonly buffer Dipoles { Dipole dipoles[]; };
 layout(location = 1) uniform bool closed;
 layout(location = 2) uniform float far_factor;  // distance, in radii, from which a node counts as distant
 

@@ -7,7 +7,7 @@
 #include "part_planes.glsl"
 
 layout(std430, binding = 6) buffer Count { uint count; };
-layout(std430, binding = 7) writeonly buffer Listed { uvec2 listed[]; };
+layout(std430, binding = 7) restrict writeonly buffer Listed { uvec2 listed[]; };
 layout(location = 1) uniform uint smallest;  // faces of a cap
 layout(location = 2) uniform bool lists;
 

@@ -11,8 +11,8 @@
 #define VEC3 vec3
 #include "corner_curvature.glsl"
 
-layout(std430, binding = 1) writeonly buffer Normals { vec4 normals[]; };
-layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = 2) restrict writeonly buffer Parts { vec4 parts[]; };
 
 // Component of the flow along the normal (Eq. 6.3); 0 if it is below the rounding of the areas.
 float along(vec3 flow, vec3 normal, float doubled_areas) {
@@ -25,7 +25,7 @@ vec4 shape_of(uint v) {
     float area = 0.0, doubled_areas = 0.0;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i) {
-        CornerShare share = corner_share(edge(v, corners[i].x), edge(v, corners[i].y));
+        CornerShare share = corner_share(edge(v, corner(i).x), edge(v, corner(i).y));
         flow += share.flow;
         area += share.area;
         doubled_areas += share.across;

@@ -130,7 +130,7 @@ SCENARIO("Numbers beyond single precision end a run, and no loop runs on", "[gpu
     smoother.run(200);
     CHECK_THROWS_WITH(smoother.positions(), Catch::Contains("diverges"));
     GpuMeter meter(device);
-    const Buffer references = meter.make_references();
+    const PooledBuffer references = meter.make_references();
     meter.follow(smoother.shifts(), references);
     meter.measure(smoother.shifts(), references, true);
     CHECK_NOTHROW(meter.read());
