@@ -19,9 +19,10 @@ float squared_to(uint u, uint v) {
 
 // Every step comes strictly closer, so the loop ends. Comparisons are false for not-a-number.
 uint drifted(uint reference, uint v) {
+    reference = min(reference, element_count - 1u);
     float closest = squared_to(reference, v);
     bool closer = true;
-    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
+    for (uint steps = 0u; closer && steps < element_count; ++steps) {
         closer = false;
         uint from = reference, end = first_corner(from + 1u);
         for (uint i = first_corner(from); i < end; ++i)

@@ -2,18 +2,23 @@
 // Flat vertices, none of whose triangles deviates from their normal
 // (smoothing/context/flat_areas.h): each is its own label; all others get none.
 // 0 normals of the triangles, 1 out: unit normals, 2 out: labels, 3 offsets and 4 triangles at
-// every vertex
+// every vertex. Wide: the normals would not fit a buffer; 0 exact positions and 1 triangles instead
 #include "elements.glsl"
 #include "triangles_at.glsl"
 #include "parts.glsl"
 #include "part_planes.glsl"
 
-layout(std430, binding = 0) restrict readonly buffer FaceNormals { double face_normals[]; };
 layout(location = 1) uniform double flat_cosine;
 
 const double zero = 1e-12lf;  // [mm^2], as Eigen's isZero()
 
+#ifdef WIDE
+#include "area_normal.glsl"
+dvec3 face_normal(uint t) { return area_normal(t); }
+#else
+layout(std430, binding = 0) restrict readonly buffer FaceNormals { double face_normals[]; };
 dvec3 face_normal(uint t) { return dvec3(face_normals[3u * t], face_normals[3u * t + 1u], face_normals[3u * t + 2u]); }
+#endif
 
 void main() {
     uint v = element();

@@ -8,7 +8,7 @@
 #include "neighbours.glsl"
 
 void join(uint a, uint b) {
-    for (uint tries = 0u; tries < most_steps; ++tries) {
+    for (uint tries = 0u; tries < element_count; ++tries) {
         a = first_of(a);
         b = first_of(b);
         if (a == b) return;

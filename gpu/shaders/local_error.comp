@@ -41,7 +41,7 @@ RingPlace closest_in_ring(uint centre, uint v) {
 float to_ring(uint reference, uint v) {
     RingPlace best = closest_in_ring(reference, v);
     bool closer = best.outer;
-    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
+    for (uint steps = 0u; closer && steps < element_count; ++steps) {
         closer = false;
         uvec2 ends = best.ends;
         for (int k = 0; k < 2; ++k) {

@@ -48,7 +48,7 @@ void look_around(dvec3 p, double distance, inout Source best) {
         for (int y = first.y; y <= last.y; ++y) {
             double dy = gap(at.y, y);
             if (dy * dy + dz * dz > best.squared * squared_scale) continue;
-            uint row = first_in_row(y, z), end = cell_offsets[row + uint(last.x) + 1u];
+            uint row = first_in_row(y, z), end = min(cell_offsets[row + uint(last.x) + 1u], uint(sources_by_cell.length()));
             for (uint i = cell_offsets[row + uint(first.x)]; i < end; ++i) look_at(sources_by_cell[i], p, best);
         }
     }
@@ -79,7 +79,7 @@ bool walk_arrives(uint v, uint source) {
                 v = u;
             }
         }
-        if (v == from || steps >= most_steps) return false;
+        if (v == from || steps >= element_count) return false;
     }
     return true;
 }
