@@ -16,6 +16,16 @@ namespace vesselbench::test {
 
 namespace {
 
+void fail_by_report(const std::string& text) {
+    FAIL_CHECK("OpenGL reported: " << text);
+}
+
+/// A context and what it reports.
+struct Watched {
+    OffscreenContext context{Sharing::None, true};
+    DebugOutput reports{fail_by_report};
+};
+
 /// Without coincident triangles, whose summed normals are rounding errors only.
 Surface repaired(const Surface& surface) {
     return repair(surface).surface;
@@ -26,13 +36,17 @@ Surface repaired(const Surface& surface) {
 std::optional<TestDevice> test_device() {
     try {
         TestDevice test;
-        test.reports = std::make_unique<DebugOutput>(
-            [](const std::string& text) { FAIL_CHECK("OpenGL reported: " << text); });
+        test.reports = std::make_unique<DebugOutput>(fail_by_report);
         return test;
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return std::nullopt;
     }
+}
+
+HeldDevice watched_device() {
+    auto context = std::make_shared<Watched>();
+    return {std::move(context), current_device()};
 }
 
 std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test, const Surface& surface) {

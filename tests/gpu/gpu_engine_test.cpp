@@ -64,7 +64,8 @@ SCENARIO("A search on the device finds what it finds on the CPU", "[gpu][engine]
     for (const auto& [name, surface] : varied_surfaces()) {
         INFO(name);
         const double diagonal = bounds(surface).diagonal();
-        const ChosenEngine chosen = make_engine(DeviceChoice::Gpu, ground_of(surface), true);
+        const ChosenEngine chosen =
+            make_engine(DeviceChoice::Gpu, ground_of(surface), true, watched_device);
         REQUIRE(chosen.on_gpu);
         CHECK(chosen.reason.empty());
         const auto cpu = make_cpu_engine(ground_of(surface), true);
@@ -82,7 +83,8 @@ SCENARIO("Uploaded weights are reused", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
-    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube)).engine;
+    const auto engine =
+        make_engine(DeviceChoice::Gpu, ground_of(tube), false, watched_device).engine;
     const auto measured = [&](const std::shared_ptr<const std::vector<double>>& weights) {
         const auto run = engine->start({LaplaceParameters{}, weights});
         run->advance_to(5, {});
@@ -126,7 +128,7 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
     const double diagonal = bounds(surface).diagonal();
     bool lost = false;
     const DeviceSource source = [&] {
-        HeldDevice held = offscreen_device();
+        HeldDevice held = watched_device();
         held.device.lost = [&] { return lost; };
         return held;
     };
@@ -154,7 +156,8 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
         CHECK(std::exchange(asked, 0) == 2);
         lost = false;
     }
-    const auto without = make_engine(DeviceChoice::Gpu, ground_of(surface)).engine;
+    const auto without =
+        make_engine(DeviceChoice::Gpu, ground_of(surface), false, watched_device).engine;
     CHECK_FALSE(without->weighs_staircases());
     compare_runs(*without, *cpu,
                  {LaplaceParameters{0.8}, nullptr, staircase_choice({0.4, 3.0, 0.1}, on_cpu)},
@@ -165,7 +168,8 @@ SCENARIO("A copied run on the device continues like the original", "[gpu][engine
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
-    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube)).engine;
+    const auto engine =
+        make_engine(DeviceChoice::Gpu, ground_of(tube), false, watched_device).engine;
     const auto first = engine->start({TaubinParameters{}, nullptr});
     first->advance_to(7, {});
     const auto second = first->copy();
@@ -202,7 +206,7 @@ SCENARIO("If the device fails in a search, the CPU takes over", "[gpu][engine]")
     if (!test) return;
     bool lost = false;
     const DeviceSource source = [&] {
-        HeldDevice held = offscreen_device();
+        HeldDevice held = watched_device();
         held.device.lost = [&] { return lost; };
         return held;
     };
@@ -233,7 +237,7 @@ SCENARIO("If the device fails in a search, the CPU takes over", "[gpu][engine]")
     GIVEN("a shader that does not compile") {
         const std::map<std::string, std::string> none;
         const ChosenEngine chosen = make_engine(DeviceChoice::Gpu, ground_of(sphere), false, [&] {
-            HeldDevice held = offscreen_device();
+            HeldDevice held = watched_device();
             held.device.shaders = &none;
             return held;
         });
@@ -248,7 +252,7 @@ SCENARIO("A search reads once for all iterations of a filter", "[gpu][engine]") 
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
     std::shared_ptr<DeviceCounts> counts;
     const DeviceSource source = [&] {
-        HeldDevice held = offscreen_device();
+        HeldDevice held = watched_device();
         counts = held.device.counts;
         return held;
     };
@@ -277,8 +281,9 @@ SCENARIO("Measures of a filter that diverges are refused, and a search leaves th
     if (!test_device()) return;
     const Surface sphere = varied_surfaces().front().surface;
     const SmoothingChoice choice{TaubinParameters{.lambda = 1.0, .mu = -2.0}, nullptr};
-    for (const auto& engine : {make_cpu_engine(ground_of(sphere)),
-                               make_engine(DeviceChoice::Gpu, ground_of(sphere)).engine}) {
+    for (const auto& engine :
+         {make_cpu_engine(ground_of(sphere)),
+          make_engine(DeviceChoice::Gpu, ground_of(sphere), false, watched_device).engine}) {
         const auto run = engine->start(choice);
         run->advance_to(200, {});
         CHECK_THROWS_WITH(run->measure(), Catch::Contains("diverges"));

@@ -19,7 +19,7 @@ namespace {
 
 std::optional<OffscreenContext> context() {
     try {
-        return OffscreenContext();
+        return OffscreenContext(Sharing::None, true);
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return std::nullopt;
