@@ -123,6 +123,12 @@ void time_smoothing(const HeldDevice& held, const Surface& surface, double bandw
         vertices, whole.device, whole.clock, filter.device, filter.clock, target,
         whole.device < target ? "met" : "not met");
     print_counts(held.device, "of it", smooth_and_measure);
+    const Times anisotropic = times_of([&] {
+        smoother.start(AnisotropicParameters{});
+        smoother.run(kIterations);
+    });
+    std::printf("          anisotropic instead: %.3f ms, by the clock %.3f\n", anisotropic.device,
+                anisotropic.clock);
     std::printf("          %.0f %% of the copy bandwidth%s\n", 100.0 * share,
                 vertices < 1e6 ? ""
                 : share >= 0.4 ? ", target >= 40: met"

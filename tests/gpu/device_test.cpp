@@ -47,6 +47,11 @@ SCENARIO("Included texts appear in a shader once, and messages name their lines"
     CHECK(explained_log(texts, source, "ERROR: 1:1: no one\n") == "b.glsl:1: no one\n    one\n");
     CHECK(explained_log(texts, source, "something else\n") == "something else\n");
     CHECK_THROWS_AS(assemble_shader(texts, "c.comp"), GpuUnavailable);
+    CHECK(
+        assemble_shader({{"a.comp", "#version 430 core\n#include \"b.glsl\"\n#again \"b.glsl\"\n"},
+                         {"b.glsl", "one\n"}},
+                        "a.comp")
+            .text == "#version 430 core\n#line 1 1\none\n#line 3 0\n#line 1 2\none\n#line 4 0\n");
 }
 
 SCENARIO("A shader that does not compile is reported by file and line", "[gpu][device]") {
