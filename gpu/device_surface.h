@@ -57,8 +57,9 @@ public:
         return topology_->rings(device_, count);
     }
 
-    /// The other two corners of the triangles at every vertex, in triangle orientation: uvec2. The
-    /// highest bit of an offset is set if the vertex is on a boundary.
+    /// The other two corners of the triangles at every vertex, in triangle orientation and, where
+    /// connected, in the order around the vertex: uvec2. The highest bit of an offset is set if the
+    /// vertex is on a boundary.
     [[nodiscard]] const DeviceRows& corners() const { return topology_->corners(device_); }
 
     /// True if its tables are read through views (DeviceTable): it is too large for storage blocks.

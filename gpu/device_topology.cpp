@@ -24,6 +24,25 @@ std::size_t largest_table(const Topology& topology) {
                     topology.vertex_count() * 3 * sizeof(double));
 }
 
+/// Puts the corners of a vertex in the order around it, where they are connected: each begins with
+/// the neighbour at which the last one ends.
+void connect(std::span<Corner> corners) {
+    const auto starts = [&](const Corner& corner) {
+        return std::ranges::none_of(corners,
+                                    [&](const Corner& other) { return other[1] == corner[0]; });
+    };
+    // An open fan begins at the boundary; a closed one anywhere.
+    const auto first = std::ranges::find_if(corners, starts);
+    if (first != corners.end()) std::iter_swap(corners.begin(), first);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        const auto next =
+            std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(i), corners.end(),
+                         [&](const Corner& c) { return c[0] == corners[i - 1][1]; });
+        if (next != corners.end())
+            std::iter_swap(corners.begin() + static_cast<std::ptrdiff_t>(i), next);
+    }
+}
+
 void leave(const DeviceTable& table) {
     table.buffer.leave();
     table.view.leave();
@@ -91,6 +110,7 @@ const DeviceRows& DeviceTopology::corners(const Device& device) const {
             const std::size_t at = corner_of(t, static_cast<VertexId>(v));
             others[i] = {t[(at + 1) % 3], t[(at + 2) % 3]};
         }
+        connect(std::span(others).subspan(rows.offsets[v], rows.offsets[v + 1] - rows.offsets[v]));
     });
     std::vector<std::uint32_t> offsets = rows.offsets;
     const auto& boundary = topology_->boundary_vertices();

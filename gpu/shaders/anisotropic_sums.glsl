@@ -13,9 +13,13 @@ AnisotropicSums anisotropic_sums(uint v, VEC3 zero) {
     VEC3 flow = zero, normal = zero;
     REAL angles = REAL(0.0);
     AnisotropicSums sums = AnisotropicSums(zero, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), false);
-    uint end = first_corner(v + 1u);
+    uint end = first_corner(v + 1u), last = no_vertex;
+    VEC3 to_last = zero;
     for (uint i = first_corner(v); i < end; ++i) {
-        VEC3 to_next = edge_of(v, corner(i).x, zero), to_last = edge_of(v, corner(i).y, zero);
+        uvec2 others = corner(i);
+        VEC3 to_next = others.x == last ? to_last : edge_of(v, others.x, zero);
+        last = others.y;
+        to_last = edge_of(v, last, zero);
         add_triangle(to_next, to_last, sums.way, sums.weights);
         CornerShare share = corner_share(to_next, to_last);
         flow += share.flow;

@@ -24,15 +24,18 @@ uint drifted(uint reference, uint v) {
     bool closer = true;
     for (uint steps = 0u; closer && steps < element_count; ++steps) {
         closer = false;
-        uint from = reference, end = first_corner(from + 1u);
-        for (uint i = first_corner(from); i < end; ++i)
-            for (int k = 0; k < 2; ++k) {
-                float squared = squared_to(corner(i)[k], v);
+        uint from = reference, end = first_corner(from + 1u), last = no_vertex;
+        for (uint i = first_corner(from); i < end; ++i) {
+            uvec2 others = corner(i);
+            for (int k = others.x == last ? 1 : 0; k < 2; ++k) {
+                float squared = squared_to(others[k], v);
                 if (!(squared < closest)) continue;
                 closest = squared;
-                reference = corner(i)[k];
+                reference = others[k];
                 closer = true;
             }
+            last = others.y;
+        }
     }
     return reference;
 }

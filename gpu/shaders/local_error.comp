@@ -27,10 +27,14 @@ struct RingPlace {
 RingPlace closest_in_ring(uint centre, uint v) {
     RingPlace place = RingPlace(infinite, false, uvec2(0u));
     vec3 a = way_to(v, centre);
-    uint end = first_corner(centre + 1u);
+    uint end = first_corner(centre + 1u), last = no_vertex;
+    vec3 c = a;
     for (uint i = first_corner(centre); i < end; ++i) {
         uvec2 others = corner(i);
-        Closest closest = to_triangle(a, way_to(v, others.x), way_to(v, others.y));
+        vec3 b = others.x == last ? c : way_to(v, others.x);
+        last = others.y;
+        c = way_to(v, last);
+        Closest closest = to_triangle(a, b, c);
         if (closest.squared < place.squared) place = RingPlace(closest.squared, closest.outer, others);
     }
     return place;

@@ -1,6 +1,7 @@
 #include "gpu/gpu_smoother.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -241,5 +242,21 @@ SCENARIO("A second run allocates, compiles and uploads nothing", "[gpu][smoother
         const DeviceCounts counts = since(before, *test->device.counts);
         CHECK(counts.compiles == 0);
         CHECK(counts.uploaded == 4 * 16 * sphere.vertex_count());  // positions and umbrellas
+    }
+}
+
+SCENARIO("Corners follow each other around a vertex", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const Surface& surface : {icosphere(5.0, 3), open_tube(2.0, 10.0, 16, 20)}) {
+        const auto device = uploaded(*test, surface);
+        const auto& rows = surface.topology->triangles_at();
+        const auto corners = read_storage<std::array<VertexId, 2>>(
+            test->device, device->corners().values.buffer, rows.values.size());
+        std::size_t breaks = 0;
+        for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+            for (std::uint32_t i = rows.offsets[v] + 1; i < rows.offsets[v + 1]; ++i)
+                breaks += corners[i][0] != corners[i - 1][1] ? 1 : 0;
+        CHECK(breaks == 0);
     }
 }
