@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/vessel/repair/repair.h"
+#include "tests/gpu/watched_context.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
 
@@ -19,12 +20,6 @@ namespace {
 void fail_by_report(const std::string& text) {
     FAIL_CHECK("OpenGL reported: " << text);
 }
-
-/// A context and what it reports.
-struct Watched {
-    OffscreenContext context{Sharing::None, true};
-    DebugOutput reports{fail_by_report};
-};
 
 /// Without coincident triangles, whose summed normals are rounding errors only.
 Surface repaired(const Surface& surface) {
@@ -45,7 +40,7 @@ std::optional<TestDevice> test_device() {
 }
 
 HeldDevice watched_device() {
-    auto context = std::make_shared<Watched>();
+    auto context = std::make_shared<WatchedContext>();
     return {std::move(context), current_device()};
 }
 
