@@ -1,10 +1,12 @@
 #include "gpu/compute.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/device_store.h"
 #include "gpu/shader_source.h"
 
 namespace vesselbench {
@@ -36,6 +38,19 @@ bool skipped(const Device& device, DeviceCommand command) {
     return skip;
 }
 
+/// Later commands see what dispatches have written.
+void wait_for_writes(const Device& device) {
+    ++device.counts->barriers;
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+/// Drawing expects unit 0 to be active.
+void bind_texture(unsigned unit, const Texture& texture) {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_BUFFER, texture.id());
+    glActiveTexture(GL_TEXTURE0);
+}
+
 [[noreturn]] void report_out_of_memory(const std::string& label, std::size_t bytes) {
     throw GpuUnavailable("the device is out of memory for " + label + " (" + std::to_string(bytes) +
                          " bytes)");
@@ -45,17 +60,21 @@ bool skipped(const Device& device, DeviceCommand command) {
 void allocate(const Device& device, unsigned target, std::size_t bytes, const void* content,
               const std::string& label) {
     collect_errors(device);
+    ++device.counts->allocations;
+    if (content != nullptr) device.counts->uploaded += bytes;
     glBufferData(target, static_cast<GLsizeiptr>(bytes), content, GL_STATIC_COPY);
     if (fails_by_intent(device, DeviceCommand::Allocate) || glGetError() != GL_NO_ERROR)
         report_out_of_memory(label, bytes);
 }
 
+void require_fits(const Device& device, std::size_t bytes, const std::string& label) {
+    if (bytes <= device.limits.largest_storage_block) return;
+    throw GpuUnavailable(label + " takes " + std::to_string(bytes) + " bytes; the device allows " +
+                         std::to_string(device.limits.largest_storage_block) + " in a buffer");
+}
+
 Buffer allocated(const Device& device, std::size_t bytes, const void* content,
                  const std::string& label) {
-    if (bytes > device.limits.largest_storage_block)
-        throw GpuUnavailable(label + " takes " + std::to_string(bytes) +
-                             " bytes; the device allows " +
-                             std::to_string(device.limits.largest_storage_block) + " in a buffer");
     unsigned id = 0;
     glGenBuffers(1, &id);
     Buffer buffer(id);
@@ -78,8 +97,10 @@ std::string info_log(unsigned id, bool linked) {
 
 }  // namespace
 
-Program make_compute_program(const Device& device, const std::string& name) {
-    const ShaderSource source = assemble_shader(*device.shaders, name + ".comp");
+Program make_compute_program(const Device& device, const std::string& name, bool wide) {
+    ShaderSource source = assemble_shader(*device.shaders, name + ".comp");
+    if (wide) source.text.insert(source.text.find('\n') + 1, "#define WIDE\n#line 2 0\n");
+    ++device.counts->compiles;
     Program program(glCreateProgram());
     const unsigned shader = glCreateShader(GL_COMPUTE_SHADER);
     const char* text = source.text.c_str();
@@ -101,11 +122,32 @@ Program make_compute_program(const Device& device, const std::string& name) {
 }
 
 Buffer make_storage(const Device& device, std::size_t bytes, const std::string& label) {
+    require_fits(device, bytes, label);
     return allocated(device, bytes, nullptr, label);
+}
+
+PooledBuffer::PooledBuffer(const Device& device, std::size_t bytes, const std::string& label)
+    : store_(device.store), bytes_(bytes), buffer_(store_->take(bytes)) {
+    if (buffer_.id() == 0) buffer_ = make_storage(device, bytes, label);
+}
+
+PooledBuffer::PooledBuffer(const Device& device, std::size_t bytes, Buffer buffer)
+    : store_(device.store), bytes_(bytes), buffer_(std::move(buffer)) {}
+
+PooledBuffer::~PooledBuffer() {
+    if (buffer_.id() != 0) store_->keep(bytes_, std::move(buffer_));
+}
+
+PooledBuffer& PooledBuffer::operator=(PooledBuffer&& other) noexcept {
+    std::swap(store_, other.store_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(buffer_, other.buffer_);
+    return *this;
 }
 
 void copy_storage(const Device& device, const Buffer& from, const Buffer& to, std::size_t bytes) {
     if (skipped(device, DeviceCommand::Copy)) return;
+    device.counts->copied += bytes;
     glBindBuffer(GL_COPY_READ_BUFFER, from.id());
     glBindBuffer(GL_COPY_WRITE_BUFFER, to.id());
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -120,19 +162,25 @@ void fill_storage(const Device& device, const Buffer& buffer, std::uint32_t word
     glClearBufferData(GL_COPY_WRITE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
-void bind_storage(std::initializer_list<const Buffer*> buffers) {
+void bind_storage(std::initializer_list<Bound> all) {
     unsigned binding = 0;
-    for (const Buffer* buffer : buffers) {
-        if (buffer != nullptr) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer->id());
+    for (const Bound& bound : all) {
+        if (bound.buffer != nullptr)
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, bound.buffer->id());
+        if (bound.view != nullptr) bind_texture(binding, *bound.view);
         ++binding;
     }
+}
+
+void bind_view(unsigned unit, const DeviceTable& table) {
+    bind_texture(unit, table.view);
 }
 
 std::size_t group_count(std::size_t elements) {
     return (elements + kGroupSize - 1) / kGroupSize;
 }
 
-void dispatch(const Device& device, const Program& program, std::size_t elements) {
+void dispatch(const Device& device, const Program& program, std::size_t elements, Then then) {
     if (elements == 0 || skipped(device, DeviceCommand::Dispatch)) return;
     const std::size_t groups = group_count(elements);
     const std::size_t rows =
@@ -141,15 +189,17 @@ void dispatch(const Device& device, const Program& program, std::size_t elements
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<unsigned>(elements));
     glDispatchCompute(static_cast<unsigned>(in_row), static_cast<unsigned>(rows), 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    ++device.counts->dispatches;
+    if (then == Then::Wait) wait_for_writes(device);
 }
 
-void dispatch_group(const Device& device, const Program& program, std::size_t elements) {
+void dispatch_group(const Device& device, const Program& program, std::size_t elements, Then then) {
     if (skipped(device, DeviceCommand::Dispatch)) return;
     glUseProgram(program.id());
     glUniform1ui(0, static_cast<unsigned>(elements));
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    ++device.counts->dispatches;
+    if (then == Then::Wait) wait_for_writes(device);
 }
 
 void finish_device() {
@@ -180,7 +230,28 @@ namespace detail {
 
 Buffer make_filled_storage(const Device& device, std::span<const std::byte> bytes,
                            const std::string& label) {
+    require_fits(device, bytes.size(), label);
     return allocated(device, bytes.size(), bytes.data(), label);
+}
+
+DeviceTable make_wide_table(const Device& device, std::span<const std::byte> bytes,
+                            std::size_t value_bytes, const std::string& label) {
+    const std::size_t values = bytes.size() / value_bytes;
+    if (values > device.limits.largest_view)
+        throw GpuUnavailable(label + " has " + std::to_string(values) +
+                             " values; the device allows " +
+                             std::to_string(device.limits.largest_view) + " in a texture");
+    DeviceTable table{allocated(device, bytes.size(), bytes.data(), label)};
+    unsigned id = 0;
+    glGenTextures(1, &id);
+    table.view = Texture(id);
+    glBindTexture(GL_TEXTURE_BUFFER, id);
+    const unsigned format = value_bytes == 4   ? GL_R32UI
+                            : value_bytes == 8 ? GL_RG32UI
+                                               : GL_RGBA32UI;
+    glTexBuffer(GL_TEXTURE_BUFFER, format, table.buffer.id());
+    glBindTexture(GL_TEXTURE_BUFFER, 0);
+    return table;
 }
 
 void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte> bytes) {
@@ -193,6 +264,8 @@ void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte>
     glBindBuffer(GL_COPY_WRITE_BUFFER, id);
     allocate(device, GL_COPY_WRITE_BUFFER, bytes.size(), nullptr, "reading");
     copy_storage(device, buffer, staging, bytes.size());
+    ++device.counts->reads;
+    device.counts->read_back += bytes.size();
     if (!skipped(device, DeviceCommand::Read))
         glGetBufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes.size()),
                            bytes.data());

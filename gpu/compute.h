@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "gpu/device.h"
+#include "gpu/device_table.h"
 #include "gpu/objects.h"
 
 namespace vesselbench {
@@ -16,8 +18,10 @@ namespace vesselbench {
 constexpr std::size_t kGroupSize = 256;
 
 /// A linked program from the text of gpu/shaders/<name>.comp and its includes.
+/// \param wide defines WIDE: tables are read through their views (DeviceTable)
 /// \throw GpuUnavailable with file, line and message if the shader does not compile or link
-[[nodiscard]] Program make_compute_program(const Device& device, const std::string& name);
+[[nodiscard]] Program make_compute_program(const Device& device, const std::string& name,
+                                           bool wide = false);
 
 /// A buffer for shaders with undefined content.
 /// \throw GpuUnavailable if it is larger than a shader may use, or the device is out of memory
@@ -29,6 +33,40 @@ constexpr std::size_t kGroupSize = 256;
 template <class T>
 [[nodiscard]] Buffer make_storage(const Device& device, std::span<const T> values,
                                   const std::string& label);
+
+/// A read-only table of values of 4, 8 or 16 bytes.
+/// \param wide gives it a view
+/// \throw GpuUnavailable if it does not fit, as a buffer or a view
+template <class T>
+[[nodiscard]] DeviceTable make_table(const Device& device, std::span<const T> values, bool wide,
+                                     const std::string& label);
+
+/// A buffer that its device's next user gets when this one has ended, because allocating takes
+/// longer than what is done with it. As a Buffer, it ends while its context is current.
+class PooledBuffer {
+public:
+    PooledBuffer() = default;
+
+    /// \throw GpuUnavailable as make_storage
+    PooledBuffer(const Device& device, std::size_t bytes, const std::string& label);
+
+    /// Takes a buffer of this size.
+    PooledBuffer(const Device& device, std::size_t bytes, Buffer buffer);
+    ~PooledBuffer();
+    PooledBuffer(PooledBuffer&& other) noexcept = default;
+    PooledBuffer& operator=(PooledBuffer&& other) noexcept;
+
+    operator const Buffer&() const { return buffer_; }  // NOLINT: it is one
+
+    [[nodiscard]] const Buffer* get() const { return &buffer_; }
+
+    [[nodiscard]] bool has_value() const { return buffer_.id() != 0; }
+
+private:
+    std::shared_ptr<DeviceStore> store_;
+    std::size_t bytes_ = 0;
+    Buffer buffer_;
+};
 
 /// Waits for the device and reads a buffer's first elements.
 /// \throw GpuUnavailable if that fails, or if any command before has failed
@@ -43,19 +81,48 @@ void copy_storage(const Device& device, const Buffer& from, const Buffer& to, st
 /// Sets all of a buffer's 32-bit words to a number. A failure is found when something is read.
 void fill_storage(const Device& device, const Buffer& buffer, std::uint32_t word);
 
-/// Binds buffers to bindings 0, 1, 2 ... of the shaders; a null pointer keeps its binding.
-void bind_storage(std::initializer_list<const Buffer*> buffers);
+/// What a binding gets: a buffer, a table or its view, or null to keep what it has.
+struct Bound {
+    Bound(std::nullptr_t) {}
+
+    Bound(const Buffer* storage) : buffer(storage) {}
+
+    Bound(const PooledBuffer* storage) : buffer(storage != nullptr ? storage->get() : nullptr) {}
+
+    Bound(const DeviceTable* table)
+        : buffer(table->wide() ? nullptr : &table->buffer),
+          view(table->wide() ? &table->view : nullptr) {}
+
+    const Buffer* buffer = nullptr;
+    const Texture* view = nullptr;
+};
+
+/// Binds to bindings 0, 1, 2 ... of the shaders; views are bound to the texture unit of that
+/// number.
+void bind_storage(std::initializer_list<Bound> all);
+
+/// Binds a table's view to a texture unit.
+void bind_view(unsigned unit, const DeviceTable& table);
+
+/// What may run beside a dispatch.
+enum class Then {
+    Wait,  ///< nothing
+    GoOn   ///< the next dispatch, which reads nothing that this one writes, and writes nothing it
+           ///< uses
+};
 
 /// Number of work groups in a dispatch of this many elements.
 [[nodiscard]] std::size_t group_count(std::size_t elements);
 
 /// Runs a program on `elements` elements, after its uniforms and buffers are set; uniform 0
-/// receives their number. Its writes are visible to every later command. A failure is found when
-/// something is read.
-void dispatch(const Device& device, const Program& program, std::size_t elements);
+/// receives their number. A failure is found when something is read.
+/// \param then whether its writes are visible to every later command, which then waits for it
+void dispatch(const Device& device, const Program& program, std::size_t elements,
+              Then then = Then::Wait);
 
 /// The same with one work group for all elements.
-void dispatch_group(const Device& device, const Program& program, std::size_t elements);
+void dispatch_group(const Device& device, const Program& program, std::size_t elements,
+                    Then then = Then::Wait);
 
 /// Waits until the device has completed all commands.
 void finish_device();
@@ -75,12 +142,22 @@ private:
 namespace detail {
 [[nodiscard]] Buffer make_filled_storage(const Device& device, std::span<const std::byte> bytes,
                                          const std::string& label);
+[[nodiscard]] DeviceTable make_wide_table(const Device& device, std::span<const std::byte> bytes,
+                                          std::size_t value_bytes, const std::string& label);
 void read_bytes(const Device& device, const Buffer& buffer, std::span<std::byte> bytes);
 }  // namespace detail
 
 template <class T>
 Buffer make_storage(const Device& device, std::span<const T> values, const std::string& label) {
     return detail::make_filled_storage(device, std::as_bytes(values), label);
+}
+
+template <class T>
+DeviceTable make_table(const Device& device, std::span<const T> values, bool wide,
+                       const std::string& label) {
+    static_assert(sizeof(T) == 4 || sizeof(T) == 8 || sizeof(T) == 16);
+    if (wide) return detail::make_wide_table(device, std::as_bytes(values), sizeof(T), label);
+    return {make_storage(device, values, label)};
 }
 
 template <class T>

@@ -34,7 +34,13 @@ std::vector<EGLDisplay> displays() {
     return found;
 }
 
-EGLContext make_context(EGLDisplay display, EGLContext shared, bool tells_resets) {
+/// What is asked of a new context, beside its version.
+struct Wishes {
+    EGLContext shared = EGL_NO_CONTEXT;
+    bool debug = false;
+};
+
+EGLContext make_context(EGLDisplay display, const Wishes& wishes, bool tells_resets) {
     std::vector<EGLint> wanted = {
         EGL_CONTEXT_MAJOR_VERSION,       4,
         EGL_CONTEXT_MINOR_VERSION,       3,
@@ -43,17 +49,21 @@ EGLContext make_context(EGLDisplay display, EGLContext shared, bool tells_resets
         wanted.push_back(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY);
         wanted.push_back(EGL_LOSE_CONTEXT_ON_RESET);
     }
+    if (wishes.debug && epoxy_egl_version(display) >= 15) {
+        wanted.push_back(EGL_CONTEXT_OPENGL_DEBUG);
+        wanted.push_back(EGL_TRUE);
+    }
     wanted.push_back(EGL_NONE);
     eglBindAPI(EGL_OPENGL_API);
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared, wanted.data());
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, wishes.shared, wanted.data());
 }
 
 /// A context that reports when the driver has lost it (glGetGraphicsResetStatus), if the driver
 /// can.
-EGLContext make_context(EGLDisplay display, EGLContext shared) {
+EGLContext make_context(EGLDisplay display, const Wishes& wishes) {
     const EGLContext context =
-        epoxy_egl_version(display) >= 15 ? make_context(display, shared, true) : EGL_NO_CONTEXT;
-    return context != EGL_NO_CONTEXT ? context : make_context(display, shared, false);
+        epoxy_egl_version(display) >= 15 ? make_context(display, wishes, true) : EGL_NO_CONTEXT;
+    return context != EGL_NO_CONTEXT ? context : make_context(display, wishes, false);
 }
 
 /// The context current on this thread.
@@ -125,43 +135,43 @@ struct OffscreenContext::Impl {
         return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE;
     }
 
-    bool use(EGLDisplay candidate, EGLContext shared) {
+    bool use(EGLDisplay candidate, const Wishes& wishes) {
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr))
             return false;
         display = candidate;
-        context = make_context(candidate, shared);
+        context = make_context(candidate, wishes);
         if (context == EGL_NO_CONTEXT) return false;
         if (make_current()) return true;
         eglDestroyContext(display, std::exchange(context, EGL_NO_CONTEXT));
         return false;
     }
 
-    void use_any() {
+    void use_any(bool debug) {
         const std::vector<EGLDisplay> candidates = displays();
         if (candidates.empty())
             throw GpuUnavailable(
                 "EGL offers neither a device nor the surfaceless platform (Debian: libegl-mesa0, "
                 "libgl1-mesa-dri)");
         for (EGLDisplay candidate : candidates)
-            if (use(candidate, EGL_NO_CONTEXT)) return;
+            if (use(candidate, {.debug = debug})) return;
         throw GpuUnavailable("no driver offers an OpenGL 4.3 core context without a display" +
                              found_instead(candidates) + " (Debian: libgl1-mesa-dri)");
     }
 
-    void share_with_current() {
+    void share_with_current(bool debug) {
         if (before.context == EGL_NO_CONTEXT)
             throw GpuUnavailable("there is no EGL context on this thread to share with");
-        if (!use(before.display, before.context))
+        if (!use(before.display, {before.context, debug}))
             throw GpuUnavailable(
                 "the driver cannot create a context that shares with the current one");
     }
 };
 
-OffscreenContext::OffscreenContext(Sharing sharing) : impl_(std::make_unique<Impl>()) {
+OffscreenContext::OffscreenContext(Sharing sharing, bool debug) : impl_(std::make_unique<Impl>()) {
     if (sharing == Sharing::WithCurrent)
-        impl_->share_with_current();
+        impl_->share_with_current(debug);
     else
-        impl_->use_any();
+        impl_->use_any(debug);
 }
 
 void OffscreenContext::release() {

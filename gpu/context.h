@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "gpu/debug_output.h"
+
 namespace vesselbench {
 
 /// What contexts share: buffers and programs, or nothing.
@@ -18,8 +20,9 @@ public:
 
     /// \param sharing WithCurrent: shares buffers and programs with the context that is current on
     /// this thread, a window's for instance, so that another thread can compute what it draws
+    /// \param debug asks for a debug context; else a driver may report nothing to DebugOutput
     /// \throw GpuUnavailable as above, or if there is no current EGL context to share with
-    explicit OffscreenContext(Sharing sharing);
+    explicit OffscreenContext(Sharing sharing, bool debug = wants_debug_output());
     ~OffscreenContext();
     OffscreenContext(OffscreenContext&&) noexcept;
     OffscreenContext& operator=(OffscreenContext&&) noexcept;

@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/device_store.h"
 #include "gpu/shader_texts.h"
 
 namespace vesselbench {
@@ -64,8 +65,10 @@ Device current_device() {
         int groups = 0;
         glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &groups);
         device.limits.largest_group_count = static_cast<std::size_t>(std::max(groups, 0));
+        device.limits.largest_view = limit(GL_MAX_TEXTURE_BUFFER_SIZE);
     }
     require_compute(device.limits);
+    device.store = std::make_shared<DeviceStore>();
     return device;
 }
 
@@ -79,7 +82,10 @@ void require_compute(const DeviceLimits& limits) {
 }
 
 void require_context(const Device& device) {
-    if (device.lost()) device.health->fail("the graphics driver was reset and lost its context");
+    if (device.lost())
+        device.health->fail("the graphics driver was reset and lost its context");
+    else if (!device.store->is_current())
+        device.health->fail("another context than the device's is current on this thread");
     if (!device.health->failure().empty()) throw GpuUnavailable(device.health->failure());
 }
 

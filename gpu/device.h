@@ -6,9 +6,12 @@
 #include <memory>
 #include <string>
 
+#include "gpu/device_counts.h"
 #include "gpu/device_health.h"
 
 namespace vesselbench {
+
+class DeviceStore;
 
 /// The compute capabilities of a context's driver.
 struct DeviceLimits {
@@ -17,13 +20,16 @@ struct DeviceLimits {
     std::size_t largest_storage_block = 0;  ///< [bytes] largest buffer in a shader
     std::size_t largest_group_count = 0;    ///< work groups of one dispatch along its first axis
     std::size_t storage_blocks = 0;         ///< buffers a compute shader may use
+    std::size_t largest_view = 0;           ///< texels of a buffer that is read as a texture
 };
 
 /// Commands whose failure OpenGL reports later, if at all.
 enum class DeviceCommand { Allocate, Copy, Fill, Dispatch, Read };
 
 /// The context that is current on this thread, whoever created it (an OffscreenContext, a window),
-/// as computing uses it. A value; tests change its members to simulate failures.
+/// as computing uses it. A value, whose copies share what a context has once; tests change its
+/// members to simulate failures. That context, or one that shares its objects, must be current when
+/// the last copy is destroyed.
 struct Device {
     DeviceLimits limits;
     /// Texts of the shaders by file name.
@@ -33,6 +39,8 @@ struct Device {
     /// Asked before each command, by tests: true if it is to fail. Null: none fails by intent.
     std::function<bool(DeviceCommand)> fails;
     std::shared_ptr<DeviceHealth> health = std::make_shared<DeviceHealth>();
+    std::shared_ptr<DeviceCounts> counts = std::make_shared<DeviceCounts>();
+    std::shared_ptr<DeviceStore> store = {};
 };
 
 /// The device of the current context.
@@ -43,7 +51,8 @@ struct Device {
 /// storage buffers that OpenGL 4.3 guarantees
 void require_compute(const DeviceLimits& limits);
 
-/// \throw GpuUnavailable if the context was lost, or a command has failed; then ever after
+/// \throw GpuUnavailable if the context was lost, a command has failed, or the context that is
+/// current shares no objects with the device's; then ever after
 void require_context(const Device& device);
 
 /// True for renderers that compute on the CPU (llvmpipe, softpipe, SwiftShader): vesselbench's own

@@ -14,11 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-/// gpu/shaders/part_planes.glsl
-struct PartSums {
-    std::uint32_t low[3], high[3];
-    std::uint32_t size, inside;
-};
+constexpr std::size_t kPartBytes = 16;  // of each half of a part (gpu/shaders/part_planes.glsl)
 
 struct LabelledVertex {
     VertexId vertex, part;
@@ -26,15 +22,17 @@ struct LabelledVertex {
 
 /// Data of the search for planar parts.
 struct PartBuffers {
-    Buffer normals, labels, parts;
+    Buffer normals, labels, low_parts, high_parts;
 
     explicit PartBuffers(const DeviceSurface& surface) {
         const Device& device = surface.device();
         const std::size_t count = surface.vertex_count();
         normals = make_storage(device, 3 * count * sizeof(std::int32_t), "flat vertices' normals");
         labels = make_storage(device, count * sizeof(VertexId), "labels of parts");
-        parts = make_storage(device, count * sizeof(PartSums), "sums of parts");
-        fill_storage(device, parts, 0);
+        for (Buffer* parts : {&low_parts, &high_parts}) {
+            *parts = make_storage(device, count * kPartBytes, "sums of parts");
+            fill_storage(device, *parts, 0);
+        }
     }
 };
 
@@ -42,11 +40,16 @@ void find_flat_vertices(const DeviceSurface& surface, double flat_cosine,
                         const PartBuffers& buffers) {
     const Device& device = surface.device();
     const std::size_t triangles = surface.surface().triangle_count();
-    const Buffer faces = make_storage(device, 3 * triangles * sizeof(double), "face normals");
-    bind_storage({&surface.exact(), &surface.triangles(), &faces});
-    dispatch(device, surface.program("face_normals"), triangles);
+    Buffer faces;
+    if (!surface.wide()) {
+        faces = make_storage(device, 3 * triangles * sizeof(double), "face normals");
+        bind_storage({&surface.exact(), &surface.triangles(), &faces});
+        dispatch(device, surface.program("face_normals"), triangles);
+    }
     const DeviceRows& rows = surface.triangles_at();
-    bind_storage({&faces, &buffers.normals, &buffers.labels, &rows.offsets, &rows.values, nullptr});
+    bind_storage({surface.wide() ? Bound(&surface.exact()) : Bound(&faces), &buffers.normals,
+                  &buffers.labels, &rows.offsets, &rows.values});
+    if (surface.wide()) bind_view(1, surface.triangles());
     const Program& program = surface.program("flat_vertices");
     glUseProgram(program.id());
     glUniform1d(1, flat_cosine);
@@ -58,7 +61,7 @@ void find_parts(const DeviceSurface& surface, const PartBuffers& buffers) {
     const std::size_t count = surface.vertex_count();
     const DeviceRows& rings = surface.rings(1);
     bind_storage({nullptr, &buffers.normals, &buffers.labels, &rings.offsets, &rings.values,
-                  &buffers.parts});
+                  &buffers.low_parts, &buffers.high_parts});
     dispatch(device, surface.program("join_parts"), count);
     dispatch(device, surface.program("part_sums"), count);
     const Program& program = surface.program("part_insides");
@@ -75,8 +78,8 @@ std::vector<LabelledVertex> read_planes(const DeviceSurface& surface, int smalle
     const Buffer count = make_storage(device, sizeof(std::uint32_t), "vertices in planes");
     const auto run = [&](const Buffer& list, bool lists) {
         fill_storage(device, count, 0);
-        bind_storage({nullptr, &buffers.normals, &buffers.labels, nullptr, nullptr, &buffers.parts,
-                      &count, &list});
+        bind_storage({&count, &buffers.normals, &buffers.labels, nullptr, nullptr,
+                      &buffers.low_parts, &buffers.high_parts, &list});
         glUseProgram(program.id());
         glUniform1ui(1, static_cast<unsigned>(smallest_faces));
         glUniform1i(2, lists ? 1 : 0);

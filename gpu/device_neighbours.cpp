@@ -22,15 +22,10 @@ using Eigen::Vector4f;
 constexpr std::uint32_t kLeaf = 0x80000000;  // gpu/shaders/neighbour_distance.comp
 constexpr float kUnknown = 3.1e38F;
 
-struct DeviceNode {
-    std::array<float, 3> low;
-    std::uint32_t begin;
-    std::array<float, 3> high;
-    std::uint32_t right;
-};
-
-struct DeviceDipole {
-    Vector4f area_normal, centre;
+/// Half of a node: a corner of its box, and its first triangle or right child.
+struct HalfNode {
+    std::array<float, 3> corner;
+    std::uint32_t number;
 };
 
 std::array<float, 3> numbers(const Vec3& p) {
@@ -40,19 +35,19 @@ std::array<float, 3> numbers(const Vec3& p) {
 
 /// A neighbour's tree, relative to the centre of the surface.
 struct DeviceTree {
-    Buffer nodes, corners, dipoles;
+    DeviceTable nodes, corners, dipoles;
 
     DeviceTree(const DeviceSurface& surface, const Surface& neighbour) {
         const SurfaceDistance distance = distance_to(neighbour);
         const DistanceTree& tree = distance.tree();
         const Device& device = surface.device();
         const Vec3& centre = surface.centre();
-        std::vector<DeviceNode> boxes;
-        for (const BoxTree::Node& node : tree.tree.nodes())
-            boxes.push_back({numbers(node.box.min() - centre), node.begin,
-                             numbers(node.box.max() - centre),
+        std::vector<HalfNode> boxes;
+        for (const BoxTree::Node& node : tree.tree.nodes()) {
+            boxes.push_back({numbers(node.box.min() - centre), node.begin});
+            boxes.push_back({numbers(node.box.max() - centre),
                              node.right != 0 ? node.right : kLeaf + (node.end - node.begin)});
-        nodes = make_storage(device, std::span<const DeviceNode>(boxes), "a neighbour's boxes");
+        }
         std::vector<Vector4f> points;
         const auto add = [&](const Vec3& p) {
             points.emplace_back() << (p - centre).cast<float>(), 1.0F;
@@ -62,22 +57,25 @@ struct DeviceTree {
             add(b);
             add(c);
         }
-        corners = make_storage(device, std::span<const Vector4f>(points), "a neighbour's corners");
-        std::vector<DeviceDipole> parts(tree.dipoles.size());
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            const Dipole& dipole = tree.dipoles[i];
-            parts[i].area_normal << dipole.area_normal.cast<float>(),
+        std::vector<Vector4f> parts;
+        for (const Dipole& dipole : tree.dipoles) {
+            parts.emplace_back() << dipole.area_normal.cast<float>(),
                 static_cast<float>(dipole.radius);
-            parts[i].centre << (dipole.centre - centre).cast<float>(), 1.0F;
+            parts.emplace_back() << (dipole.centre - centre).cast<float>(), 1.0F;
         }
+        const bool wide = std::max({boxes.size(), points.size(), parts.size()}) * sizeof(Vector4f) >
+                          device.limits.largest_storage_block;
+        nodes = make_table(device, std::span<const HalfNode>(boxes), wide, "a neighbour's boxes");
+        corners =
+            make_table(device, std::span<const Vector4f>(points), wide, "a neighbour's corners");
         dipoles =
-            make_storage(device, std::span<const DeviceDipole>(parts), "a neighbour's dipoles");
+            make_table(device, std::span<const Vector4f>(parts), wide, "a neighbour's dipoles");
     }
 };
 
 void search(const DeviceSurface& surface, const Surface& neighbour, const Buffer& distances) {
     const DeviceTree tree(surface, neighbour);
-    const Program& program = surface.program("neighbour_distance");
+    const Program& program = surface.program("neighbour_distance", tree.nodes.wide());
     bind_storage({&surface.shifts(), &distances, nullptr, &tree.nodes, &tree.corners, &tree.dipoles,
                   &surface.anchors()});
     glUseProgram(program.id());

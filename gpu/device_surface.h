@@ -1,19 +1,14 @@
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "geometry/kernel/surface.h"
 #include "gpu/compute.h"
+#include "gpu/device_topology.h"
 
 namespace vesselbench {
-
-/// Rows of elements on the device: row i spans offsets[i] to offsets[i + 1].
-struct DeviceRows {
-    Buffer offsets;  ///< uint, #V + 1
-    Buffer values;
-};
 
 /// A surface on the device: uploaded once, for all filters and measures there. Data that
 /// only some of them need is uploaded on first use. The context that was current at
@@ -44,40 +39,49 @@ public:
 
     /// The surface's positions in double precision [mm], for threshold decisions: 3 doubles,
     /// #V.
-    [[nodiscard]] const Buffer& exact() const;
+    [[nodiscard]] const DeviceTable& exact() const;
 
     /// Corners of the triangles: 3 uint, #T.
-    [[nodiscard]] const Buffer& triangles() const;
+    [[nodiscard]] const DeviceTable& triangles() const { return topology_->triangles(device_); }
 
     /// Triangles at every vertex: uint.
-    [[nodiscard]] const DeviceRows& triangles_at() const;
+    [[nodiscard]] const DeviceRows& triangles_at() const {
+        return topology_->triangles_at(device_);
+    }
 
     /// Uniform umbrella operator of the anchors over 1 or 2 rings [mm]: vec4, #V.
     [[nodiscard]] const Buffer& anchor_umbrellas(int rings) const;
 
     /// Neighbours within 1 or 2 rings: uint.
-    [[nodiscard]] const DeviceRows& rings(int count) const;
+    [[nodiscard]] const DeviceRows& rings(int count) const {
+        return topology_->rings(device_, count);
+    }
 
-    /// The other two corners of the triangles at every vertex, in triangle orientation: uvec2. The
-    /// highest bit of an offset is set if the vertex is on a boundary.
-    [[nodiscard]] const DeviceRows& corners() const;
+    /// The other two corners of the triangles at every vertex, in triangle orientation and, where
+    /// connected, in the order around the vertex: uvec2. The highest bit of an offset is set if the
+    /// vertex is on a boundary.
+    [[nodiscard]] const DeviceRows& corners() const { return topology_->corners(device_); }
 
-    /// The compute program of a name, compiled once for all users of the surface.
+    /// True if its tables are read through views (DeviceTable): it is too large for storage blocks.
+    [[nodiscard]] bool wide() const { return topology_->wide(); }
+
+    /// The compute program of a name, compiled once for all users of the device, for its tables.
     /// \throw GpuUnavailable as make_compute_program
-    [[nodiscard]] const Program& program(const std::string& name) const;
+    [[nodiscard]] const Program& program(const std::string& name) const {
+        return program(name, wide());
+    }
+
+    /// The same for tables that have views or not.
+    [[nodiscard]] const Program& program(const std::string& name, bool wide) const;
 
 private:
-    const CompressedRows& neighbours(int rings) const;
-    void forget_neighbours() const;
-
     Device device_;
     Surface surface_;
     Vec3 centre_ = Vec3::Zero();
     Buffer anchors_, shifts_;
-    mutable std::optional<DeviceRows> rings_[2], corners_, triangles_at_;
-    mutable std::optional<Buffer> anchor_umbrellas_[2], exact_, triangles_;
-    mutable std::optional<CompressedRows> two_rings_;  ///< until both its users are built
-    mutable std::map<std::string, Program> programs_;
+    std::shared_ptr<const DeviceTopology> topology_;
+    mutable std::optional<Buffer> anchor_umbrellas_[2];
+    mutable std::optional<DeviceTable> exact_;
 };
 
 /// A point relative to a centre, as two single-precision numbers per coordinate.

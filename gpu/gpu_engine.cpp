@@ -28,7 +28,10 @@ struct Common {
     HeldDevice held;
     std::shared_ptr<const DeviceSurface> surface;
     GpuMeter meter;
+    double radius = 0.0;  ///< of the surface [mm]
 };
+
+constexpr std::size_t kStates = 64;  // measured before their numbers are read
 
 class GpuRun final : public FollowingRun {
 public:
@@ -41,18 +44,32 @@ public:
         : FollowingRun(other),
           common_(other.common_),
           smoother_(other.smoother_.copy()),
-          references_(common_->meter.make_references()) {
-        copy_storage(common_->surface->device(), other.references_, references_,
-                     common_->surface->vertex_count() * sizeof(VertexId));
-    }
+          references_(common_->meter.copy_of(other.references_)) {}
 
     [[nodiscard]] int iterations() const override { return smoother_.iterations_done(); }
 
     [[nodiscard]] QualityMeasures measure() override {
-        const bool follows = due();
-        common_->meter.measure(smoother_.shifts(), references_, follows);
-        if (follows) set_followed();
-        return common_->meter.read().front().quality;
+        measure_as(0);
+        const QualityMeasures measures = common_->meter.read().front().quality;
+        require_bounded(measures, common_->radius);
+        return measures;
+    }
+
+    [[nodiscard]] std::vector<QualityMeasures> measure_at(std::span<const int> iterations,
+                                                          const Progress& progress) override {
+        std::vector<QualityMeasures> measures;
+        for (std::size_t first = 0; first < iterations.size(); first += kStates) {
+            const std::size_t count = std::min(kStates, iterations.size() - first);
+            for (std::size_t i = 0; i < count; ++i) {
+                advance_to(iterations[first + i], progress);
+                measure_as(i);
+            }
+            for (const DeviceMeasures& found : common_->meter.read(count)) {
+                if (!is_bounded(found.quality, common_->radius)) return measures;
+                measures.push_back(found.quality);
+            }
+        }
+        return measures;
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
@@ -66,9 +83,16 @@ private:
 
     void follow() override { common_->meter.follow(smoother_.shifts(), references_); }
 
+    /// Measures the state as one of those that are read together.
+    void measure_as(std::size_t state) {
+        const bool follows = due();
+        common_->meter.measure(smoother_.shifts(), references_, follows, state);
+        if (follows) set_followed();
+    }
+
     std::shared_ptr<Common> common_;
     GpuSmoother smoother_;
-    Buffer references_;
+    PooledBuffer references_;
 };
 
 constexpr std::size_t kWeightsKept = 16;  // together they take as much memory as one run
@@ -92,7 +116,7 @@ public:
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
-        GpuSmoother smoother = prototype_.copy();
+        GpuSmoother smoother = prototype_.another();
         if (choice.staircase && staircases_)
             smoother.set_weights(made(choice.staircase->values));
         else if (const SharedWeights weights = weights_of(choice))
@@ -152,9 +176,9 @@ private:
     static std::shared_ptr<Common> make_common(HeldDevice held, const FilterGround& ground,
                                                bool planes) {
         auto surface = std::make_shared<const DeviceSurface>(held.device, surface_of(ground));
-        GpuMeter meter(surface, 1, planes);
-        return std::make_shared<Common>(
-            Common{std::move(held), std::move(surface), std::move(meter)});
+        GpuMeter meter(surface, kStates, planes);
+        return std::make_shared<Common>(Common{std::move(held), std::move(surface),
+                                               std::move(meter), radius_of(*ground.start)});
     }
 
     std::optional<StaircaseGround> staircases_;
@@ -225,6 +249,19 @@ public:
             take_over(done_);
             return run_->measure();
         }
+    }
+
+    [[nodiscard]] std::vector<QualityMeasures> measure_at(std::span<const int> iterations,
+                                                          const Progress& progress) override {
+        std::vector<QualityMeasures> measures;
+        try {
+            measures = run_->measure_at(iterations, progress);
+        } catch (const GpuUnavailable&) {
+            take_over(done_);
+            measures = run_->measure_at(iterations, progress);
+        }
+        done_ = run_->iterations();
+        return measures;
     }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {

@@ -35,13 +35,15 @@ GpuMeter::GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t sta
     const CompressedRows rims = rim_rows(topology);
     rim_count_ = rims.offsets.size() - 1;
     rims_ = {make_storage(device, std::span<const std::uint32_t>(rims.offsets), "rim offsets"),
-             make_storage(device, std::span<const std::uint32_t>(rims.values), "rims")};
+             {make_storage(device, std::span<const std::uint32_t>(rims.values), "rims")}};
     own_references_ =
         make_storage(device, std::span<const VertexId>(own_references(topology)), "own references");
     references_ = make_storage(device, count * sizeof(VertexId), "references");
     normals_ = make_storage(device, count * sizeof(Vector4f), "normals");
     errors_ = make_storage(device, count * sizeof(float), "local errors");
-    parts_ = make_storage(device, (group_count(count) + rim_count_) * sizeof(Vector4f), "parts");
+    const std::size_t groups = group_count(count);
+    shape_parts_ = make_storage(device, (groups + rim_count_) * sizeof(Vector4f), "parts of shape");
+    error_parts_ = make_storage(device, groups * sizeof(Vector4f), "parts of errors");
     results_ = make_storage(device, 2 * states * sizeof(Vector4f), "measures");
     restart();
 }
@@ -52,25 +54,29 @@ void GpuMeter::restart() {
 }
 
 void GpuMeter::measure_shape(const Buffer& shifts) {
+    find_shape(shifts, Then::Wait);
+}
+
+void GpuMeter::find_shape(const Buffer& shifts, Then then) {
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&shifts, &normals_, &parts_, &corners.offsets, &corners.values, nullptr,
+    bind_storage({&shifts, &normals_, &shape_parts_, &corners.offsets, &corners.values, nullptr,
                   &surface_->anchors()});
-    dispatch(surface_->device(), surface_->program("shape"), surface_->vertex_count());
+    dispatch(surface_->device(), surface_->program("shape"), surface_->vertex_count(), then);
 }
 
 void GpuMeter::add_rims(const Buffer& shifts) {
     if (rim_count_ == 0) return;
-    bind_storage(
-        {&shifts, nullptr, &parts_, &rims_.offsets, &rims_.values, nullptr, &surface_->anchors()});
+    bind_storage({&shifts, nullptr, &shape_parts_, &rims_.offsets, &rims_.values, nullptr,
+                  &surface_->anchors()});
     const Program& program = surface_->program("rim_volume");
     glUseProgram(program.id());
     glUniform1ui(1, static_cast<unsigned>(group_count(surface_->vertex_count())));
-    dispatch(surface_->device(), program, rim_count_ * kGroupSize);
+    dispatch(surface_->device(), program, rim_count_ * kGroupSize, Then::GoOn);
 }
 
 void GpuMeter::find_error(const Buffer& shifts, const Buffer& references, bool follow) {
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&shifts, &errors_, &parts_, &corners.offsets, &corners.values,
+    bind_storage({&shifts, &errors_, &error_parts_, &corners.offsets, &corners.values,
                   &surface_->shifts(), &surface_->anchors(), &references});
     const Program& program = surface_->program("local_error");
     glUseProgram(program.id());
@@ -79,19 +85,19 @@ void GpuMeter::find_error(const Buffer& shifts, const Buffer& references, bool f
     dispatch(surface_->device(), program, surface_->vertex_count());
 }
 
-void GpuMeter::total(std::size_t parts, std::size_t place) {
-    bind_storage({&parts_, &results_});
+void GpuMeter::total(const Buffer& parts, std::size_t count, std::size_t place, Then then) {
+    bind_storage({&parts, &results_});
     const Program& program = surface_->program("total");
     glUseProgram(program.id());
     glUniform1ui(1, static_cast<unsigned>(place));
-    dispatch_group(surface_->device(), program, parts);
+    dispatch_group(surface_->device(), program, count, then);
 }
 
-Buffer GpuMeter::make_references() const {
+PooledBuffer GpuMeter::copy_of(const Buffer& references) const {
     const std::size_t bytes = surface_->vertex_count() * sizeof(VertexId);
-    Buffer references = make_storage(surface_->device(), bytes, "references");
-    copy_storage(surface_->device(), own_references_, references, bytes);
-    return references;
+    PooledBuffer copy(surface_->device(), bytes, "references");
+    copy_storage(surface_->device(), references, copy, bytes);
+    return copy;
 }
 
 void GpuMeter::follow(const Buffer& shifts, const Buffer& references) {
@@ -108,11 +114,12 @@ void GpuMeter::measure(const Buffer& shifts, std::size_t state) {
 void GpuMeter::measure(const Buffer& shifts, const Buffer& references, bool follow,
                        std::size_t state) {
     const std::size_t groups = group_count(surface_->vertex_count());
-    measure_shape(shifts);
+    // Shape, rims and error write different buffers, and none reads another one's.
+    find_shape(shifts, Then::GoOn);
     add_rims(shifts);
-    total(groups + rim_count_, 2 * state);
     find_error(shifts, references, follow);
-    total(groups, 2 * state + 1);
+    total(shape_parts_, groups + rim_count_, 2 * state, Then::GoOn);
+    total(error_parts_, groups, 2 * state + 1, Then::Wait);
 }
 
 std::vector<DeviceMeasures> GpuMeter::read(std::size_t states) const {

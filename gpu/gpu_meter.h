@@ -35,7 +35,10 @@ public:
     void measure(const Buffer& shifts, std::size_t state = 0);
 
     /// References of another run: every vertex its own.
-    [[nodiscard]] Buffer make_references() const;
+    [[nodiscard]] PooledBuffer make_references() const { return copy_of(own_references_); }
+
+    /// A copy of a run's references.
+    [[nodiscard]] PooledBuffer copy_of(const Buffer& references) const;
 
     /// Updates a run's references to its vertices, without measuring.
     void follow(const Buffer& shifts, const Buffer& references);
@@ -59,13 +62,14 @@ public:
     [[nodiscard]] const Buffer& errors() const { return errors_; }
 
 private:
+    void find_shape(const Buffer& shifts, Then then);
     void find_error(const Buffer& shifts, const Buffer& references, bool follow);
     void add_rims(const Buffer& shifts);
-    void total(std::size_t parts, std::size_t place);
+    void total(const Buffer& parts, std::size_t count, std::size_t place, Then then);
 
     std::shared_ptr<const DeviceSurface> surface_;
     bool planes_;
-    Buffer own_references_, references_, normals_, errors_, parts_, results_;
+    Buffer own_references_, references_, normals_, errors_, shape_parts_, error_parts_, results_;
     DeviceRows rims_;  ///< vertices of each boundary loop: uint
     std::size_t rim_count_ = 0;
 };

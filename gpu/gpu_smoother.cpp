@@ -52,43 +52,55 @@ GpuSmoother::GpuSmoother(std::shared_ptr<const DeviceSurface> surface,
     : surface_(std::move(surface)), rings_(settings.rings), constraint_(settings.constraint) {
     const std::vector<Vector4f> start = weighted_start(*surface_, settings);
     const std::size_t bytes = start.size() * sizeof(Vector4f);
-    start_ = std::make_shared<const Buffer>(
+    start_ = std::make_shared<const PooledBuffer>(
+        surface_->device(), bytes,
         make_storage(surface_->device(), std::span<const Vector4f>(start), "start"));
-    for (Buffer& values : values_) values = make_storage(surface_->device(), bytes, "shifts");
+    for (PooledBuffer& values : values_) values = PooledBuffer(surface_->device(), bytes, "shifts");
     copy_storage(surface_->device(), *start_, values_[0], bytes);
 }
 
-GpuSmoother GpuSmoother::copy() const {
-    const Device& device = surface_->device();
+GpuSmoother GpuSmoother::another() const {
     GpuSmoother other;
     other.surface_ = surface_;
     other.rings_ = rings_;
     other.constraint_ = constraint_;
     other.start_ = start_;
+    const std::size_t bytes = surface_->vertex_count() * sizeof(Vector4f);
+    for (PooledBuffer& values : other.values_)
+        values = PooledBuffer(surface_->device(), bytes, "shifts");
+    return other;
+}
+
+GpuSmoother GpuSmoother::copy() const {
+    const Device& device = surface_->device();
+    GpuSmoother other = another();
     other.passes_ = passes_;
     other.steps_done_ = steps_done_;
     other.iterations_done_ = iterations_done_;
-    const auto copied = [&](const Buffer& from, std::size_t bytes) {
-        Buffer to = make_storage(device, bytes, "copy of a run");
-        copy_storage(device, from, to, bytes);
-        return to;
-    };
     const std::size_t count = surface_->vertex_count();
-    for (std::size_t i : {0, 1}) other.values_[i] = copied(values_[i], count * sizeof(Vector4f));
-    if (first_iterations_.id() != 0)
-        other.first_iterations_ = copied(first_iterations_, count * sizeof(std::int32_t));
+    const std::size_t source = steps_done_ % 2;  // a run's first pass writes all of the other one
+    copy_storage(device, values_[source], other.values_[source], count * sizeof(Vector4f));
+    if (first_iterations_.has_value()) {
+        const std::size_t bytes = count * sizeof(std::int32_t);
+        other.first_iterations_ = PooledBuffer(device, bytes, "first iterations");
+        copy_storage(device, first_iterations_, other.first_iterations_, bytes);
+    }
     return other;
 }
 
 void GpuSmoother::plan_linear(const std::vector<LinearStep>& steps) {
     bool of_positions = true;
     for (const LinearStep& step : steps) {
-        passes_.push_back({.program = &surface_->program("linear_step"),
+        passes_.push_back({.program = &ring_program("linear_step"),
                            .factors = {step.umbrella, step.source, step.target, step.start},
                            .onto = static_cast<int>(step.onto),
                            .of_positions = of_positions});
         of_positions = step.onto != LinearStep::Onto::Zero;
     }
+}
+
+const Program& GpuSmoother::ring_program(const char* name) const {
+    return surface_->program(name, surface_->rings(rings_).values.wide());
 }
 
 void GpuSmoother::plan(const LaplaceParameters& parameters) {
@@ -118,10 +130,10 @@ void GpuSmoother::plan(const AnisotropicParameters& parameters) {
     const double feature = parameters.feature_curvature.value_or(
         default_feature_curvature(*surface.topology, surface.points()));
     require_positive("feature_curvature", feature);
-    const Program& smooth = surface_->program("anisotropic");
-    glUseProgram(smooth.id());
-    glUniform1d(FeatureCurvature, feature);
-    passes_.push_back({.program = &smooth, .factors = {parameters.lambda}, .by_corners = true});
+    passes_.push_back({.program = &surface_->program("anisotropic"),
+                       .factors = {parameters.lambda},
+                       .feature_curvature = feature,
+                       .by_corners = true});
 }
 
 void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
@@ -132,16 +144,16 @@ void GpuSmoother::plan(const CurvatureTriggeredParameters& parameters) {
     require_positive("trigger_curvature", trigger);
     find_first_iterations(trigger);
     passes_.push_back(
-        {.program = &surface_->program("triggered_laplace"), .factors = {parameters.lambda}});
+        {.program = &ring_program("triggered_laplace"), .factors = {parameters.lambda}});
 }
 
 void GpuSmoother::find_first_iterations(double trigger) {
     const Device& device = surface_->device();
-    if (first_iterations_.id() == 0)
-        first_iterations_ = make_storage(device, surface_->vertex_count() * sizeof(std::int32_t),
+    if (!first_iterations_.has_value())
+        first_iterations_ = PooledBuffer(device, surface_->vertex_count() * sizeof(std::int32_t),
                                          "first iterations");
     const DeviceRows& corners = surface_->corners();
-    bind_storage({&surface_->exact(), nullptr, start_.get(), &corners.offsets, &corners.values,
+    bind_storage({&surface_->exact(), nullptr, start_->get(), &corners.offsets, &corners.values,
                   nullptr, nullptr, &first_iterations_});
     const Program& find = surface_->program("trigger");
     glUseProgram(find.id());
@@ -151,11 +163,10 @@ void GpuSmoother::find_first_iterations(double trigger) {
 
 void GpuSmoother::set_weights(const Buffer& weights) {
     const std::size_t bytes = surface_->vertex_count() * sizeof(Vector4f);
-    Buffer start = make_storage(surface_->device(), bytes, "start");
-    copy_storage(surface_->device(), *start_, start, bytes);
-    bind_storage({&start, &weights});
+    PooledBuffer start(surface_->device(), bytes, "start");
+    bind_storage({start_->get(), &weights, &start});
     dispatch(surface_->device(), surface_->program("set_weights"), surface_->vertex_count());
-    start_ = std::make_shared<const Buffer>(std::move(start));
+    start_ = std::make_shared<const PooledBuffer>(std::move(start));
 }
 
 Buffer GpuSmoother::upload_weights(const DeviceSurface& surface, std::span<const double> weights) {
@@ -184,9 +195,9 @@ void GpuSmoother::start(const FilterParameters& parameters) {
 void GpuSmoother::run_pass(const Pass& pass, bool last) {
     const DeviceRows& rows = pass.by_corners ? surface_->corners() : surface_->rings(rings_);
     bind_storage(
-        {&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], start_.get(), &rows.offsets,
+        {&values_[steps_done_ % 2], &values_[(steps_done_ + 1) % 2], start_->get(), &rows.offsets,
          &rows.values, pass.by_corners ? nullptr : &surface_->anchor_umbrellas(rings_),
-         &surface_->anchors(), first_iterations_.id() != 0 ? &first_iterations_ : nullptr});
+         &surface_->anchors(), first_iterations_.has_value() ? &first_iterations_ : nullptr});
     glUseProgram(pass.program->id());
     const Vector4f factors = Eigen::Vector4d(pass.factors.data()).cast<float>();
     glUniform4fv(Factors, 1, factors.data());
@@ -195,6 +206,7 @@ void GpuSmoother::run_pass(const Pass& pass, bool last) {
     glUniform1i(OfPositions, pass.of_positions ? 1 : 0);
     glUniform1i(Iteration, iterations_done_);
     glUniform1i(Cell, 0);
+    if (pass.feature_curvature > 0.0) glUniform1d(FeatureCurvature, pass.feature_curvature);
     if (last && constraint_) set_constraint(*constraint_);
     dispatch(surface_->device(), *pass.program, surface_->vertex_count());
     ++steps_done_;

@@ -27,6 +27,9 @@ public:
     /// An independent copy in the same state.
     [[nodiscard]] GpuSmoother copy() const;
 
+    /// Another one of the same surface, settings and weights, to be started.
+    [[nodiscard]] GpuSmoother another() const;
+
     /// Sets other weights in [0, 1] for the runs that start from now on: float, #V.
     void set_weights(const Buffer& weights);
 
@@ -65,6 +68,7 @@ private:
     struct Pass {
         const Program* program = nullptr;
         std::array<double, 4> factors = {};
+        double feature_curvature = 0.0;  ///< anisotropic smoothing [1/mm]
         int onto = 0;
         bool of_positions = true;  ///< the source holds shifts, not differences of shifts
         bool by_corners = false;   ///< reads triangles instead of neighbours
@@ -78,16 +82,17 @@ private:
     void plan(const CurvatureTriggeredParameters& parameters);
     void plan_linear(const std::vector<LinearStep>& steps);
     void find_first_iterations(double trigger);
+    [[nodiscard]] const Program& ring_program(const char* name) const;
     void run_pass(const Pass& pass, bool last);
     static void set_constraint(const PositionConstraint& constraint);
 
     std::shared_ptr<const DeviceSurface> surface_;
     int rings_ = 1;
     std::optional<PositionConstraint> constraint_;
-    std::shared_ptr<const Buffer>
-        start_;         ///< the surface's shifts; w is the weight, or -1 if fixed
-    Buffer values_[2];  ///< read and written alternately
-    Buffer first_iterations_;
+    /// The surface's shifts; w is the weight, or -1 if fixed.
+    std::shared_ptr<const PooledBuffer> start_;
+    PooledBuffer values_[2];  ///< read and written alternately
+    PooledBuffer first_iterations_;
     std::vector<Pass> passes_;
     std::size_t steps_done_ = 0;
     int iterations_done_ = 0;

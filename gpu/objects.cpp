@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/drawing_errors.h"
 #include "gpu/shader_source.h"
 #include "gpu/shader_texts.h"
 
@@ -79,15 +80,14 @@ Renderbuffer make_renderbuffer(unsigned format, int width, int height, int sampl
 }
 
 Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
+    forget_drawing_errors();
     unsigned id = 0;
     glGenBuffers(1, &id);
     Buffer buffer(id);
     glBindBuffer(GL_ARRAY_BUFFER, id);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
                  GL_STATIC_DRAW);
-    if (glGetError() == GL_OUT_OF_MEMORY)
-        throw GpuUnavailable("the device is out of memory for " + label + " (" +
-                             std::to_string(bytes.size()) + " bytes)");
+    require_drawn(label + " (" + std::to_string(bytes.size()) + " bytes)");
     glObjectLabel(GL_BUFFER, id, static_cast<GLsizei>(label.size()), label.c_str());
     return buffer;
 }

@@ -29,8 +29,11 @@ public:
 
     [[nodiscard]] unsigned id() const { return id_; }
 
+    /// Forgets the object without deleting it, when its context is not current any more.
+    void leave() const { id_ = 0; }
+
 private:
-    unsigned id_ = 0;
+    mutable unsigned id_ = 0;
 };
 
 void delete_buffer(unsigned id);

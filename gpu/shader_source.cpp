@@ -17,16 +17,15 @@ const std::string& text_of(const std::map<std::string, std::string>& texts,
     return text->second;
 }
 
-/// Name of the file that a line includes; empty if there is no include.
-std::string included_by(const std::string& line) {
-    const std::string start = "#include \"";
+/// Name of the file that a line includes by a directive; empty if it does not.
+std::string included_by(const std::string& line, const std::string& directive) {
+    const std::string start = directive + " \"";
     if (line.rfind(start, 0) != 0) return "";
     return line.substr(start.size(), line.find('"', start.size()) - start.size());
 }
 
 void append_file(const std::map<std::string, std::string>& texts, const std::string& file,
                  ShaderSource& source) {
-    if (std::ranges::find(source.files, file) != source.files.end()) return;
     const std::string number = std::to_string(source.files.size());
     source.files.push_back(file);
     std::istringstream lines(text_of(texts, file));
@@ -35,8 +34,10 @@ void append_file(const std::map<std::string, std::string>& texts, const std::str
     if (number != "0") source.text += "#line 1 " + number + "\n";
     for (std::string line; std::getline(lines, line);) {
         ++line_number;
-        if (const std::string included = included_by(line); !included.empty()) {
-            append_file(texts, included, source);
+        const std::string once = included_by(line, "#include"), again = included_by(line, "#again");
+        if (!once.empty() || !again.empty()) {
+            const bool is_there = std::ranges::find(source.files, once) != source.files.end();
+            if (!is_there) append_file(texts, again.empty() ? once : again, source);
             source.text += "#line " + std::to_string(line_number + 1) + " " + number + "\n";
         } else {
             source.text += line + "\n";

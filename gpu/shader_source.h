@@ -12,8 +12,9 @@ struct ShaderSource {
     std::vector<std::string> files;  ///< by their number in the compiler's messages
 };
 
-/// Assembles the text of a shader: a line `#include "file"` is replaced by that file's text, once.
-/// \throw GpuUnavailable if a file is missing
+/// Assembles the text of a shader: a line `#include "file"` is replaced by that file's text, once;
+/// `#again "file"` by the text of a file that may be there already, as another macro makes it
+/// differ. \throw GpuUnavailable if a file is missing
 [[nodiscard]] ShaderSource assemble_shader(const std::map<std::string, std::string>& texts,
                                            const std::string& file);
 

@@ -128,7 +128,10 @@ private:
                       nullptr, nullptr, &found_});
         glUseProgram(program.id());
         glUniform1d(1, reach_);
-        for (std::uint32_t moved = 0;;) {
+        std::uint32_t moved = 0;
+        for (std::size_t round = 0;; ++round) {
+            if (round > count_)  // a vertex hands on at least once in two rounds
+                throw GpuUnavailable("the search for staircases does not end");
             for (int sweep = 0; sweep < kSweeps; ++sweep) dispatch(device_, program, count_);
             const Found now = found();
             open = now.open;

@@ -44,7 +44,7 @@ void DrawnDeviceSurface::bind_vertices() const {
 
 void DrawnDeviceSurface::bind_triangles() const {
     bind_vertices();
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_->triangles().id());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_->triangles().buffer.id());
 }
 
 std::size_t DrawnDeviceSurface::bind_edges() const {

@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/drawing_errors.h"
 #include "gpu/objects.h"
 
 namespace vesselbench {
@@ -141,11 +142,12 @@ struct Picker::Impl {
     }
 
     [[nodiscard]] Picked read() const {
+        forget_drawing_errors();
         FoundPixels pixels{};
         glBindBuffer(GL_PIXEL_PACK_BUFFER, readback.id());
         glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, sizeof pixels, pixels.data());
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-        return best_of(search, pixels);
+        return drawing_has_failed() ? Picked{} : best_of(search, pixels);
     }
 };
 

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/drawing_errors.h"
 
 namespace vesselbench {
 
@@ -93,6 +94,7 @@ Picture RenderTarget::picture() {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_frame_.id());
     Picture picture = read_back(width_, height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    require_drawn("a picture");
     return picture;
 }
 

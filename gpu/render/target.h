@@ -36,6 +36,8 @@ public:
     unsigned resolve();
 
     /// resolve(), read back.
+    /// \throw GpuUnavailable if a command has failed since the last look at errors: the picture may
+    /// lack something
     [[nodiscard]] Picture picture();
 
 private:

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include "gpu/drawing_errors.h"
 #include "gpu/render/drawing_arrays.h"
 
 namespace vesselbench {
@@ -33,12 +34,15 @@ std::size_t DrawnEdges::bind(const Topology& topology) {
 }
 
 void upload_all(const Buffer& buffer, std::span<const std::byte> all) {
+    forget_drawing_errors();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(all.size()), all.data());
+    require_drawn("changes of a drawing");
 }
 
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
                   std::span<const std::uint32_t> changed) {
+    forget_drawing_errors();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     for (std::size_t first = 0; first < changed.size();) {
         std::size_t last = first;
@@ -49,6 +53,7 @@ void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::siz
                         static_cast<GLsizeiptr>(part.size()), part.data());
         first = last + 1;
     }
+    require_drawn("changes of a drawing");
 }
 
 }  // namespace vesselbench

@@ -22,11 +22,11 @@ template <class T>
     return std::as_bytes(std::span(values));
 }
 
-/// Uploads an array that is as long as the buffer.
+/// Uploads an array that is as long as the buffer. \throw GpuUnavailable if the driver refuses
 void upload_all(const Buffer& buffer, std::span<const std::byte> all);
 
 /// Uploads elements of an array whose indices are ascending: a few contiguous parts instead of
-/// single ones. \param size of one element [bytes]
+/// single ones. \param size of one element [bytes] \throw GpuUnavailable as above
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
                   std::span<const std::uint32_t> changed);
 

@@ -1,31 +1,51 @@
 #version 430 core
 // An iteration of anisotropic smoothing (smoothing/filters/anisotropic.h), factors.x lambda. In
-// double precision: features are detected in every iteration, and if single precision decides one
-// vertex differently, its whole neighbourhood shows it.
+// single precision, and again in double precision where that may decide a feature differently:
+// then the whole neighbourhood would show it.
 // 0 source, 1 target, 2 start, 3 offsets and 4 corners of every vertex, 6 anchors
 #include "filter_pass.glsl"
 #include "corners.glsl"
+#include "angle.glsl"
 #include "angle_double.glsl"
-#define REAL double
-#define VEC3 dvec3
-#include "cotangent_umbrella.glsl"
-#include "corner_curvature.glsl"
 
-layout(location = 9) uniform double feature_curvature;  // [1/mm]
+vec3 edge_of(uint from, uint to, vec3 zero) { return edge(from, to); }
 
-dvec3 exact_edge(uint from, uint to) {
+dvec3 edge_of(uint from, uint to, dvec3 zero) {
     return (dvec3(anchors[to].xyz) - dvec3(anchors[from].xyz)) + (dvec3(shifts[to].xyz) - dvec3(shifts[from].xyz));
 }
 
-// Meyer et al. 2003, section 6: fraction of the flow that a vertex keeps.
-double flow_share(double mean, double gauss, double feature) {
-    double spread = sqrt(max(0.0lf, mean * mean - gauss));
-    double one = mean + spread, two = mean - spread;
-    if (abs(one) <= feature && abs(two) <= feature) return 1.0lf;
-    if (abs(one) > feature && abs(two) > feature && gauss > 0.0lf) return 0.0lf;
-    double smallest = abs(one) < abs(two) ? one : two;
-    if (abs(mean) <= abs(smallest)) return 1.0lf;
-    return clamp(smallest / mean, 0.0lf, 1.0lf);
+#define REAL float
+#define VEC3 vec3
+#include "cotangent_umbrella.glsl"
+#include "corner_curvature.glsl"
+#include "anisotropic_sums.glsl"
+#undef REAL
+#undef VEC3
+#define REAL double
+#define VEC3 dvec3
+#define largest_cotangent largest_cotangent_double
+#define CornerShare CornerShareDouble
+#define AnisotropicSums AnisotropicSumsDouble
+#again "cotangent_umbrella.glsl"
+#again "corner_curvature.glsl"
+#again "anisotropic_sums.glsl"
+#undef CornerShare
+#undef AnisotropicSums
+
+layout(location = 9) uniform double feature_curvature;  // [1/mm]
+
+// Whether a principal curvature is so near the threshold that rounding may decide, or a number is
+// none. A sum of curvatures errs by 1e-5 at most, where triangles are not thin: angles by some
+// roundings, cotangents by 20 times as many.
+bool in_doubt(AnisotropicSums sums, float feature) {
+    const float rounding = 1e-5;
+    float mean_error = rounding * sums.reach / sums.area;
+    float squared = sums.mean * sums.mean - sums.gauss;
+    float squared_error = 2.0 * abs(sums.mean) * mean_error + rounding / sums.area;
+    float spread = sqrt(max(0.0, squared));
+    float error = mean_error + squared_error / (spread + sqrt(squared_error));
+    bool certain = abs(abs(sums.mean + spread) - feature) > error && abs(abs(sums.mean - spread) - feature) > error;
+    return sums.thin || !certain;
 }
 
 void main() {
@@ -34,23 +54,19 @@ void main() {
     vec4 own = shifts[v];
     target[v] = own;
     if (own.w <= 0.0) return;
-    dvec3 sum = dvec3(0.0lf), flow = dvec3(0.0lf), normal = dvec3(0.0lf);
-    double weights = 0.0lf, area = 0.0lf, angles = 0.0lf;
-    uint end = first_corner(v + 1u);
-    for (uint i = first_corner(v); i < end; ++i) {
-        dvec3 to_next = exact_edge(v, corners[i].x), to_last = exact_edge(v, corners[i].y);
-        add_triangle(to_next, to_last, sum, weights);
-        CornerShare share = corner_share(to_next, to_last);
-        flow += share.flow;
-        normal += share.normal;
-        area += share.area;
-        if (share.across > 0.0lf) angles += angle_of(share.across, share.along);
+    AnisotropicSums sums = anisotropic_sums(v, vec3(0.0));
+    vec3 step;
+    if (!on_boundary(v) && in_doubt(sums, float(feature_curvature))) {
+        AnisotropicSumsDouble exact = anisotropic_sums(v, dvec3(0.0lf));
+        if (!(exact.weights > 0.0lf)) return;
+        double share = exact.area > 0.0lf ? flow_share(exact, feature_curvature) : 1.0lf;
+        step = vec3(share * (exact.way / exact.weights));
+    } else {
+        if (!(sums.weights > 0.0)) return;
+        float share = sums.area > 0.0 && !on_boundary(v) ? flow_share(sums, float(feature_curvature)) : 1.0;
+        step = share * (sums.way / sums.weights);
     }
-    if (!(weights > 0.0lf)) return;
-    double share = factors.x;
-    if (area > 0.0lf && !on_boundary(v))
-        share *= flow_share(mean_of(flow, normal, area), (6.28318530717958647693lf - angles) / area, feature_curvature);
-    vec3 moved = own.xyz + vec3(own.w * share * (sum / weights));
+    vec3 moved = own.xyz + own.w * factors.x * step;
     if (cell != 0) moved = inside_cell(start[v].xyz, moved);
     target[v].xyz = moved;
 }

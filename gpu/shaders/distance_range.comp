@@ -3,7 +3,7 @@
 // 0 distances, 1 both
 #include "elements.glsl"
 
-layout(std430, binding = 0) readonly buffer Distances { float distances[]; };
+layout(std430, binding = 0) restrict readonly buffer Distances { float distances[]; };
 layout(std430, binding = 1) buffer Range { uint least, most; };
 
 shared uint lowest, highest;

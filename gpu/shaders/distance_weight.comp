@@ -6,9 +6,9 @@
 // 0 distances [mm], 1 weights, 2 constant factor: 0 on caps, or other weights
 #include "elements.glsl"
 
-layout(std430, binding = 0) readonly buffer Distances { float distances[]; };
+layout(std430, binding = 0) restrict readonly buffer Distances { float distances[]; };
 layout(std430, binding = 1) buffer Weights { float weights[]; };
-layout(std430, binding = 2) readonly buffer Factors { float factors[]; };
+layout(std430, binding = 2) restrict readonly buffer Factors { float factors[]; };
 layout(location = 1) uniform vec4 scale;
 layout(location = 2) uniform int kind;
 

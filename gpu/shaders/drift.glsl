@@ -1,6 +1,6 @@
 // The reference of each moved vertex: the original vertex that it drifts to along the original's edges
 // (geometry/kernel/local_error.h).
-layout(std430, binding = 5) readonly buffer OriginalShifts { vec4 original_shifts[]; };
+layout(std430, binding = 5) restrict readonly buffer OriginalShifts { vec4 original_shifts[]; };
 layout(std430, binding = 7) buffer References { uint references[]; };
 
 // From a vertex to the original place of another one.
@@ -19,19 +19,23 @@ float squared_to(uint u, uint v) {
 
 // Every step comes strictly closer, so the loop ends. Comparisons are false for not-a-number.
 uint drifted(uint reference, uint v) {
+    reference = min(reference, element_count - 1u);
     float closest = squared_to(reference, v);
     bool closer = true;
-    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
+    for (uint steps = 0u; closer && steps < element_count; ++steps) {
         closer = false;
-        uint from = reference, end = first_corner(from + 1u);
-        for (uint i = first_corner(from); i < end; ++i)
-            for (int k = 0; k < 2; ++k) {
-                float squared = squared_to(corners[i][k], v);
+        uint from = reference, end = first_corner(from + 1u), last = no_vertex;
+        for (uint i = first_corner(from); i < end; ++i) {
+            uvec2 others = corner(i);
+            for (int k = others.x == last ? 1 : 0; k < 2; ++k) {
+                float squared = squared_to(others[k], v);
                 if (!(squared < closest)) continue;
                 closest = squared;
-                reference = corners[i][k];
+                reference = others[k];
                 closer = true;
             }
+            last = others.y;
+        }
     }
     return reference;
 }

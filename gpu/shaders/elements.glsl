@@ -2,8 +2,8 @@
 layout(local_size_x = 256) in;
 layout(location = 0) uniform uint element_count;
 
-// The last resort of loops that end by themselves unless memory is damaged.
-const uint most_steps = 1u << 24;
+// Loops that end by themselves, unless numbers are not finite or memory is damaged, also end after
+// as many steps as there are elements.
 
 uint element() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;

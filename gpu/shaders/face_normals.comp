@@ -4,7 +4,7 @@
 #include "elements.glsl"
 #include "area_normal.glsl"
 
-layout(std430, binding = 2) writeonly buffer Normals { double normals[]; };
+layout(std430, binding = 2) restrict writeonly buffer Normals { double normals[]; };
 
 void main() {
     uint t = element();

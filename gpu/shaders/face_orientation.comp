@@ -6,7 +6,7 @@
 #include "elements.glsl"
 #include "area_normal.glsl"
 
-layout(std430, binding = 2) writeonly buffer Orientations { double orientations[]; };
+layout(std430, binding = 2) restrict writeonly buffer Orientations { double orientations[]; };
 layout(location = 1) uniform dvec3 axis;  // unit
 
 void main() {

@@ -4,7 +4,7 @@
 #include "positions.glsl"
 
 layout(std430, binding = 1) buffer Target { vec4 target[]; };
-layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
+layout(std430, binding = 2) restrict readonly buffer Start { vec4 start[]; };
 
 layout(location = 1) uniform vec4 factors;  // their meaning depends on the filter
 layout(location = 2) uniform int onto;      // linear steps: 0 nothing, 1 source, 2 target

@@ -20,7 +20,7 @@ void main() {
     double least = known == none ? 0.0lf : squared_length(own - exact_at(known));
     uint end = offsets[v + 1u];
     for (uint i = offsets[v]; i < end; ++i) {
-        uint source = nearest[neighbours[i]];
+        uint source = nearest[neighbour(i)];
         if (source == none || source == best) continue;
         double squared = squared_length(own - exact_at(source));
         if (squared > reach * reach || (best != none && squared >= least)) continue;

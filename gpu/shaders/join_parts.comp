@@ -8,7 +8,7 @@
 #include "neighbours.glsl"
 
 void join(uint a, uint b) {
-    for (uint tries = 0u; tries < most_steps; ++tries) {
+    for (uint tries = 0u; tries < element_count; ++tries) {
         a = first_of(a);
         b = first_of(b);
         if (a == b) return;
@@ -25,7 +25,7 @@ void main() {
     if (v >= element_count || labels[v] == none) return;
     uint end = offsets[v + 1u];
     for (uint i = offsets[v]; i < end; ++i) {
-        uint u = neighbours[i];
+        uint u = neighbour(i);
         if (u < v && labels[u] != none) join(u, v);
     }
 }

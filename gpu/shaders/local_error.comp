@@ -11,8 +11,8 @@
 #include "closest_point.glsl"
 #include "drift.glsl"
 
-layout(std430, binding = 1) writeonly buffer Distances { float distances[]; };
-layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Distances { float distances[]; };
+layout(std430, binding = 2) restrict writeonly buffer Parts { vec4 parts[]; };
 layout(location = 1) uniform bool planes;  // y, the thesis's form, is required
 layout(location = 2) uniform bool follow;  // the references move permanently
 
@@ -27,10 +27,14 @@ struct RingPlace {
 RingPlace closest_in_ring(uint centre, uint v) {
     RingPlace place = RingPlace(infinite, false, uvec2(0u));
     vec3 a = way_to(v, centre);
-    uint end = first_corner(centre + 1u);
+    uint end = first_corner(centre + 1u), last = no_vertex;
+    vec3 c = a;
     for (uint i = first_corner(centre); i < end; ++i) {
-        uvec2 others = corners[i];
-        Closest closest = to_triangle(a, way_to(v, others.x), way_to(v, others.y));
+        uvec2 others = corner(i);
+        vec3 b = others.x == last ? c : way_to(v, others.x);
+        last = others.y;
+        c = way_to(v, last);
+        Closest closest = to_triangle(a, b, c);
         if (closest.squared < place.squared) place = RingPlace(closest.squared, closest.outer, others);
     }
     return place;
@@ -41,7 +45,7 @@ RingPlace closest_in_ring(uint centre, uint v) {
 float to_ring(uint reference, uint v) {
     RingPlace best = closest_in_ring(reference, v);
     bool closer = best.outer;
-    for (uint steps = 0u; closer && steps < most_steps; ++steps) {
+    for (uint steps = 0u; closer && steps < element_count; ++steps) {
         closer = false;
         uvec2 ends = best.ends;
         for (int k = 0; k < 2; ++k) {
@@ -60,7 +64,7 @@ float to_planes(uint reference, uint v) {
     vec3 way = way_to(v, reference);
     uint end = first_corner(reference + 1u);
     for (uint i = first_corner(reference); i < end; ++i) {
-        vec3 normal = cross(original_edge(reference, corners[i].x), original_edge(reference, corners[i].y));
+        vec3 normal = cross(original_edge(reference, corner(i).x), original_edge(reference, corner(i).y));
         float size = length(normal);
         if (size > 0.0) largest = max(largest, abs(dot(normal, way)) / size);
     }

@@ -15,9 +15,15 @@ void main() {
     if (own.w <= 0.0) return;
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    uint end = first_corner(v + 1u);
-    for (uint i = first_corner(v); i < end; ++i)
-        add_triangle(edge(v, corners[i].x), edge(v, corners[i].y), sum, weights);
+    uint end = first_corner(v + 1u), last = no_vertex;
+    vec3 to_last = vec3(0.0);
+    for (uint i = first_corner(v); i < end; ++i) {
+        uvec2 others = corner(i);
+        vec3 to_next = others.x == last ? to_last : edge(v, others.x);
+        last = others.y;
+        to_last = edge(v, last);
+        add_triangle(to_next, to_last, sum, weights);
+    }
     if (!(weights > 0.0)) return;
     vec3 moved = own.xyz + own.w * factors.x * (sum / weights);
     if (cell != 0) moved = inside_cell(start[v].xyz, moved);

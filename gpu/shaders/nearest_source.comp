@@ -10,10 +10,10 @@
 #include "staircase_search.glsl"
 #include "cells.glsl"
 
-layout(std430, binding = 1) writeonly buffer Doubts { uint doubts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Doubts { uint doubts[]; };
 layout(std430, binding = 2) buffer Nearest { uint nearest[]; };
-layout(std430, binding = 5) readonly buffer CellOffsets { uint cell_offsets[]; };
-layout(std430, binding = 6) readonly buffer Sources { uint sources_by_cell[]; };
+layout(std430, binding = 5) restrict readonly buffer CellOffsets { uint cell_offsets[]; };
+layout(std430, binding = 6) restrict readonly buffer Sources { uint sources_by_cell[]; };
 layout(location = 1) uniform double reach;  // [mm]
 
 const double slack = 1.0lf + 1e-9lf;  // for rounding
@@ -48,7 +48,7 @@ void look_around(dvec3 p, double distance, inout Source best) {
         for (int y = first.y; y <= last.y; ++y) {
             double dy = gap(at.y, y);
             if (dy * dy + dz * dz > best.squared * squared_scale) continue;
-            uint row = first_in_row(y, z), end = cell_offsets[row + uint(last.x) + 1u];
+            uint row = first_in_row(y, z), end = min(cell_offsets[row + uint(last.x) + 1u], uint(sources_by_cell.length()));
             for (uint i = cell_offsets[row + uint(first.x)]; i < end; ++i) look_at(sources_by_cell[i], p, best);
         }
     }
@@ -71,7 +71,7 @@ bool walk_arrives(uint v, uint source) {
     for (uint steps = 0u; v != source; ++steps) {
         uint from = v, end = offsets[from + 1u];
         for (uint i = offsets[from]; i < end; ++i) {
-            uint u = neighbours[i];
+            uint u = neighbour(i);
             if (u == source) return true;
             double there = squared_length(exact_at(u) - goal);
             if (there < here) {
@@ -79,7 +79,7 @@ bool walk_arrives(uint v, uint source) {
                 v = u;
             }
         }
-        if (v == from || steps >= most_steps) return false;
+        if (v == from || steps >= element_count) return false;
     }
     return true;
 }

@@ -9,6 +9,7 @@
 #include "positions.glsl"
 #include "closest_point.glsl"
 #include "angle.glsl"
+#include "finite.glsl"
 
 struct Node {
     vec3 low;
@@ -22,41 +23,78 @@ struct Dipole {
     vec4 centre;
 };
 
-layout(std430, binding = 1) buffer Distances { float distances[]; };
-layout(std430, binding = 3) readonly buffer Nodes { Node nodes[]; };
-layout(std430, binding = 4) readonly buffer Corners { vec4 corners[]; };
-layout(std430, binding = 5) readonly buffer Dipoles { Dipole dipoles[]; };
+layout(std430, binding = 1) restrict buffer Distances { float distances[]; };
 layout(location = 1) uniform bool closed;
 layout(location = 2) uniform float far_factor;  // distance, in radii, from which a node counts as distant
+
+#ifdef WIDE
+layout(binding = 3) uniform usamplerBuffer node_table;
+layout(binding = 4) uniform usamplerBuffer corner_table;
+layout(binding = 5) uniform usamplerBuffer dipole_table;
+uint node_count() { return uint(textureSize(node_table)) / 2u; }
+uint corner_count() { return uint(textureSize(corner_table)); }
+vec3 corner(uint i) { return uintBitsToFloat(texelFetch(corner_table, int(i)).xyz); }
+Node node(uint at) {
+    uvec4 low = texelFetch(node_table, int(2u * at)), high = texelFetch(node_table, int(2u * at + 1u));
+    return Node(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w);
+}
+Dipole dipole_of(uint at) {
+    return Dipole(uintBitsToFloat(texelFetch(dipole_table, int(2u * at))),
+                  uintBitsToFloat(texelFetch(dipole_table, int(2u * at + 1u))));
+}
+#else
+layout(std430, binding = 3) restrict readonly buffer Nodes { Node nodes[]; };
+layout(std430, binding = 4) restrict readonly buffer Corners { vec4 corners[]; };
+layout(std430, binding = 5) restrict readonly buffer Dipoles { Dipole dipoles[]; };
+uint node_count() { return uint(nodes.length()); }
+uint corner_count() { return uint(corners.length()); }
+vec3 corner(uint i) { return corners[i].xyz; }
+Node node(uint at) { return nodes[at]; }
+Dipole dipole_of(uint at) { return dipoles[at]; }
+#endif
 
 const uint leaf = 0x80000000u;
 const float whole_sphere = 12.566370614359172;
 
-float squared_to_box(vec3 p, uint at) {
-    vec3 outside = max(max(nodes[at].low - p, p - nodes[at].high), vec3(0.0));
+// A damaged tree may name nodes that it does not have.
+Node known_node(uint at) { return node(min(at, node_count() - 1u)); }
+
+// The nodes still to be visited; a tree of 2^32 leaves would be 32 levels deep. In a damaged tree,
+// some are left out, and every walk ends after as many visits as there are nodes.
+const int deepest = 40;
+uint stack[deepest];
+int depth = 0;
+
+void push(uint at) {
+    if (depth < deepest && at < node_count()) stack[depth++] = at;
+}
+
+// Behind the last triangle of a leaf.
+uint leaf_end(Node visited) { return min(visited.begin + (visited.right - leaf), corner_count() / 3u); }
+
+float squared_to_box(vec3 p, Node visited) {
+    vec3 outside = max(max(visited.low - p, p - visited.high), vec3(0.0));
     return dot(outside, outside);
 }
 
-// The nearer child first; a tree of 2^32 leaves would be 32 levels deep.
+// The nearer child first.
 float nearest_squared(vec3 p, float known) {
-    uint stack[40];
-    int depth = 0;
-    stack[depth++] = 0u;
+    depth = 0;
+    push(0u);
     float best = known;
-    while (depth > 0) {
+    for (uint visits = node_count(); depth > 0 && visits > 0u; --visits) {
         uint at = stack[--depth];
-        if (!(squared_to_box(p, at) < best)) continue;
-        uint right = nodes[at].right, begin = nodes[at].begin;
-        if (right >= leaf) {
-            uint end = begin + (right - leaf);
-            for (uint i = begin; i < end; ++i)
-                best = min(best, to_triangle(corners[3u * i].xyz - p, corners[3u * i + 1u].xyz - p,
-                                             corners[3u * i + 2u].xyz - p).squared);
+        Node visited = node(at);
+        if (!(squared_to_box(p, visited) < best)) continue;
+        if (visited.right >= leaf) {
+            uint end = leaf_end(visited);
+            for (uint i = visited.begin; i < end; ++i)
+                best = min(best, to_triangle(corner(3u * i) - p, corner(3u * i + 1u) - p, corner(3u * i + 2u) - p).squared);
             continue;
         }
-        bool left_first = squared_to_box(p, at + 1u) <= squared_to_box(p, right);
-        stack[depth++] = left_first ? right : at + 1u;
-        stack[depth++] = left_first ? at + 1u : right;
+        bool left_first = squared_to_box(p, known_node(at + 1u)) <= squared_to_box(p, known_node(visited.right));
+        push(left_first ? visited.right : at + 1u);
+        push(left_first ? at + 1u : visited.right);
     }
     return best;
 }
@@ -71,29 +109,27 @@ float solid_angle(vec3 a, vec3 b, vec3 c) {
 }
 
 bool inside(vec3 p) {
-    if (isnan(p.x + p.y + p.z)) return false;  // else it would visit the whole tree
-    uint stack[40];
-    int depth = 0;
-    stack[depth++] = 0u;
+    depth = 0;
+    push(0u);
     float angle = 0.0;
-    while (depth > 0) {
+    for (uint visits = node_count(); depth > 0 && visits > 0u; --visits) {
         uint at = stack[--depth];
-        Dipole dipole = dipoles[at];
+        Dipole dipole = dipole_of(at);
         vec3 away = dipole.centre.xyz - p;
         float distance = length(away);
         if (distance > far_factor * dipole.area_normal.w) {
             angle += dot(dipole.area_normal.xyz, away) / (distance * distance * distance);
             continue;
         }
-        uint right = nodes[at].right, begin = nodes[at].begin;
-        if (right >= leaf) {
-            uint end = begin + (right - leaf);
-            for (uint i = begin; i < end; ++i)
-                angle += solid_angle(corners[3u * i].xyz - p, corners[3u * i + 1u].xyz - p, corners[3u * i + 2u].xyz - p);
+        Node visited = node(at);
+        if (visited.right >= leaf) {
+            uint end = leaf_end(visited);
+            for (uint i = visited.begin; i < end; ++i)
+                angle += solid_angle(corner(3u * i) - p, corner(3u * i + 1u) - p, corner(3u * i + 2u) - p);
             continue;
         }
-        stack[depth++] = right;
-        stack[depth++] = at + 1u;
+        push(visited.right);
+        push(at + 1u);
     }
     return angle > 0.5 * whole_sphere;
 }
@@ -103,8 +139,8 @@ void main() {
     if (v >= element_count) return;
     vec3 p = position_of(v);
     float known = distances[v];
-    if (known == 0.0) return;
+    if (known == 0.0 || !is_finite(p)) return;  // what is not finite stays unknown
     float best = nearest_squared(p, known < 1e18 ? known * known : 3e38);
     float distance = best < 3e38 ? min(known, sqrt(best)) : known;
-    distances[v] = closed && squared_to_box(p, 0u) == 0.0 && inside(p) ? 0.0 : distance;
+    distances[v] = closed && squared_to_box(p, node(0u)) == 0.0 && inside(p) ? 0.0 : distance;
 }

@@ -4,9 +4,9 @@
 #include "elements.glsl"
 #include "staircase_search.glsl"
 
-layout(std430, binding = 1) readonly buffer Doubts { uint doubts[]; };
-layout(std430, binding = 2) readonly buffer Nearest { uint nearest[]; };
-layout(std430, binding = 5) writeonly buffer Open { uvec2 open_vertices[]; };
+layout(std430, binding = 1) restrict readonly buffer Doubts { uint doubts[]; };
+layout(std430, binding = 2) restrict readonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = 5) restrict writeonly buffer Open { uvec2 open_vertices[]; };
 
 void main() {
     uint v = element();

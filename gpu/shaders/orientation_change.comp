@@ -4,18 +4,17 @@
 // stays.
 // 0 orientations, 1 in and out: changes, 0 before the first axis, 3 offsets and 4 triangles at every vertex
 #include "elements.glsl"
+#include "triangles_at.glsl"
 
-layout(std430, binding = 0) readonly buffer Orientations { double orientations[]; };
+layout(std430, binding = 0) restrict readonly buffer Orientations { double orientations[]; };
 layout(std430, binding = 1) buffer Changes { double changes[]; };
-layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 4) readonly buffer TrianglesAt { uint triangles_at[]; };
 
 void main() {
     uint v = element();
     if (v >= element_count) return;
     double smallest = 2.0lf, largest = -1.0lf;
     for (uint i = offsets[v]; i < offsets[v + 1u]; ++i) {
-        double orientation = orientations[triangles_at[i]];
+        double orientation = orientations[triangle_at(i)];
         if (orientation < 0.0lf) continue;
         smallest = min(smallest, orientation);
         largest = max(largest, orientation);

@@ -1,6 +1,6 @@
 #version 430 core
 // Drops the vertices outside their part's plane, and counts the others.
-// 1 unit normals, 2 labels, 5 parts
+// 1 unit normals, 2 labels, 5 and 6 parts
 #include "elements.glsl"
 #include "parts.glsl"
 #include "part_planes.glsl"
@@ -27,7 +27,7 @@ void main() {
     }
     barrier();
     if (part != none && part == common_part) atomicAdd(inside, 1u);
-    if (part != none && part != common_part) atomicAdd(parts[part].inside, 1u);
+    if (part != none && part != common_part) atomicAdd(part_high[part].inside, 1u);
     barrier();
-    if (gl_LocalInvocationIndex == 0u && common_part != none) atomicAdd(parts[common_part].inside, inside);
+    if (gl_LocalInvocationIndex == 0u && common_part != none) atomicAdd(part_high[common_part].inside, inside);
 }

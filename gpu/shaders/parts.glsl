@@ -5,6 +5,6 @@ layout(std430, binding = 2) coherent buffer Labels { uint labels[]; };
 const uint none = 0xffffffffu;
 
 uint first_of(uint v) {
-    for (uint steps = 0u; labels[v] != v && steps < most_steps; ++steps) v = labels[v];
+    for (uint steps = 0u; labels[v] != v && steps < element_count; ++steps) v = labels[v];
     return v;
 }

@@ -7,8 +7,8 @@
 #include "reduce.glsl"
 
 layout(std430, binding = 2) buffer Parts { vec4 parts[]; };
-layout(std430, binding = 3) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 4) readonly buffer Vertices { uint vertices[]; };
+layout(std430, binding = 3) restrict readonly buffer Offsets { uint offsets[]; };
+layout(std430, binding = 4) restrict readonly buffer Vertices { uint vertices[]; };
 layout(location = 1) uniform uint first_part;
 
 void main() {

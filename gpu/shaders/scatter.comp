@@ -3,9 +3,9 @@
 // 0 places, 1 values, 2 out
 #include "elements.glsl"
 
-layout(std430, binding = 0) readonly buffer Places { uint places[]; };
-layout(std430, binding = 1) readonly buffer Values { float values[]; };
-layout(std430, binding = 2) writeonly buffer Out { float written[]; };
+layout(std430, binding = 0) restrict readonly buffer Places { uint places[]; };
+layout(std430, binding = 1) restrict readonly buffer Values { float values[]; };
+layout(std430, binding = 2) restrict writeonly buffer Out { float written[]; };
 
 void main() {
     uint i = element();

@@ -3,6 +3,7 @@ uniform vec3 back_colour;
 uniform bool back_as_front;
 uniform float opacity;
 #include "light.glsl"
+#include "finite.glsl"
 
 #ifdef VALUES
 layout(std140, binding = 0) uniform Scale { vec4 scale[256]; };
@@ -10,7 +11,7 @@ uniform vec2 range;
 uniform vec3 no_value;
 
 vec3 front_colour(vec3 colour, float value) {
-    if (isnan(value)) return no_value;
+    if (!is_finite(value)) return no_value;
     float share = range.y > range.x ? (value - range.x) / (range.y - range.x) : 0.0;
     return scale[int(255.0 * clamp(share, 0.0, 1.0) + 0.5)].rgb;
 }

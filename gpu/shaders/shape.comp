@@ -11,8 +11,8 @@
 #define VEC3 vec3
 #include "corner_curvature.glsl"
 
-layout(std430, binding = 1) writeonly buffer Normals { vec4 normals[]; };
-layout(std430, binding = 2) writeonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = 2) restrict writeonly buffer Parts { vec4 parts[]; };
 
 // Component of the flow along the normal (Eq. 6.3); 0 if it is below the rounding of the areas.
 float along(vec3 flow, vec3 normal, float doubled_areas) {
@@ -23,9 +23,14 @@ float along(vec3 flow, vec3 normal, float doubled_areas) {
 vec4 shape_of(uint v) {
     vec3 flow = vec3(0.0), outward = vec3(0.0), normal = vec3(0.0);
     float area = 0.0, doubled_areas = 0.0;
-    uint end = first_corner(v + 1u);
+    uint end = first_corner(v + 1u), last = no_vertex;
+    vec3 to_last = vec3(0.0);
     for (uint i = first_corner(v); i < end; ++i) {
-        CornerShare share = corner_share(edge(v, corners[i].x), edge(v, corners[i].y));
+        uvec2 others = corner(i);
+        vec3 to_next = others.x == last ? to_last : edge(v, others.x);
+        last = others.y;
+        to_last = edge(v, last);
+        CornerShare share = corner_share(to_next, to_last);
         flow += share.flow;
         area += share.area;
         doubled_areas += share.across;

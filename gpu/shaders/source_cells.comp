@@ -7,9 +7,9 @@
 #include "exact.glsl"
 #include "cells.glsl"
 
-layout(std430, binding = 2) readonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = 2) restrict readonly buffer Nearest { uint nearest[]; };
 layout(std430, binding = 5) buffer CellOffsets { uint cell_offsets[]; };
-layout(std430, binding = 6) writeonly buffer Sources { uint sources_by_cell[]; };
+layout(std430, binding = 6) restrict writeonly buffer Sources { uint sources_by_cell[]; };
 layout(location = 1) uniform bool places;  // false: counts
 
 void main() {

@@ -6,9 +6,9 @@
 #include "exact.glsl"
 #include "staircase_search.glsl"
 
-layout(std430, binding = 1) writeonly buffer Distances { float distances[]; };
-layout(std430, binding = 2) readonly buffer Nearest { uint nearest[]; };
-layout(std430, binding = 5) readonly buffer Doubts { uint doubts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Distances { float distances[]; };
+layout(std430, binding = 2) restrict readonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = 5) restrict readonly buffer Doubts { uint doubts[]; };
 
 const float unreached = 3.1e38;  // gpu/shaders/distance_weight.comp
 

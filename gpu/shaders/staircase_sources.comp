@@ -5,9 +5,9 @@
 #include "elements.glsl"
 #include "staircase_search.glsl"
 
-layout(std430, binding = 0) readonly buffer Changes { double changes[]; };
-layout(std430, binding = 1) readonly buffer Free { float free_of_caps[]; };
-layout(std430, binding = 2) writeonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = 0) restrict readonly buffer Changes { double changes[]; };
+layout(std430, binding = 1) restrict readonly buffer Free { float free_of_caps[]; };
+layout(std430, binding = 2) restrict writeonly buffer Nearest { uint nearest[]; };
 layout(location = 1) uniform double tau_theta;
 
 shared uint in_group;

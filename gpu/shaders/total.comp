@@ -4,8 +4,8 @@
 #include "elements.glsl"
 #include "reduce.glsl"
 
-layout(std430, binding = 0) readonly buffer Parts { vec4 parts[]; };
-layout(std430, binding = 1) writeonly buffer Results { vec4 results[]; };
+layout(std430, binding = 0) restrict readonly buffer Parts { vec4 parts[]; };
+layout(std430, binding = 1) restrict writeonly buffer Results { vec4 results[]; };
 layout(location = 1) uniform uint place;
 
 void main() {

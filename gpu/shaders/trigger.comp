@@ -10,8 +10,8 @@
 #define VEC3 dvec3
 #include "corner_curvature.glsl"
 
-layout(std430, binding = 2) readonly buffer Start { vec4 start[]; };
-layout(std430, binding = 7) writeonly buffer First { int first[]; };
+layout(std430, binding = 2) restrict readonly buffer Start { vec4 start[]; };
+layout(std430, binding = 7) restrict writeonly buffer First { int first[]; };
 layout(location = 1) uniform double trigger;
 
 void main() {
@@ -23,7 +23,7 @@ void main() {
     double area = 0.0;
     uint end = first_corner(v + 1u);
     for (uint i = first_corner(v); i < end; ++i) {
-        CornerShare share = corner_share(exact_at(corners[i].x) - own, exact_at(corners[i].y) - own);
+        CornerShare share = corner_share(exact_at(corner(i).x) - own, exact_at(corner(i).y) - own);
         flow += share.flow;
         normal += share.normal;
         area += share.area;

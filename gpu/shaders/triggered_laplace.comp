@@ -13,7 +13,7 @@ bool joins(uint v) {
     if (first[v] <= iteration) return true;
     uint end = offsets[v + 1u];
     for (uint i = offsets[v]; i < end; ++i)
-        if (first[neighbours[i]] < iteration) {
+        if (first[neighbour(i)] < iteration) {
             first[v] = iteration;
             return true;
         }

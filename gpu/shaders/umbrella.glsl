@@ -1,13 +1,13 @@
 // The uniform umbrella operator: mean of the neighbours minus the own value.
 #include "neighbours.glsl"
-layout(std430, binding = 5) readonly buffer AnchorUmbrellas { vec4 anchor_umbrellas[]; };
+layout(std430, binding = 5) restrict readonly buffer AnchorUmbrellas { vec4 anchor_umbrellas[]; };
 
 // Of the shifts, or of the values the source holds instead.
 vec3 umbrella_of_shifts(uint v, vec3 own) {
     uint first = offsets[v], end = offsets[v + 1u];
     if (first == end) return vec3(0.0);
     vec3 sum = vec3(0.0);
-    for (uint i = first; i < end; ++i) sum += shifts[neighbours[i]].xyz - own;
+    for (uint i = first; i < end; ++i) sum += shifts[neighbour(i)].xyz - own;
     return sum / float(end - first);
 }
 

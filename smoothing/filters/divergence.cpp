@@ -8,12 +8,6 @@
 
 namespace vesselbench {
 
-namespace {
-
-constexpr double kMostGrowth = 10.0;
-
-}  // namespace
-
 void require_bounded(const Positions& start, const Positions& result) {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : start)
@@ -25,10 +19,14 @@ void require_bounded(const Positions& start, const Positions& result) {
         if (p.allFinite()) radius = std::max(radius, (p - centre).norm());
     for (std::size_t v = 0; v < start.size(); ++v) {
         if (!start[v].allFinite() || (result[v] - centre).norm() <= kMostGrowth * radius) continue;
-        throw AlgorithmFailure(
-            "the filter diverges: its vertices leave the surface further with every iteration; "
-            "take smaller steps (lambda, mu closer to -lambda) or fewer iterations");
+        report_divergence();
     }
+}
+
+void report_divergence() {
+    throw AlgorithmFailure(
+        "the filter diverges: its vertices leave the surface further with every iteration; "
+        "take smaller steps (lambda, mu closer to -lambda) or fewer iterations");
 }
 
 }  // namespace vesselbench

@@ -11,4 +11,10 @@ namespace vesselbench {
 /// from the surface's centre as its farthest vertex was
 void require_bounded(const Positions& start, const Positions& result);
 
+/// How many times as far out a vertex may end [-].
+inline constexpr double kMostGrowth = 10.0;
+
+/// \throw AlgorithmFailure that says what helps
+[[noreturn]] void report_divergence();
+
 }  // namespace vesselbench

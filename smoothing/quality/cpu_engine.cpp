@@ -14,9 +14,11 @@ enum class Sample { All, Some };
 
 class CpuRun final : public FollowingRun {
 public:
-    CpuRun(const SurfaceMeter& meter, const std::shared_ptr<const FilterRun::Ground>& ground,
-           const SmoothingChoice& choice, Sample sample)
+    CpuRun(const SurfaceMeter& meter, double radius,
+           const std::shared_ptr<const FilterRun::Ground>& ground, const SmoothingChoice& choice,
+           Sample sample)
         : meter_(meter),
+          radius_(radius),
           sample_(sample),
           run_(ground, choice.filter, weights_of(choice)),
           references_(meter.own_references()) {}
@@ -24,6 +26,17 @@ public:
     [[nodiscard]] int iterations() const override { return run_.iterations(); }
 
     [[nodiscard]] QualityMeasures measure() override {
+        const QualityMeasures measures = measured();
+        require_bounded(measures, radius_);
+        return measures;
+    }
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
+        return std::make_unique<CpuRun>(*this);
+    }
+
+private:
+    [[nodiscard]] QualityMeasures measured() {
         if (sample_ == Sample::Some) {
             if (at_stop()) return meter_.follow_and_estimate(run_.packs(), references_);
             std::vector<VertexId> references =
@@ -35,11 +48,6 @@ public:
         return meter_.follow_and_measure(run_.packs(), references_);
     }
 
-    [[nodiscard]] std::unique_ptr<MeasuredRun> copy() const override {
-        return std::make_unique<CpuRun>(*this);
-    }
-
-private:
     void smooth(int iterations, const Progress& progress) override {
         run_.advance(iterations, progress);
     }
@@ -49,6 +57,7 @@ private:
     }
 
     const SurfaceMeter& meter_;
+    double radius_;  ///< of the original [mm]
     Sample sample_;
     FilterRun run_;
     std::vector<VertexId> references_;
@@ -59,17 +68,18 @@ public:
     CpuEngine(FilterGround ground, bool planes)
         : ground_(FilterRun::prepare(std::move(ground))),
           meter_(FilterRun::ground_of(*ground_).topology, FilterRun::ground_of(*ground_).start,
-                 planes, FilterRun::order_of(*ground_)) {}
+                 planes, FilterRun::order_of(*ground_)),
+          radius_(radius_of(*FilterRun::ground_of(*ground_).start)) {}
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
-        return std::make_unique<CpuRun>(meter_, ground_, choice, Sample::All);
+        return std::make_unique<CpuRun>(meter_, radius_, ground_, choice, Sample::All);
     }
 
     [[nodiscard]] bool estimates() const override { return vertices() >= kEnoughToEstimate; }
 
     [[nodiscard]] std::unique_ptr<MeasuredRun> start_estimate(
         const SmoothingChoice& choice) const override {
-        return std::make_unique<CpuRun>(meter_, ground_, choice, Sample::Some);
+        return std::make_unique<CpuRun>(meter_, radius_, ground_, choice, Sample::Some);
     }
 
     [[nodiscard]] const QualityMeasures& original() const override { return meter_.original(); }
@@ -87,6 +97,7 @@ private:
 
     std::shared_ptr<const FilterRun::Ground> ground_;
     SurfaceMeter meter_;
+    double radius_;  ///< of the original [mm]
 };
 
 }  // namespace

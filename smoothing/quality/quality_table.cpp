@@ -67,27 +67,38 @@ std::vector<QualityTable::Task> QualityTable::tasks_for(std::span<const Paramete
     return tasks;
 }
 
+/// A run that has not passed any of the wanted iterations.
+std::unique_ptr<MeasuredRun> QualityTable::run_before(Task& task) const {
+    const Column& column = *task.column;
+    const auto before = column.standing.upper_bound(task.wanted.front());
+    if (before != column.standing.begin()) return std::prev(before)->second->copy();
+    ++task.work.runs;
+    return fidelity_ == Fidelity::Full ? engine_->start(*column.choice)
+                                       : engine_->start_estimate(*column.choice);
+}
+
 void QualityTable::run(Task& task, std::size_t may_stand, const Progress& progress) const {
     Column& column = *task.column;
-    const auto before = column.standing.upper_bound(task.wanted.front());
-    std::unique_ptr<MeasuredRun> run;
-    if (before == column.standing.begin()) {
-        run = fidelity_ == Fidelity::Full ? engine_->start(*column.choice)
-                                          : engine_->start_estimate(*column.choice);
-        ++task.work.runs;
-    } else {
-        run = std::prev(before)->second->copy();
+    auto run = run_before(task);
+    std::map<int, std::optional<QualityMeasures>> found;
+    bool bounded = true;
+    const auto measure = [&](std::span<const int> wanted) {
+        for (const int iterations : wanted) found[iterations] = std::nullopt;
+        if (!bounded) return;
+        task.work.sweeps += static_cast<std::size_t>(wanted.back() - run->iterations());
+        const auto measures = run->measure_at(wanted, progress);
+        for (std::size_t i = 0; i < measures.size(); ++i) found[wanted[i]] = measures[i];
+        task.work.evaluations += wanted.size();
+        bounded = measures.size() == wanted.size();
+    };
+    std::span<const int> wanted = task.wanted;
+    if (may_stand > 1 && wanted.size() > 1) {
+        measure(wanted.first(1));
+        if (bounded) column.standing[wanted.front()] = run->copy();
+        wanted = wanted.subspan(1);
     }
-    std::map<int, QualityMeasures> found;
-    for (const int iterations : task.wanted) {
-        task.work.sweeps += static_cast<std::size_t>(iterations - run->iterations());
-        run->advance_to(iterations, progress);
-        found[iterations] = run->measure();
-        ++task.work.evaluations;
-        if (may_stand > 1 && iterations == task.wanted.front() && task.wanted.size() > 1)
-            column.standing[iterations] = run->copy();
-    }
-    if (may_stand > 0) column.standing[task.wanted.back()] = std::move(run);
+    measure(wanted);
+    if (may_stand > 0 && bounded) column.standing[wanted.back()] = std::move(run);
     column.known.merge(found);
 }
 

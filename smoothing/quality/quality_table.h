@@ -26,7 +26,8 @@ using Chooser = std::function<std::optional<SmoothingChoice>(std::span<const dou
 
 /// The measures of smoothing, each found once; the last parameter is the number of iterations. Sets
 /// that differ only in iterations share a run through all of them; runs that may be continued later
-/// are kept as far as memory allows. Different runs proceed in parallel.
+/// are kept as far as memory allows. Sets whose filter diverges are left out. Different runs
+/// proceed in parallel.
 class QualityTable final : public MeasureSource {
 public:
     /// \param kept_bytes of runs to be continued [bytes]
@@ -58,7 +59,7 @@ private:
     /// All sets that differ only in iterations.
     struct Column {
         std::optional<SmoothingChoice> choice;
-        std::map<int, QualityMeasures> known;                  ///< by iterations
+        std::map<int, std::optional<QualityMeasures>> known;   ///< by iterations; none: diverged
         std::map<int, std::unique_ptr<MeasuredRun>> standing;  ///< runs to be continued
     };
 
@@ -70,6 +71,7 @@ private:
 
     Column& column_of(const ParameterSet& set);
     std::vector<Task> tasks_for(std::span<const ParameterSet> sets);
+    [[nodiscard]] std::unique_ptr<MeasuredRun> run_before(Task& task) const;
     void run(Task& task, std::size_t may_stand, const Progress& progress) const;
 
     std::shared_ptr<const SmoothingEngine> engine_;

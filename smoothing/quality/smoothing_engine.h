@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/kernel/progress.h"
@@ -41,6 +42,16 @@ struct SmoothingChoice {
 /// The weights of a choice on the CPU.
 [[nodiscard]] SharedWeights weights_of(const SmoothingChoice& choice);
 
+/// Half the diagonal of the bounding box [mm].
+[[nodiscard]] double radius_of(const Positions& points);
+
+/// False for measures of a filter that diverges (smoothing/filters/divergence.h): they are not
+/// finite, or the mean error exceeds ten times the original's radius.
+[[nodiscard]] bool is_bounded(const QualityMeasures& measures, double radius);
+
+/// \throw AlgorithmFailure unless they are bounded
+void require_bounded(const QualityMeasures& measures, double radius);
+
 /// A running filter on the engine's surface that can be measured after any iteration. The
 /// references of the local error are updated at every 5th iteration, whatever is measured, so a
 /// measure depends only on the choice and the iterations.
@@ -56,7 +67,14 @@ public:
 
     [[nodiscard]] virtual int iterations() const = 0;
 
+    /// \throw AlgorithmFailure if the filter has diverged (is_bounded)
     [[nodiscard]] virtual QualityMeasures measure() = 0;
+
+    /// Continues to each of some ascending iterations and measures there; a device is asked once
+    /// for all of them. \return fewer measures if the filter diverges: those before it does
+    /// \throw Cancelled; the run must not be used afterwards
+    [[nodiscard]] virtual std::vector<QualityMeasures> measure_at(std::span<const int> iterations,
+                                                                  const Progress& progress);
 
     /// Another run in the same state.
     [[nodiscard]] virtual std::unique_ptr<MeasuredRun> copy() const = 0;

@@ -16,6 +16,7 @@
 #include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
 #include "gpu/device_neighbours.h"
+#include "gpu/filter_on_device.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
@@ -39,11 +40,16 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Device time of some work [ms]: the median of several runs, after two to warm up. Wall-clock time
-/// if the driver does not time its commands, like llvmpipe.
-double device_milliseconds(const std::function<void()>& work) {
+/// Times of some work [ms].
+struct Times {
+    double device = 0.0;  ///< by the driver's timer; wall-clock time if it has none, like llvmpipe
+    double clock = 0.0;   ///< from the first call until the device has finished
+};
+
+/// Medians of several runs, after two to warm up.
+Times times_of(const std::function<void()>& work) {
     const DeviceTimer timer;
-    std::vector<double> times;
+    std::vector<double> times, clocks;
     for (int repeat = -2; repeat < kRepeats; ++repeat) {
         finish_device();
         const Stopwatch watch;
@@ -52,9 +58,19 @@ double device_milliseconds(const std::function<void()>& work) {
         timer.stop();
         finish_device();
         const double by_clock = 1e3 * watch.seconds(), time = timer.milliseconds();
-        if (repeat >= 0) times.push_back(time > 0.01 * by_clock ? time : by_clock);
+        if (repeat < 0) continue;
+        times.push_back(time > 0.01 * by_clock ? time : by_clock);
+        clocks.push_back(by_clock);
     }
-    return median(times);
+    return {median(times), median(clocks)};
+}
+
+/// What some work asks of the device, which no machine changes.
+void print_counts(const Device& device, const char* what, const std::function<void()>& work) {
+    const DeviceCounts before = *device.counts;
+    work();
+    std::printf("          %s: %s\n", what, text_of(since(before, *device.counts)).c_str());
+    std::fflush(stdout);
 }
 
 /// Bytes per second that a copy from buffer to buffer reads and writes in total.
@@ -63,7 +79,7 @@ double copy_bandwidth(const Device& device) {
         std::min(device.limits.largest_storage_block, std::size_t{1} << 30) & ~std::size_t{4095};
     const Buffer from = make_storage(device, bytes, "copied from");
     const Buffer to = make_storage(device, bytes, "copied to");
-    const double time = device_milliseconds([&] { copy_storage(device, from, to, bytes); });
+    const double time = times_of([&] { copy_storage(device, from, to, bytes); }).device;
     return 2.0 * static_cast<double>(bytes) / (1e-3 * time);
 }
 
@@ -88,22 +104,31 @@ void time_smoothing(const HeldDevice& held, const Surface& surface, double bandw
     GpuSmoother smoother(on_device, {});
     GpuMeter meter(on_device);
     const auto vertices = static_cast<double>(surface.vertex_count());
-    const double target = vertices < 1e6 ? 1.0 : 20.0;
-    const double whole = device_milliseconds([&] {
+    const double target = vertices < 1e6 ? 1.0 : 13.0;
+    const auto smooth_and_measure = [&] {
         smoother.start(LaplaceHcParameters{});
         meter.restart();
         smoother.run(kIterations);
         meter.measure(smoother.shifts());
-    });
-    const double filter = device_milliseconds([&] {
+    };
+    const Times whole = times_of(smooth_and_measure);
+    const Times filter = times_of([&] {
         smoother.start(LaplaceHcParameters{});
         smoother.run(kIterations);
     });
-    const double share = least_bytes(*surface.topology) / (1e-3 * whole) / bandwidth;
+    const double share = least_bytes(*surface.topology) / (1e-3 * whole.device) / bandwidth;
     std::printf(
         "%9.0f vertices, 20 iterations of Laplace+HC, normals, error, curvature, volume: "
-        "%.3f ms (filter alone %.3f ms), target < %.0f: %s\n",
-        vertices, whole, filter, target, whole < target ? "met" : "not met");
+        "%.3f ms, by the clock %.3f (filter alone %.3f and %.3f), target < %.0f: %s\n",
+        vertices, whole.device, whole.clock, filter.device, filter.clock, target,
+        whole.device < target ? "met" : "not met");
+    print_counts(held.device, "of it", smooth_and_measure);
+    const Times anisotropic = times_of([&] {
+        smoother.start(AnisotropicParameters{});
+        smoother.run(kIterations);
+    });
+    std::printf("          anisotropic instead: %.3f ms, by the clock %.3f\n", anisotropic.device,
+                anisotropic.clock);
     std::printf("          %.0f %% of the copy bandwidth%s\n", 100.0 * share,
                 vertices < 1e6 ? ""
                 : share >= 0.4 ? ", target >= 40: met"
@@ -137,7 +162,27 @@ void time_search(const HeldDevice& held, const Surface& surface) {
                 surface.vertex_count() > 300'000 ? ""
                 : median(times) < 30.0           ? ", target < 30: met"
                                                  : ", target < 30: not met");
-    std::fflush(stdout);
+    auto weights = std::make_shared<const std::vector<double>>(surface.vertex_count(), 0.5);
+    const Chooser weighted = [&](std::span<const double> values) {
+        return SmoothingChoice{LaplaceParameters{values[0]}, weights};
+    };
+    print_counts(held.device, "of it", [&] { QualityTable(engine, laplace, 0).find(all_sets()); });
+    print_counts(held.device, "weighted",
+                 [&] { QualityTable(engine, weighted, 0).find(all_sets()); });
+}
+
+/// Filtering again from another start, as rounded caps do.
+void count_filtering(const HeldDevice& held, const Surface& surface) {
+    const auto there = std::make_shared<const DeviceSurface>(held.device, surface);
+    const auto start = std::make_shared<const Positions>(surface.points());
+    const auto filter = [&] {
+        static_cast<void>(filter_on_device(there, surface.positions, LaplaceHcParameters{}));
+    };
+    std::printf("%9zu vertices, 20 iterations of Laplace+HC, read back\n", surface.vertex_count());
+    print_counts(held.device, "first", filter);
+    print_counts(held.device, "again", filter);
+    print_counts(held.device, "from another start",
+                 [&] { static_cast<void>(filter_on_device(there, start, LaplaceHcParameters{})); });
 }
 
 /// Wall-clock time [ms], the best of three: for work that reads numbers back on the way.
@@ -218,6 +263,7 @@ void time_all(bool any_device, const std::vector<double>& sizes) {
         const Surface surface = organ(size);
         time_smoothing(held, surface, bandwidth);
         time_search(held, surface);
+        count_filtering(held, surface);
         time_detections(held, organ(size, kVoxelsOfASlice));
     }
 }

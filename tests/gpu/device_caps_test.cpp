@@ -100,6 +100,7 @@ SCENARIO("A failing search for caps reports it", "[gpu][caps]") {
     CHECK_THROWS_AS(find_caps(DeviceSurface(dying, sphere)), GpuUnavailable);
     Device small = test->device;
     small.limits.largest_storage_block = 24 * sphere.triangle_count() - 1;
+    small.limits.largest_view = 100;
     CHECK_THROWS_WITH(find_caps(DeviceSurface(small, sphere)),
                       Catch::Contains("the device allows"));
     test->reports.reset();

@@ -2,13 +2,16 @@
 #include <utility>
 
 #include <catch2/catch.hpp>
+#include <epoxy/gl.h>
 
+#include "geometry/kernel/errors.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/picture_view.h"
 #include "gpu/render/drawn_device_surface.h"
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
+#include "gpu/render/vertex_buffers.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 
@@ -105,4 +108,21 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
         CHECK(difference(found, draw(inverted, options)) < 0.005);
         CHECK(difference(found, before) > 0.02);
     }
+}
+
+SCENARIO("What the driver refuses to draw is reported", "[gpu][drawing]") {
+    auto test = test_device();
+    if (!test) return;
+    test->reports.reset();
+    const std::vector<float> values(10, 1.0F), more(20, 1.0F);
+    const Buffer buffer = make_buffer(bytes_of(values), "values");
+    CHECK_NOTHROW(upload_all(buffer, bytes_of(values)));
+    CHECK_THROWS_WITH(upload_all(buffer, bytes_of(more)), Catch::Contains("driver refused"));
+    const std::vector<std::uint32_t> changed{3, 15};
+    CHECK_THROWS_AS(upload_parts(buffer, bytes_of(more), sizeof(float), changed), GpuUnavailable);
+    RenderTarget target(16, 16);
+    CHECK_NOTHROW(target.picture());
+    glEnable(GL_ARRAY_BUFFER);  // no capability
+    CHECK_THROWS_WITH(target.picture(), Catch::Contains("a picture"));
+    CHECK_NOTHROW(upload_all(buffer, bytes_of(values)));
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <catch2/catch.hpp>
+#include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -106,6 +108,46 @@ SCENARIO("A failing search for neighbours reports it", "[gpu][neighbours]") {
                     GpuUnavailable);
     Device small = test->device;
     small.limits.largest_storage_block = 48 * sphere.triangle_count() - 1;
+    small.limits.largest_view = 100;
     CHECK_THROWS_WITH(find_neighbour_distances(DeviceSurface(small, sphere), neighbours),
                       Catch::Contains("a neighbour's"));
+}
+
+SCENARIO("A search in a damaged tree ends", "[gpu][neighbours]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Device& device = test->device;
+    const std::size_t count = 100;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto filled = [&](std::size_t floats, float value) {
+        const std::vector<float> all(floats, value);
+        return make_storage(device, std::span<const float>(all), "numbers");
+    };
+
+    // two inner nodes that name each other, a leaf of 2^31 - 1 triangles, one that names no node
+    struct Node {
+        float low[3];
+        std::uint32_t begin;
+        float high[3];
+        std::uint32_t right;
+    };
+
+    const auto node = [](std::uint32_t right) { return Node{{-9, -9, -9}, 0, {9, 9, 9}, right}; };
+    const std::vector<Node> nodes{node(0), node(0), node(0xffffffff), node(0x7ffffff0)};
+    const Buffer tree = make_storage(device, std::span<const Node>(nodes), "nodes");
+    const Program program = make_compute_program(device, "neighbour_distance");
+    for (const float position : {0.5F, nan})
+        for (const float corner : {1.0F, nan}) {
+            const Buffer shifts = filled(4 * count, position), anchors = filled(4 * count, 0.0F),
+                         corners = filled(4 * 3 * 4, corner), dipoles = filled(8 * 4, nan),
+                         distances = filled(count, 3.1e38F);
+            bind_storage({&shifts, &distances, nullptr, &tree, &corners, &dipoles, &anchors});
+            glUseProgram(program.id());
+            glUniform1i(1, 1);
+            glUniform1f(2, 2.0F);
+            dispatch(device, program, count);
+            const auto found = read_storage<float>(device, distances, count);
+            CHECK(std::ranges::all_of(found, [&](float d) { return d == found.front(); }));
+            if (std::isnan(position)) CHECK(found.front() == 3.1e38F);
+        }
 }

@@ -9,12 +9,17 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/vessel/repair/repair.h"
+#include "tests/gpu/watched_context.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
 
 namespace vesselbench::test {
 
 namespace {
+
+void fail_by_report(const std::string& text) {
+    FAIL_CHECK("OpenGL reported: " << text);
+}
 
 /// Without coincident triangles, whose summed normals are rounding errors only.
 Surface repaired(const Surface& surface) {
@@ -26,13 +31,17 @@ Surface repaired(const Surface& surface) {
 std::optional<TestDevice> test_device() {
     try {
         TestDevice test;
-        test.reports = std::make_unique<DebugOutput>(
-            [](const std::string& text) { FAIL_CHECK("OpenGL reported: " << text); });
+        test.reports = std::make_unique<DebugOutput>(fail_by_report);
         return test;
     } catch (const GpuUnavailable& error) {
         skip(error.what());
         return std::nullopt;
     }
+}
+
+HeldDevice watched_device() {
+    auto context = std::make_shared<WatchedContext>();
+    return {std::move(context), current_device()};
 }
 
 std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test, const Surface& surface) {

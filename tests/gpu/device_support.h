@@ -8,13 +8,14 @@
 #include "geometry/kernel/surface.h"
 #include "gpu/context.h"
 #include "gpu/debug_output.h"
+#include "gpu/device_choice.h"
 #include "gpu/device_surface.h"
 
 namespace vesselbench::test {
 
 /// A context for the duration of a test.
 struct TestDevice {
-    OffscreenContext context;
+    OffscreenContext context{Sharing::None, true};
     Device device = current_device();
     /// What the driver reports fails the test; reset it before an error that is provoked.
     std::unique_ptr<DebugOutput> reports;
@@ -22,6 +23,9 @@ struct TestDevice {
 
 /// Empty without usable OpenGL: the scenario counts as skipped.
 [[nodiscard]] std::optional<TestDevice> test_device();
+
+/// offscreen_device(), of which what the driver reports fails the test, too.
+[[nodiscard]] HeldDevice watched_device();
 
 /// The surface on the device.
 [[nodiscard]] std::shared_ptr<const DeviceSurface> uploaded(const TestDevice& test,

@@ -47,6 +47,11 @@ SCENARIO("Included texts appear in a shader once, and messages name their lines"
     CHECK(explained_log(texts, source, "ERROR: 1:1: no one\n") == "b.glsl:1: no one\n    one\n");
     CHECK(explained_log(texts, source, "something else\n") == "something else\n");
     CHECK_THROWS_AS(assemble_shader(texts, "c.comp"), GpuUnavailable);
+    CHECK(
+        assemble_shader({{"a.comp", "#version 430 core\n#include \"b.glsl\"\n#again \"b.glsl\"\n"},
+                         {"b.glsl", "one\n"}},
+                        "a.comp")
+            .text == "#version 430 core\n#line 1 1\none\n#line 3 0\n#line 1 2\none\n#line 4 0\n");
 }
 
 SCENARIO("A shader that does not compile is reported by file and line", "[gpu][device]") {
@@ -87,4 +92,23 @@ SCENARIO("Storage keeps its values, and the device's time is measured", "[gpu][d
     timer.stop();
     CHECK(read_storage<float>(test->device, copy, 3) == values);
     CHECK(timer.milliseconds() >= 0.0);
+}
+
+SCENARIO("What is asked of a device is counted", "[gpu][device]") {
+    const auto test = test_device();
+    if (!test) return;
+    const DeviceCounts before = *test->device.counts;
+    const std::vector<float> values(100, 1.0F);
+    const Buffer from = make_storage(test->device, std::span<const float>(values), "from");
+    const Buffer to = make_storage(test->device, 400, "to");
+    copy_storage(test->device, from, to, 400);
+    CHECK(read_storage<float>(test->device, to, 100) == values);
+    const DeviceCounts counts = since(before, *test->device.counts);
+    CHECK(counts.allocations == 3);  // one to read through
+    CHECK(counts.uploaded == 400);
+    CHECK(counts.copied == 800);
+    CHECK(counts.reads == 1);
+    CHECK(counts.read_back == 400);
+    CHECK(counts.dispatches == 0);
+    CHECK_THAT(text_of(counts), Contains("0 dispatches") && Contains("800 copied"));
 }

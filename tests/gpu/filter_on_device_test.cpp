@@ -18,19 +18,21 @@ namespace {
 
 const FilterParameters kFilter = LaplaceHcParameters{};
 
-/// The offscreen device with a change.
-DeviceSource changed(const std::function<void(Device&)>& change) {
-    return [change] {
-        HeldDevice held = offscreen_device();
+/// A device with a change.
+DeviceSource changed(const std::function<void(Device&)>& change,
+                     const DeviceSource& source = watched_device) {
+    return [change, source] {
+        HeldDevice held = source();
         change(held.device);
         return held;
     };
 }
 
 /// Filters a sphere on a device that fails. \return what it throws
-std::string failure_of(const std::function<void(Device&)>& change) {
+std::string failure_of(const std::function<void(Device&)>& change,
+                       const DeviceSource& source = watched_device) {
     const Surface sphere = icosphere(5.0, 4);
-    const HeldDevice held = changed(change)();
+    const HeldDevice held = changed(change, source)();
     try {
         const auto there = std::make_shared<const DeviceSurface>(held.device, sphere);
         static_cast<void>(filter_on_device(there, sphere.positions, kFilter));
@@ -88,7 +90,8 @@ SCENARIO("A device that fails says how", "[gpu][device]") {
                Contains("20000"));
     std::map<std::string, std::string> texts = *test->device.shaders;
     texts["umbrella.glsl"] += "float wrong() { return nothing; }\n";
-    CHECK_THAT(failure_of([&](Device& device) { device.shaders = &texts; }),
+    CHECK_THAT(failure_of([&](Device& device) { device.shaders = &texts; },
+                          offscreen_device),  // it reports what does not compile
                Contains("linear_step.comp does not compile") && Contains("umbrella.glsl:"));
     for (const int good_looks : {0, 1, 2}) {
         int looks = 0;

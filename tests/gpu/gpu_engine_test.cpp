@@ -11,6 +11,7 @@
 #include "smoothing/context/caps.h"
 #include "smoothing/context/staircases.h"
 #include "smoothing/quality/cpu_engine.h"
+#include "smoothing/quality/quality_table.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
@@ -63,7 +64,8 @@ SCENARIO("A search on the device finds what it finds on the CPU", "[gpu][engine]
     for (const auto& [name, surface] : varied_surfaces()) {
         INFO(name);
         const double diagonal = bounds(surface).diagonal();
-        const ChosenEngine chosen = make_engine(DeviceChoice::Gpu, ground_of(surface), true);
+        const ChosenEngine chosen =
+            make_engine(DeviceChoice::Gpu, ground_of(surface), true, watched_device);
         REQUIRE(chosen.on_gpu);
         CHECK(chosen.reason.empty());
         const auto cpu = make_cpu_engine(ground_of(surface), true);
@@ -81,7 +83,8 @@ SCENARIO("Uploaded weights are reused", "[gpu][engine]") {
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
-    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube)).engine;
+    const auto engine =
+        make_engine(DeviceChoice::Gpu, ground_of(tube), false, watched_device).engine;
     const auto measured = [&](const std::shared_ptr<const std::vector<double>>& weights) {
         const auto run = engine->start({LaplaceParameters{}, weights});
         run->advance_to(5, {});
@@ -125,7 +128,7 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
     const double diagonal = bounds(surface).diagonal();
     bool lost = false;
     const DeviceSource source = [&] {
-        HeldDevice held = offscreen_device();
+        HeldDevice held = watched_device();
         held.device.lost = [&] { return lost; };
         return held;
     };
@@ -153,7 +156,8 @@ SCENARIO("A search's staircase weights are made on the device", "[gpu][engine]")
         CHECK(std::exchange(asked, 0) == 2);
         lost = false;
     }
-    const auto without = make_engine(DeviceChoice::Gpu, ground_of(surface)).engine;
+    const auto without =
+        make_engine(DeviceChoice::Gpu, ground_of(surface), false, watched_device).engine;
     CHECK_FALSE(without->weighs_staircases());
     compare_runs(*without, *cpu,
                  {LaplaceParameters{0.8}, nullptr, staircase_choice({0.4, 3.0, 0.1}, on_cpu)},
@@ -164,7 +168,8 @@ SCENARIO("A copied run on the device continues like the original", "[gpu][engine
     const auto test = test_device();
     if (!test) return;
     const Surface tube = open_tube(2.0, 10.0, 16, 20);
-    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube)).engine;
+    const auto engine =
+        make_engine(DeviceChoice::Gpu, ground_of(tube), false, watched_device).engine;
     const auto first = engine->start({TaubinParameters{}, nullptr});
     first->advance_to(7, {});
     const auto second = first->copy();
@@ -201,7 +206,7 @@ SCENARIO("If the device fails in a search, the CPU takes over", "[gpu][engine]")
     if (!test) return;
     bool lost = false;
     const DeviceSource source = [&] {
-        HeldDevice held = offscreen_device();
+        HeldDevice held = watched_device();
         held.device.lost = [&] { return lost; };
         return held;
     };
@@ -232,12 +237,63 @@ SCENARIO("If the device fails in a search, the CPU takes over", "[gpu][engine]")
     GIVEN("a shader that does not compile") {
         const std::map<std::string, std::string> none;
         const ChosenEngine chosen = make_engine(DeviceChoice::Gpu, ground_of(sphere), false, [&] {
-            HeldDevice held = offscreen_device();
+            HeldDevice held = watched_device();
             held.device.shaders = &none;
             return held;
         });
         CHECK_FALSE(chosen.on_gpu);
         CHECK(chosen.reason.find("there is no shader") == 0);
         CHECK(chosen.engine->original() == cpu->original());
+    }
+}
+
+SCENARIO("A search reads once for all iterations of a filter", "[gpu][engine]") {
+    if (!test_device()) return;
+    const Surface tube = open_tube(2.0, 10.0, 16, 20);
+    std::shared_ptr<DeviceCounts> counts;
+    const DeviceSource source = [&] {
+        HeldDevice held = watched_device();
+        counts = held.device.counts;
+        return held;
+    };
+    const auto engine = make_engine(DeviceChoice::Gpu, ground_of(tube), false, source).engine;
+    const std::vector<int> iterations = {0, 5, 7, 10, 30};
+    const auto one_by_one = engine->start({TaubinParameters{}, nullptr});
+    std::vector<QualityMeasures> wanted;
+    for (const int i : iterations) {
+        one_by_one->advance_to(i, {});
+        wanted.push_back(one_by_one->measure());
+    }
+    const auto run = engine->start({TaubinParameters{}, nullptr});
+    const DeviceCounts before = *counts;
+    CHECK(run->measure_at(iterations, {}) == wanted);
+    const DeviceCounts asked = since(before, *counts);
+    CHECK(asked.reads == 1);
+    // 60 passes, references followed at 15, 20 and 25, and 5 measures of 5 dispatches and 2
+    // barriers
+    CHECK(asked.dispatches == 60 + 3 + 5 * 5);
+    CHECK(asked.barriers == 60 + 3 + 5 * 2);
+    CHECK(run->iterations() == 30);
+}
+
+SCENARIO("Measures of a filter that diverges are refused, and a search leaves them out",
+         "[gpu][engine]") {
+    if (!test_device()) return;
+    const Surface sphere = varied_surfaces().front().surface;
+    const SmoothingChoice choice{TaubinParameters{.lambda = 1.0, .mu = -2.0}, nullptr};
+    for (const auto& engine :
+         {make_cpu_engine(ground_of(sphere)),
+          make_engine(DeviceChoice::Gpu, ground_of(sphere), false, watched_device).engine}) {
+        const auto run = engine->start(choice);
+        run->advance_to(200, {});
+        CHECK_THROWS_WITH(run->measure(), Catch::Contains("diverges"));
+        QualityTable table(engine, [&](std::span<const double>) { return choice; });
+        CHECK(table.at({1.0, 1.0}));
+        CHECK_FALSE(table.at({1.0, 150.0}));
+        const std::vector<ParameterSet> sets{{1.0, 2.0}, {1.0, 200.0}, {1.0, 210.0}};
+        table.find(sets);
+        CHECK(table.at(sets[0]));
+        CHECK_FALSE(table.at(sets[1]));
+        CHECK(table.knows(sets[2]));
     }
 }

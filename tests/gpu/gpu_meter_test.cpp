@@ -173,7 +173,7 @@ SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") 
     GpuMeter meter(device);
     smoother.start(LaplaceParameters{1.0});
     smoother.run(30);
-    const Buffer references = meter.make_references();
+    const PooledBuffer references = meter.make_references();
     const auto own = read_storage<VertexId>(device->device(), references, count);
     CHECK(own == own_references(*device->surface().topology));
     meter.measure(smoother.shifts(), references, false);

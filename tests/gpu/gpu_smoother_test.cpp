@@ -1,6 +1,7 @@
 #include "gpu/gpu_smoother.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -180,5 +181,82 @@ SCENARIO("A copy of a run continues independently", "[gpu][smoother]") {
         second.run(4);
         CHECK(second.positions() == first.positions());
         CHECK(second.iterations_done() == 7);
+    }
+}
+
+SCENARIO("Runs with other parameters do not disturb each other", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface noisy = varied_surfaces().front().surface;
+    const auto device = uploaded(*test, noisy);
+    const std::vector<AnisotropicParameters> filters = {{.feature_curvature = 0.05},
+                                                        {.feature_curvature = 5.0}};
+    std::vector<Positions> alone;
+    for (const AnisotropicParameters& filter : filters) {
+        GpuSmoother smoother(device, {});
+        smoother.start(filter);
+        smoother.run(6);
+        alone.push_back(smoother.positions());
+    }
+    REQUIRE(relative_distances(alone[0], alone[1]).back() > 1e-4);
+    GpuSmoother first(device, {}), second(device, {});
+    first.start(filters[0]);
+    second.start(filters[1]);
+    for (int i = 0; i < 2; ++i) {
+        first.run(3);
+        second.run(3);
+    }
+    CHECK(first.positions() == alone[0]);
+    CHECK(second.positions() == alone[1]);
+}
+
+SCENARIO("A second run allocates, compiles and uploads nothing", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    const Surface sphere = icosphere(5.0, 3);
+    const auto device = uploaded(*test, sphere);
+    const GpuSmoother prototype(device, {});
+    const Buffer weights =
+        GpuSmoother::upload_weights(*device, std::vector<double>(sphere.vertex_count(), 0.5));
+    const auto counts_of_run = [&] {
+        const DeviceCounts before = *test->device.counts;
+        GpuSmoother smoother = prototype.another();
+        smoother.set_weights(weights);
+        smoother.start(LaplaceParameters{});
+        smoother.run(10);
+        return since(before, *test->device.counts);
+    };
+    CHECK(counts_of_run().compiles == 2);
+    const DeviceCounts second = counts_of_run();
+    CHECK(second.compiles == 0);
+    CHECK(second.allocations == 0);
+    CHECK(second.uploaded == 0);
+    CHECK(second.dispatches == 11);
+    CHECK(second.copied == 16 * sphere.vertex_count());
+    THEN("another start uses the programs and the connectivity that are there") {
+        const Surface larger = mapped(sphere, [](const Vec3& p) { return Vec3(1.1 * p); });
+        const DeviceCounts before = *test->device.counts;
+        GpuSmoother smoother(uploaded(*test, sphere.with_positions(larger.points())), {});
+        smoother.start(LaplaceParameters{});
+        smoother.run(10);
+        const DeviceCounts counts = since(before, *test->device.counts);
+        CHECK(counts.compiles == 0);
+        CHECK(counts.uploaded == 4 * 16 * sphere.vertex_count());  // positions and umbrellas
+    }
+}
+
+SCENARIO("Corners follow each other around a vertex", "[gpu][smoother]") {
+    const auto test = test_device();
+    if (!test) return;
+    for (const Surface& surface : {icosphere(5.0, 3), open_tube(2.0, 10.0, 16, 20)}) {
+        const auto device = uploaded(*test, surface);
+        const auto& rows = surface.topology->triangles_at();
+        const auto corners = read_storage<std::array<VertexId, 2>>(
+            test->device, device->corners().values.buffer, rows.values.size());
+        std::size_t breaks = 0;
+        for (std::size_t v = 0; v < surface.vertex_count(); ++v)
+            for (std::uint32_t i = rows.offsets[v] + 1; i < rows.offsets[v + 1]; ++i)
+                breaks += corners[i][0] != corners[i - 1][1] ? 1 : 0;
+        CHECK(breaks == 0);
     }
 }

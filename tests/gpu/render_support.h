@@ -30,7 +30,7 @@ private:
 
 /// A context, a renderer and a square target for the length of a test.
 struct RenderTest {
-    OffscreenContext context;
+    OffscreenContext context{Sharing::None, true};
     ErrorCheck errors;
     Renderer renderer;
     RenderTarget target;

@@ -177,6 +177,7 @@ SCENARIO("A search for staircases reports a lost context", "[gpu][staircase-sear
     CHECK_THROWS_AS(search(surface, changes, 0.5, 1.0), GpuUnavailable);
     Device small = test->device;
     small.limits.largest_storage_block = 20 * sphere.vertex_count();
+    small.limits.largest_view = 100;
     const auto narrow = std::make_shared<const DeviceSurface>(small, sphere);
     CHECK_THROWS_WITH(search(narrow, changes, 0.5, 1.0), Catch::Contains("the device allows"));
 }

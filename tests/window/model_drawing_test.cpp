@@ -1,13 +1,13 @@
 #include "workbench/window/view/model_drawing.h"
 
 #include <chrono>
-#include <optional>
+#include <memory>
 #include <thread>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "gpu/context.h"
+#include "tests/gpu/watched_context.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
 
@@ -17,12 +17,12 @@ using namespace std::chrono_literals;
 
 namespace {
 
-std::optional<OffscreenContext> context() {
+std::unique_ptr<WatchedContext> context() {
     try {
-        return OffscreenContext();
+        return std::make_unique<WatchedContext>();
     } catch (const GpuUnavailable& error) {
         skip(error.what());
-        return std::nullopt;
+        return nullptr;
     }
 }
 

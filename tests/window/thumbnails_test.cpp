@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "gpu/context.h"
+#include "tests/gpu/watched_context.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
@@ -37,7 +37,7 @@ ClearPicture small_picture() {
 
 SCENARIO("A thumbnail shows the model on nothing", "[window][thumbnails]") {
     try {
-        const OffscreenContext context;
+        const WatchedContext context;
         Renderer renderer;
         ThumbnailDrawing drawing;
         const Surface ball = GENERATE(icosphere(5.0, 3, Vec3(900, 0, 0)), icosphere(5.0, 6));

@@ -17,10 +17,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The offscreen device with a change.
-DeviceSource changed(const std::function<void(Device&)>& change) {
-    return [change] {
-        HeldDevice held = offscreen_device();
+/// A device with a change.
+DeviceSource changed(const std::function<void(Device&)>& change,
+                     const DeviceSource& source = watched_device) {
+    return [change, source] {
+        HeldDevice held = source();
         change(held.device);
         return held;
     };
@@ -76,7 +77,7 @@ SCENARIO("Where the device fails half-way, the CPU finds the context again and s
          "[workbench][smooth][device]") {
     const auto test = test_device();
     if (!test) return;
-    const ContextFilter::Result whole = filtered("gpu", offscreen_device);
+    const ContextFilter::Result whole = filtered("gpu", watched_device);
     CHECK(whole.reason.empty());
     CHECK(whole.resolved.text("device") == "gpu");
     CHECK(whole.device == "gpu");
@@ -89,7 +90,8 @@ SCENARIO("Where the device fails half-way, the CPU finds the context again and s
     for (const char* shader : {"distance_weight.comp", "linear_step.comp"}) {
         std::map<std::string, std::string> texts = *test->device.shaders;
         texts[shader] += "float wrong() { return nothing; }\n";
-        CHECK_THAT(reason_of(changed([&](Device& device) { device.shaders = &texts; })),
+        CHECK_THAT(reason_of(changed([&](Device& device) { device.shaders = &texts; },
+                                     offscreen_device)),  // it reports what does not compile
                    Contains(std::string(shader) + " does not compile"));
     }
 }
