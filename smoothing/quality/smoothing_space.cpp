@@ -27,8 +27,10 @@ SearchParameter share(const std::string& name, int coarse) {
 /// The filter's own parameters.
 struct ParametersOf {
     bool all = false;
+    bool keeps_alpha = false;  ///< unless all are asked for
 
     std::vector<SearchParameter> operator()(const LaplaceHcParameters&) const {
+        if (keeps_alpha && !all) return {share("beta", 2)};
         std::vector<SearchParameter> list = {share("alpha", 4), share("beta", 4)};
         if (all) list.insert(list.begin(), share("lambda", 4));
         return list;
@@ -96,9 +98,10 @@ FilterParameters with_values(const std::vector<SearchParameter>& parameters,
 }
 
 std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options) {
+    const bool staircase = options.staircase != nullptr;
     std::vector<SearchParameter> list =
-        std::visit(ParametersOf{options.all_parameters}, options.filter);
-    if (options.staircase && options.all_parameters) {
+        std::visit(ParametersOf{options.all_parameters, staircase}, options.filter);
+    if (staircase && options.all_parameters) {
         list.push_back({"tau_theta", "-", steps(0.2, 0.9, 0.1), 3});
         list.push_back({"tau_max", "mm", {}, 2});
         for (const double slices : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
