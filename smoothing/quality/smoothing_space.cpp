@@ -24,13 +24,21 @@ SearchParameter share(const std::string& name, int coarse) {
     return {name, "-", steps(0.0, 1.0, 0.05), coarse};
 }
 
+/// The least beta with which the filter amplifies nothing, in steps of 0.05.
+double least_beta(double lambda) {
+    constexpr double kStep = 0.05;
+    int steps = 0;
+    while (amplifies(LaplaceHcParameters{.lambda = lambda, .beta = kStep * steps})) ++steps;
+    return kStep * steps;
+}
+
 /// The filter's own parameters.
 struct ParametersOf {
     bool all = false;
-    bool keeps_alpha = false;  ///< unless all are asked for
+    bool staircase = false;  ///< then, unless all are asked for, alpha and beta are not searched
 
-    std::vector<SearchParameter> operator()(const LaplaceHcParameters&) const {
-        if (keeps_alpha && !all) return {share("beta", 2)};
+    std::vector<SearchParameter> operator()(const LaplaceHcParameters& p) const {
+        if (staircase && !all) return {{"beta", "-", {least_beta(p.lambda)}}};
         std::vector<SearchParameter> list = {share("alpha", 4), share("beta", 4)};
         if (all) list.insert(list.begin(), share("lambda", 4));
         return list;
@@ -116,6 +124,7 @@ std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options
 
 SearchSpace smoothing_space(const SmoothingSpaceOptions& options) {
     SearchSpace space{.parameters = parameters_for(options)};
+    if (options.staircase) space.volume_weight = kVolumeWeightOnStaircases;
     space.chooser = [parameters = space.parameters,
                      options](std::span<const double> values) -> std::optional<SmoothingChoice> {
         SmoothingChoice choice{with_values(parameters, values, options.filter, options.mu_stays),
