@@ -6,6 +6,7 @@
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
+#include "smoothing/context/cut_ends.h"
 #include "smoothing/context/gauss_map.h"
 #include "smoothing/context/normal_peaks.h"
 
@@ -124,8 +125,24 @@ std::optional<VoxelGrid> grid_of(const Topology& topology, const Positions& posi
     return grid;
 }
 
+/// Takes the direction across parallel ends if the voxels allow it and nothing more certain speaks
+/// against it.
+void consider_ends(std::span<const CutEnd> ends, StackOrientation& found) {
+    const auto axis = axis_of_ends(ends);
+    if (!axis || (found.grid && !is_along_axis(*found.grid, axis->direction))) return;
+    const bool other = std::abs(axis->direction.dot(found.direction)) < kOtherPeak;
+    if (found.confidence < kCertain) {
+        if (axis->confidence <= found.confidence) return;
+        found.direction = axis->direction;
+        found.confidence = axis->confidence;
+    } else if (other && axis->confidence >= kCertain) {
+        found.confidence = 1.0 - axis->confidence;  // two directions, each of which seems certain
+    }
+}
+
 StackOrientation estimate(const Topology& topology, const Positions& positions,
-                          const FaceNormals& faces, const StackOrientationParameters& parameters) {
+                          const FaceNormals& faces, std::span<const CutEnd> ends,
+                          const StackOrientationParameters& parameters) {
     StackOrientation found;
     if (faces.normals.empty()) return found;
     const std::vector<NormalPeak> peaks = highest_peaks(faces);
@@ -140,6 +157,9 @@ StackOrientation estimate(const Topology& topology, const Positions& positions,
         const bool possible = !found.grid || is_along_axis(*found.grid, found.direction);
         found.confidence = possible ? peak_confidence(peaks, faces.normals.size()) : 0.0;
     }
+    // Voxels that are longest across the slices need no further evidence.
+    if (found.confidence < kCertain || !found.grid || found.grid->is_cubic())
+        consider_ends(ends, found);
     found.certain = found.confidence >= kCertain;
     if (!found.certain)
         found.direction = peak_near(faces, flattest_cluster(faces, parameters)).axis;
@@ -159,7 +179,7 @@ void require_usable(const StackOrientationParameters& parameters) {
 StackOrientation estimate_stack_orientation(const Topology& topology, const Positions& positions,
                                             const StackOrientationParameters& parameters) {
     require_usable(parameters);
-    return estimate(topology, positions, face_normals(topology, positions, {}), parameters);
+    return estimate(topology, positions, face_normals(topology, positions, {}), {}, parameters);
 }
 
 StackOrientation estimate_stack_orientation(const Surface& surface,
@@ -170,7 +190,8 @@ StackOrientation estimate_stack_orientation(const Surface& surface,
     for (TriangleId t = 0; t < wall.size(); ++t)
         wall[t] = surface.patch_of(t).kind == PatchKind::Wall ? 1 : 0;
     return estimate(*surface.topology, surface.points(),
-                    face_normals(*surface.topology, surface.points(), wall), parameters);
+                    face_normals(*surface.topology, surface.points(), wall), cut_ends(surface),
+                    parameters);
 }
 
 StackOrientation estimate_stack_orientation(const Surface& surface, std::span<const Cap> caps,
@@ -181,7 +202,8 @@ StackOrientation estimate_stack_orientation(const Surface& surface, std::span<co
     for (const Cap& cap : caps)
         for (const TriangleId t : cap.triangles) wall[t] = 0;
     return estimate(*surface.topology, surface.points(),
-                    face_normals(*surface.topology, surface.points(), wall), parameters);
+                    face_normals(*surface.topology, surface.points(), wall),
+                    cut_ends(surface, caps), parameters);
 }
 
 }  // namespace vesselbench

@@ -36,7 +36,10 @@ struct StackOrientationParameters {
 /// - Else a sharp peak of the normals, beyond what the surrounding shape explains, with a minimum
 ///   share of the faces and no comparable second peak; along an axis of the voxels, if these are
 ///   seen. Any single plane makes such a peak (a flat end unrelated to slices): exclude such faces.
-/// Surfaces without staircases whose vertices were moved are uncertain. The direction of a peak is
+/// - Or parallel ends that the image cut off (axis_of_ends), along an axis of the voxels, if these
+///   are seen.
+/// Two kinds of evidence for different directions are none. Surfaces without staircases and ends
+/// whose vertices were moved are uncertain. The direction of a peak is
 /// the median of its normals, each face counting once. Faces without a normal
 /// (degenerate, not finite) are ignored; without any faces the result is uncertain and along z.
 /// Bit-identical for any number of threads.
@@ -45,11 +48,13 @@ struct StackOrientationParameters {
     const Topology& topology, const Positions& positions,
     const StackOrientationParameters& parameters = {});
 
-/// The same for a surface's wall only: the caps of its openings are no trace of slices.
+/// The same for a surface's wall: the faces of its openings are no trace of slices. Patches of kind
+/// Cut count as ends.
 [[nodiscard]] StackOrientation estimate_stack_orientation(
     const Surface& surface, const StackOrientationParameters& parameters = {});
 
-/// The same without caps, however they were found.
+/// The same without the faces of caps, however they were found. Those that are no inlets and
+/// outlets count as ends.
 [[nodiscard]] StackOrientation estimate_stack_orientation(
     const Surface& surface, std::span<const Cap> caps,
     const StackOrientationParameters& parameters = {});

@@ -28,7 +28,7 @@ bool better(const Suggestion& a, const Suggestion& b) {
 Suggestion best_of(MeasureSource& table, const std::vector<ParameterSet>& sets,
                    const ScoreSettings& settings, const Progress& progress) {
     table.find(sets, progress);
-    const ScoreBase base{table.original(), table.mean_edge()};
+    const ScoreBase base{table.original(), table.mean_edge(), settings.volume_weight};
     std::optional<Suggestion> best;
     for (const ParameterSet& set : sets) {
         const auto measures = table.at(set, progress);

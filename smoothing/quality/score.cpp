@@ -50,7 +50,7 @@ ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures, S
                               ? ratio(measures.triangles, original.triangles, 1.0)
                               : ratio(measures.curvature_abs, original.curvature_abs, 1.0);
     return {target, kErrorWeight * ratio(measures.error, base.mean_edge, 0.0),
-            kVolumeWeight * volume};
+            base.volume_weight * volume};
 }
 
 double score(const ScoreTerms& terms, double tau) {

@@ -21,11 +21,6 @@ enum class ScoreForm : std::uint8_t {
 /// "curvature" or "triangles": the measure that the form's target uses.
 [[nodiscard]] std::string target_name(ScoreForm form);
 
-struct ScoreSettings {
-    ScoreForm form = ScoreForm::Default;
-    double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth (compact: small)
-};
-
 /// The terms of a score, weighted as in its form, each better the smaller [-] (score-thesis: the
 /// error in mm).
 struct ScoreTerms {
@@ -39,10 +34,23 @@ struct ScoreTerms {
 /// aneurysms (docs/experiments-suggestions.md).
 constexpr double kErrorWeight = 2.0, kVolumeWeight = 2.0;
 
+/// The factor of the volume change where staircases are smoothed. Voxels round to both sides, so
+/// that removing their steps keeps the volume while it moves every vertex: of the distance from the
+/// raw surface, the part that changes the volume is the error. Chosen on masks of known shape
+/// (docs/experiments-suggestions.md).
+constexpr double kVolumeWeightOnStaircases = 6.0;
+
+struct ScoreSettings {
+    ScoreForm form = ScoreForm::Default;
+    double tau = 0.5;  ///< target smoothness [-], 0: accurate ... 1: smooth (compact: small)
+    double volume_weight = kVolumeWeight;  ///< [-]; a search takes its space's
+};
+
 /// The reference for measures.
 struct ScoreBase {
     QualityMeasures original;
-    double mean_edge = 0.0;  ///< [mm]
+    double mean_edge = 0.0;                ///< [mm]
+    double volume_weight = kVolumeWeight;  ///< [-]
 };
 
 [[nodiscard]] ScoreTerms score_terms(const ScoreBase& base, const QualityMeasures& measures,

@@ -39,7 +39,8 @@ bool ParameterSearch::has_small_grid() const {
 
 ParameterSearch::ParameterSearch(std::shared_ptr<MeasureSource> table, SearchSpace space,
                                  ScoreSettings settings)
-    : space_(std::move(space)), settings_(settings), table_(std::move(table)) {
+    : space_(std::move(space)), table_(std::move(table)) {
+    set_score(settings);
     for (const SearchParameter& parameter : space_.parameters)
         if (parameter.values.empty())
             throw InvalidInput("there is no value to search for " + parameter.name);

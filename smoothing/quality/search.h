@@ -24,7 +24,8 @@ struct SearchParameter {
 /// The space of a search: the grid of all values. In smoothing the iterations are last.
 struct SearchSpace {
     std::vector<SearchParameter> parameters;
-    Chooser chooser;  ///< for smoothing only
+    Chooser chooser;                       ///< for smoothing only
+    double volume_weight = kVolumeWeight;  ///< of the score [-]
 };
 
 /// True if a set leaves the surface as it is.
@@ -97,7 +98,10 @@ public:
     [[nodiscard]] const ScoreSettings& settings() const { return settings_; }
 
     /// Sets another target smoothness or score; all measurements of the surface are kept.
-    void set_score(ScoreSettings settings) { settings_ = settings; }
+    void set_score(ScoreSettings settings) {
+        settings_ = settings;
+        settings_.volume_weight = space_.volume_weight;
+    }
 
     /// The best of some sets. \throw InvalidInput if all of them are left out; Cancelled
     [[nodiscard]] Suggestion best_of(const std::vector<ParameterSet>& sets,

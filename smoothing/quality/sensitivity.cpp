@@ -101,7 +101,7 @@ QualityCurve quality_curve(ParameterSearch& search, std::size_t parameter,
     MeasureSource& table = search.table();
     const QualityScale scale = quality_scale(table, progress);
     table.find(sets, progress);
-    const ScoreBase base{table.original(), table.mean_edge()};
+    const ScoreBase base{table.original(), table.mean_edge(), search.settings().volume_weight};
     for (const ParameterSet& set : sets) {
         CurvePoint point{.value = set[parameter], .measures = table.at(set, progress)};
         if (point.measures) {

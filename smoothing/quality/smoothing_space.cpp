@@ -24,11 +24,21 @@ SearchParameter share(const std::string& name, int coarse) {
     return {name, "-", steps(0.0, 1.0, 0.05), coarse};
 }
 
+/// The least beta with which the filter amplifies nothing, in steps of 0.05.
+double least_beta(double lambda) {
+    constexpr double kStep = 0.05;
+    int steps = 0;
+    while (amplifies(LaplaceHcParameters{.lambda = lambda, .beta = kStep * steps})) ++steps;
+    return kStep * steps;
+}
+
 /// The filter's own parameters.
 struct ParametersOf {
     bool all = false;
+    bool staircase = false;  ///< then, unless all are asked for, alpha and beta are not searched
 
-    std::vector<SearchParameter> operator()(const LaplaceHcParameters&) const {
+    std::vector<SearchParameter> operator()(const LaplaceHcParameters& p) const {
+        if (staircase && !all) return {{"beta", "-", {least_beta(p.lambda)}}};
         std::vector<SearchParameter> list = {share("alpha", 4), share("beta", 4)};
         if (all) list.insert(list.begin(), share("lambda", 4));
         return list;
@@ -96,9 +106,10 @@ FilterParameters with_values(const std::vector<SearchParameter>& parameters,
 }
 
 std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options) {
+    const bool staircase = options.staircase != nullptr;
     std::vector<SearchParameter> list =
-        std::visit(ParametersOf{options.all_parameters}, options.filter);
-    if (options.staircase && options.all_parameters) {
+        std::visit(ParametersOf{options.all_parameters, staircase}, options.filter);
+    if (staircase && options.all_parameters) {
         list.push_back({"tau_theta", "-", steps(0.2, 0.9, 0.1), 3});
         list.push_back({"tau_max", "mm", {}, 2});
         for (const double slices : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0})
@@ -113,6 +124,7 @@ std::vector<SearchParameter> parameters_for(const SmoothingSpaceOptions& options
 
 SearchSpace smoothing_space(const SmoothingSpaceOptions& options) {
     SearchSpace space{.parameters = parameters_for(options)};
+    if (options.staircase) space.volume_weight = kVolumeWeightOnStaircases;
     space.chooser = [parameters = space.parameters,
                      options](std::span<const double> values) -> std::optional<SmoothingChoice> {
         SmoothingChoice choice{with_values(parameters, values, options.filter, options.mu_stays),

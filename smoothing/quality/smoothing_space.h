@@ -11,7 +11,11 @@ struct SmoothingSpaceOptions {
     FilterParameters filter;  ///< with the values of the fixed parameters
     std::shared_ptr<const std::vector<double>> weights = nullptr;  ///< fixed; null: all 1
     /// Set: graphs vary tau_theta, tau_max and beta_min, too (7.2). A search keeps them: its score
-    /// falls with the curvature of all the surface, so it would smooth everywhere (beta_min 1).
+    /// falls with the curvature of all the surface, so it would smooth everywhere (beta_min 1). Of
+    /// Laplace+HC it searches the iterations only. alpha stays as given: it pulls to the original
+    /// positions, which are the staircases, and the score's error, measured from them, rewards
+    /// that. beta is the least possible: with the same effect on the shape, few strong iterations
+    /// remove more of the steps than many weak ones. The score weighs the volume more.
     StaircaseWeights staircase = nullptr;
     bool engine_weighs = false;  ///< SmoothingEngine::weighs_staircases
     double slice = 1.0;          ///< distance of the image's slices; scales tau_max [mm]

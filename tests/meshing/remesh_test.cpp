@@ -253,6 +253,16 @@ SCENARIO("Remeshing keeps the edges around regions of a size", "[meshing][remesh
     CHECK(split_at_features(box, 95.0, 0.0).edges == 0);    // nothing bends so much
     CHECK(split_at_features(box, 60.0, 101.0).edges == 0);  // all sides are smaller
     CHECK_THROWS_AS(split_at_features(box, 0.0, 0.0), InvalidInput);
+    THEN(
+        "regions below the size join the neighbour of the longest border, the others keep their "
+        "edges") {
+        // Sides of 40, 80 and 200 mm^2: a smallest one has its longest edges along a largest one.
+        const Surface slab =
+            mapped(box, [](const Vec3& p) { return Vec3(0.4 * p.x(), p.y(), 2.0 * p.z()); });
+        CHECK(split_at_features(slab, 60.0, 39.0).edges == 12);
+        CHECK(split_at_features(slab, 60.0, 41.0).edges == 10);
+        CHECK(split_at_features(slab, 60.0, 81.0).edges < 10);
+    }
 }
 
 SCENARIO("Attributes are interpolated", "[meshing][remesh]") {

@@ -13,6 +13,7 @@
 #include "geometry/formats/image_file.h"
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
+#include "smoothing/context/cut_ends.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
@@ -251,5 +252,51 @@ SCENARIO("Intensities of patients reveal their slices and voxels",
         REQUIRE(found.grid);
         const double slice = found.grid->spacing[found.grid->longest()];
         CHECK(slice == Approx(image.spacing().z()).epsilon(1e-3));
+    }
+}
+
+SCENARIO("Parallel ends that the image cut off are evidence", "[smoothing][stack orientation]") {
+    const auto end = [](const Vec3& normal, const Vec3& centre, double area) {
+        return CutEnd{normal.normalized(), centre, area};
+    };
+    const CutEnd low = end(Vec3(0, 0, -1), Vec3(0, 0, 0), 20.0),
+                 high = end(Vec3(0, 0, 1), Vec3(8, 0, 20), 25.0);
+    const auto confidence = [](const std::vector<CutEnd>& ends) {
+        const auto axis = axis_of_ends(ends);
+        if (axis) CHECK(degrees_between(axis->direction, Vec3::UnitZ()) < 0.5);
+        return axis ? axis->confidence : 0.0;
+    };
+    CHECK(confidence({low, high}) == Approx(2.0 / 3.0));
+    CHECK(confidence({low, high, end(Vec3(0, 0, 1), Vec3(-8, 0, 20), 9.0)}) == Approx(0.75));
+    CHECK(confidence({low}) == 0.0);
+    CHECK(confidence({low, end(Vec3(0, 0.02, 1), Vec3(8, 0, 20), 25.0)}) == 0.0);  // 1.1 degrees
+    CHECK(confidence({low, high, end(Vec3(1, 0, 0), Vec3(9, 9, 9), 30.0)}) < 0.5);
+    // A straight vessel that was clipped across has parallel ends, too.
+    CHECK(confidence({low, end(Vec3(0, 0, 1), Vec3(0.5, 0, 20), 25.0)}) == 0.0);
+}
+
+SCENARIO("Cubic voxels show no stack axis, but the ends of a real vessel do (thesis Table 5.6)",
+         "[smoothing][stack orientation]") {
+    const std::string labels = shared_data("images/totalseg_example_labels_117.nii.gz"),
+                      scan = shared_data("images/totalseg_example_ct_sm.nii.gz");
+    if (labels.empty() || scan.empty()) return;
+    const Image mask = read_image(labels), image = read_image(scan);
+    const int vena_cava = 63;
+    const auto method = GENERATE(ExtractionMethod::Labels, ExtractionMethod::Masked);
+    const Surface surface =
+        extract_surface(image, mask, {.method = method, .labels = {vena_cava}}).surface;
+    REQUIRE(cut_ends(surface).size() >= 2);
+    const Surface whole = turned(surface, skew_rotation());
+    const Vec3 axis = skew_rotation() * sampling_of(image).axes.col(2);
+    const auto found = estimate_stack_orientation(whole);
+    CAPTURE(found.confidence);
+    CHECK(found.certain);
+    CHECK(degrees_between(found.direction, axis) < 0.1);
+    THEN("as clipped openings, the same ends say nothing") {
+        std::vector<Patch> patches = whole.patches;
+        for (Patch& patch : patches)
+            if (patch.kind == PatchKind::Cut) patch.kind = PatchKind::Outlet;
+        const Surface clipped = whole.with_patches(*whole.patch_labels, std::move(patches));
+        CHECK_FALSE(estimate_stack_orientation(clipped).certain);
     }
 }

@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "gpu/png.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
+#include "tests/support/stack_phantoms.h"
+#include "workbench/report/colour_scale.h"
 
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
@@ -306,6 +309,81 @@ SCENARIO("A picture shows a vertex attribute with a scale", "[workbench][command
     CHECK_THAT(
         run({"picture", file, out, "--colour", "height", "--size", "64", "--range", "0,2"}).out,
         Contains("height from 0 to 2"));
+}
+
+SCENARIO("A picture's pixels have the colours of the attribute's scale",
+         "[workbench][command-line]") {
+    using namespace vesselbench;
+    const std::string folder = temporary_folder(), file = folder + "/tube.vtp";
+    Surface tube = test::fine_tube(3.0, 12.0, 48);
+    std::vector<double> height;
+    for (const Vec3& p : tube.points()) height.push_back(p.z() / 12.0);
+    tube.attributes["height"] = std::make_shared<const std::vector<double>>(height);
+    write_surface(tube, file);
+    const ProgramRun shown =
+        run({"picture", file, folder + "/tube.png", "--colour", "height", "--size", "120"});
+    if (shown.exit_code == 1 && shown.err.find("no pictures:") != std::string::npos) {
+        test::skip(shown.err);
+        return;
+    }
+    const Surface read = read_surface(file).surface;
+    const std::vector<double>& values = *read.attributes.at("height");
+    const ColourScale scale = scale_for(values);
+    const Picture page = with_scale(draw(read, {.width = 120,
+                                                .height = 120,
+                                                .view = Vec3(0, 1, 0),
+                                                .vertex_colours = colours_of(values, scale)}),
+                                    scale, "height");
+    std::ifstream written(folder + "/tube.png", std::ios::binary);
+    const bool same = std::string(std::istreambuf_iterator<char>(written), {}) == png(page);
+    CHECK(same);
+    const auto pixel = [&](int x, int y) {
+        const auto at = static_cast<std::ptrdiff_t>(3 * (y * page.width + x));
+        return std::vector<int>(page.rgb.begin() + at, page.rgb.begin() + at + 3);
+    };
+    for (const double share : {0.3, 0.5, 0.7}) {
+        CAPTURE(share);
+        // Light scales a colour, so that the ratio of its parts stays.
+        const auto seen = pixel(60, static_cast<int>(60.0 - (share - 0.5) * 120.0 / 1.06));
+        const Colour expected = colour_at(scale.map, share);
+        CHECK(std::pow(1.0 * seen[1] / seen[2], 2.2) ==
+              Approx(expected.y() / expected.z()).epsilon(0.15));
+        const auto bar = pixel(static_cast<int>((0.15 + 0.7 * share) * page.width), 120 + 22 + 7);
+        const PixelColour on_bar = pixel_colour(expected);
+        for (std::size_t part = 0; part < 3; ++part)
+            CHECK(std::abs(bar[part] - static_cast<int>(on_bar.at(part))) <= 40);  // blended
+    }
+}
+
+SCENARIO("Kept weights are exported to VTP", "[workbench][command-line]") {
+    using namespace vesselbench;
+    const std::string folder = temporary_folder(), project = folder + "/vessel.vbench";
+    const Surface vessel = test::of_mask(test::vessel_in_slices());
+    write_surface(vessel, folder + "/mask.vtp");
+    REQUIRE(run({"new", project, folder + "/mask.vtp", "--units", "mm"}).exit_code == 0);
+    REQUIRE(run({"apply", project, "smooth", "staircase=true", "beta_min=0", "keep_weights=true"})
+                .exit_code == 0);
+    REQUIRE(run({"export", project, folder + "/smooth.vtp"}).exit_code == 0);
+    const Surface smooth = read_surface(folder + "/smooth.vtp").surface;
+    REQUIRE(smooth.vertex_count() == vessel.vertex_count());
+    for (const char* name : {"smoothing_weight", "staircase_weight", "staircase", "cap",
+                             "local_error", "mean_curvature"}) {
+        CAPTURE(name);
+        CHECK(smooth.attributes.contains(name));
+    }
+    const auto& weight = *smooth.attributes.at("smoothing_weight");
+    const auto& error = *smooth.attributes.at("local_error");
+    std::size_t still = 0, moved = 0;
+    for (std::size_t v = 0; v < weight.size(); ++v)
+        if (weight[v] == 0.0) {
+            ++still;
+            CHECK((smooth.points()[v] - vessel.points()[v]).norm() < 1e-5);
+            CHECK(error[v] < 1e-5);
+        } else if (error[v] > 0.01) {
+            ++moved;
+        }
+    CHECK(still > 0);
+    CHECK(moved > 100);
 }
 
 SCENARIO("A histogram counts vertices by their distance", "[workbench][command-line]") {

@@ -101,6 +101,13 @@ SCENARIO("remesh keeps sharp edges if asked to", "[workbench][remesh]") {
     const Outcome rounded = remeshed({});
     CHECK_FALSE(rounded.report->contains("feature_edges_kept"));
     CHECK(std::abs(volume(*rounded.scene.surface) - volume(box)) > 1e-4 * volume(box));
+    THEN("only around regions of a size, if one is given") {
+        const Outcome all = remeshed({{"feature_angle", 60.0}, {"feature_size", 99.0}}),
+                      none = remeshed({{"feature_angle", 60.0}, {"feature_size", 101.0}});
+        CHECK(all.scene.surface->points() == kept.scene.surface->points());
+        CHECK(none.report->at("feature_edges_kept") == 0);
+        CHECK(none.scene.surface->points() == rounded.scene.surface->points());
+    }
 }
 
 SCENARIO("print-check warns of bends too strong for casting", "[workbench][print]") {

@@ -10,6 +10,7 @@
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/phantoms/imaging.h"
+#include "smoothing/context/staircase_thresholds.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
 #include "tests/workbench/test_operations.h"
@@ -98,6 +99,36 @@ SCENARIO("A mask of slices twice as thick as voxels has no staircase for the the
     const Scene scene = mask_of(tube_in(Vec3(0.3, 0.3, 0.6)));
     const Outcome thesis = smooth(scene, {{"tau_theta", 0.7}, {"tau_max", 3.0}});
     CHECK(staircase_share(scene, thesis) < 0.001);
+    THEN("smooth says so, also where beta_min moves everything alike") {
+        const double beta_min = GENERATE(0.0, 0.2);
+        const Outcome outcome =
+            smooth(scene, {{"tau_theta", 0.7}, {"tau_max", 3.0}, {"beta_min", beta_min}});
+        REQUIRE(outcome.warnings.size() == 1);
+        CHECK_THAT(outcome.warnings.front(), Catch::Contains("tau_theta = 0.7"));
+        CHECK_THAT(outcome.warnings.front(), Catch::Contains("beta_min"));
+        CHECK(smooth(scene, {{"beta_min", beta_min}}).warnings.empty());
+    }
+}
+
+SCENARIO("Interpolated intensities have staircases where slices are thick",
+         "[workbench][sampling]") {
+    const Scene thick = intensities_of(tube_in(Vec3(0.5, 0.5, 2.5)));
+    const Outcome outcome = smooth(thick, {{"preset", "cfd"}});
+    CAPTURE(outcome.report->dump());
+    CHECK(outcome.resolved.real("tau_theta") < step_change(2.5, 0.5));
+    CHECK(outcome.resolved.real("tau_max") == Approx(2.5));
+    CHECK(staircase_share(thick, outcome) > 0.01);
+    CHECK(outcome.warnings.empty());
+    THEN("where a step bends no more than a thin vessel does, smooth says that it finds none") {
+        const Scene thin = intensities_of(tube_in(Vec3(0.5, 0.5, 0.85)));  // 1.7 as vmtk_aorta
+        const Outcome plain = smooth(thin, {{"preset", "cfd"}});
+        CAPTURE(plain.report->dump());
+        CHECK(plain.resolved.real("tau_theta") > step_change(0.85, 0.5));
+        CHECK_THAT(decisions(plain), Catch::Contains("thin vessel"));
+        REQUIRE(plain.warnings.size() == 1);
+        CHECK_THAT(plain.warnings.front(), Catch::Contains("staircases"));
+        CHECK(moved_vertices(*thin.surface, *plain.scene.surface) > 0);
+    }
 }
 
 SCENARIO("smooth reads the voxels from the triangles where the image is gone",

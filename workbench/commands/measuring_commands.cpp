@@ -43,8 +43,8 @@ std::string alternatives(const std::vector<std::string>& names) {
     return joined(std::span(names).first(names.size() - 1)) + " or " + names.back();
 }
 
-/// What arguments make of a search: "for smooth, staircase=true keeps its thresholds, which follow
-/// from the image".
+/// What arguments make of a search: "for smooth, staircase=true keeps its thresholds, beta_min and
+/// alpha".
 std::string search_hints() {
     std::string text;
     for (const std::string& name : searched_operations())

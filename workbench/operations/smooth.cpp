@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/freed_memory.h"
+#include "geometry/kernel/wording.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/context_weights.h"
@@ -57,12 +58,35 @@ std::string what_holds_back(const ContextFigures& figures) {
     return text.str();
 }
 
-/// Why a filter that should have moved something moved nothing, or almost nothing; empty if it did,
-/// or should not have.
-std::string why_little_moved(const ContextFigures& figures, const Arguments& resolved, bool moved) {
+/// Share of vertices on staircases below which a surface shows none [-].
+constexpr double kHardlyAny = 0.001;
+
+/// What becomes of a smoothing aware of staircases on a surface that shows none; empty if it does.
+std::string without_staircases(const ContextFigures& figures, const Arguments& resolved,
+                               std::size_t vertices) {
+    const auto found = figures.staircase_vertices;
+    if (!found || static_cast<double>(*found) >= kHardlyAny * static_cast<double>(vertices))
+        return "";
+    std::ostringstream text;
+    text << (*found == 0 ? "no" : "hardly any") << " staircases: " << *found << " of "
+         << counted(vertices, "vertex", "vertices") << " bend across the slices by more than "
+         << "tau_theta = " << to_text(resolved.real("tau_theta"))
+         << ", so the surface gets beta_min = " << to_text(resolved.real("beta_min"))
+         << " of the smoothing; a smaller tau_theta finds gentler staircases, staircase=false "
+            "smooths in full";
+    return text.str();
+}
+
+/// Why a filter that should have moved something moved nothing or almost nothing, or moved
+/// everything alike although it looked for staircases; else empty.
+std::string why_little_moved(const ContextFigures& figures, const Arguments& resolved,
+                             std::size_t vertices, bool moved) {
     const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
     if (idle) return "";
-    if (moved) return what_holds_back(figures);
+    if (moved) {
+        const std::string text = without_staircases(figures, resolved, vertices);
+        return text.empty() ? what_holds_back(figures) : text;
+    }
     if (const std::string reason = why_all_is_kept(figures, resolved); !reason.empty()) {
         const bool no_staircase = resolved.flag("staircase") && figures.staircase_vertices == 0;
         return "nothing moved: " + reason +
@@ -92,8 +116,9 @@ public:
             report["smallest_neighbour_distance_after_mm"] =
                 smallest_neighbour_distance(before_, outcome.resolved, "smooth", after.points());
         LocalError error = add_changes(report, before, after);
-        if (const std::string reason = why_little_moved(figures_.weights, outcome.resolved,
-                                                        any_moved(before.points(), after.points()));
+        if (const std::string reason =
+                why_little_moved(figures_.weights, outcome.resolved, before.vertex_count(),
+                                 any_moved(before.points(), after.points()));
             !reason.empty())
             outcome.warnings.push_back(reason);
         if (outcome.resolved.flag("keep_weights"))
@@ -174,7 +199,7 @@ Operation smooth_operation() {
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
             .search = {.smoothing = &smoothing_subject,
                        .filter_parameter = "filter",
-                       .hint = "staircase=true keeps its thresholds, which follow from the image"}};
+                       .hint = "staircase=true keeps its thresholds, beta_min and alpha"}};
 }
 
 }  // namespace vesselbench

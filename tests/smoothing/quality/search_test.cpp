@@ -7,6 +7,9 @@
 #include <tbb/global_control.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
+#include "smoothing/filters/filter.h"
 #include "smoothing/quality/cpu_engine.h"
 #include "smoothing/quality/smoothing_space.h"
 #include "tests/support/iso_surface.h"
@@ -209,6 +212,52 @@ SCENARIO("Both scores are Eq. 6.6, in units and without", "[quality][score]") {
         const Surface scaled = mapped(surface, [](const Vec3& p) { return Vec3(1000.0 * p); });
         ParameterSearch one = search_on(surface), other = search_on(scaled);
         CHECK(one.exhaustive(true).values == other.exhaustive(true).values);
+    }
+}
+
+SCENARIO("The factor of 2 in the default score comes nearer to the truth than 1",
+         "[quality][score]") {
+    // Error and volume weighed half as much are the default score at another tau.
+    constexpr double kHalved = 2.0 / 3.0;
+    const auto truth_after = [](const Surface& rough, const SurfaceDistance& truth, double tau) {
+        ParameterSearch search = search_on(rough, {.tau = tau});
+        const ParameterSet best = search.exhaustive(true).values;
+        const Positions smooth =
+            apply_filter(*rough.topology, rough.points(), LaplaceParameters{best[0]},
+                         {.iterations = static_cast<int>(best[1])});
+        double sum = 0.0;
+        for (const SurfacePoint& closest : truth.closest_points(smooth)) sum += closest.distance;
+        return sum / static_cast<double>(smooth.size());
+    };
+    double with_two = 0.0, with_one = 0.0;  // mean edges
+    for (const auto& make : {elongated, flat, compact}) {
+        const Surface smooth = make(0.0, 1);
+        const SurfaceDistance truth(smooth);
+        const double edge = mean_edge_length(smooth);
+        for (const double noise : {0.1, 0.25}) {
+            const Surface rough = make(noise * edge, 11);
+            with_two += truth_after(rough, truth, 0.5) / edge;
+            with_one += truth_after(rough, truth, kHalved) / edge;
+        }
+    }
+    CAPTURE(with_two, with_one);
+    CHECK(with_two < with_one);
+}
+
+SCENARIO("The thesis's score leaves a noisy flat ellipsoid alone even at tau 1",
+         "[quality][score]") {
+    const ParameterSet strong{1.0, 50.0};
+    ParameterSearch noisy = search_on(flat(0.2), {.form = ScoreForm::Thesis, .tau = 1.0});
+    CHECK(noisy.exhaustive(true).values == ParameterSet{0.0, 0.0});
+    // Noise takes away from the signed integral of H, so that smoothing brings it back.
+    ParameterSearch clean = search_on(flat(0.0), {.form = ScoreForm::Thesis, .tau = 1.0});
+    const QualityMeasures& raw = noisy.table().original();
+    CHECK(raw.curvature < clean.table().original().curvature);
+    CHECK(noisy.best_of({strong}).measures.curvature > raw.curvature);
+    CHECK(noisy.best_of({strong}).measures.curvature_abs < raw.curvature_abs);
+    THEN("the default score smooths it") {
+        noisy.set_score({.tau = 1.0});
+        CHECK(noisy.exhaustive(true).values == strong);
     }
 }
 

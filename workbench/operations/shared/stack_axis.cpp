@@ -127,7 +127,10 @@ std::optional<Decision> across_one(const Voxels& voxels, const std::optional<Vec
 std::string step_text(const Voxels& voxels, const StaircaseThresholds& found) {
     const std::string text = "a step of one voxel changes the orientation by " +
                              formatted(found.step, "%.2f") + " in " + voxels_text(voxels);
-    return voxels.as == ImagedAs::Mask ? text : text + ", and by less after blur";
+    if (voxels.as == ImagedAs::Mask) return text;
+    return text + ", and by less after blur" +
+           (found.tau_theta > found.step ? "; a thin vessel is round enough to bend by that much"
+                                         : "");
 }
 
 void decide_thresholds(const Scene& scene, const Arguments& arguments, const Voxels& voxels,
