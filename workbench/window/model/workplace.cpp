@@ -72,7 +72,9 @@ bool Workplace::update_live() {
     const bool gallery = gallery_.update(followed, live_);
     // Three suggestions that are waited for, and whatever runs, come first.
     const bool busy = gallery_.searches() || document.activity().has_value();
-    const bool quality = quality_.update(followed, is_driving() || busy);
+    const bool quality = quality_.update(followed, busy           ? QualityPace::Paused
+                                                   : is_driving() ? QualityPace::Dragged
+                                                                  : QualityPace::Full);
     const bool extraction = extraction_.update(followed);
     return live || gallery || quality || extraction;
 }
