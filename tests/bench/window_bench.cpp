@@ -2,6 +2,7 @@
 // 200,000 triangles with edges turns, the way from the cursor over an opening to its highlight,
 // models while the mouse drives their smoothing, surfaces while the iso-value of an image slides.
 //   bench_window PROGRAM                        all of these
+//   bench_window PROGRAM --driving              smoothing driven by the mouse only
 //   bench_window PROGRAM --clicks SECONDS [SEEDS [FIRST]]   longest frames under random input
 //                                                           instead
 
@@ -182,6 +183,7 @@ void time_driving(const Bench& bench) {
     shell.watch_frames([&](const FrameTime& time) { frames.push_back(1e3 * time.clock); });
     int models = 0;
     auto seen = place.live().shown();
+    const int drawn = shell.app().drawings();
     const Stopwatch watch;
     for (int i = 0; watch.seconds() < kDriveSeconds; ++i) {
         shell.move_mouse(x, y + static_cast<float>(i % 160 - 80));
@@ -189,7 +191,8 @@ void time_driving(const Bench& bench) {
         seen = place.live().shown();
         if (seen->state.whole && seen->state.change && !place.live().problem().size()) ++models;
     }
-    const double rate = models / watch.seconds();
+    const double seconds = watch.seconds(), rate = models / seconds;
+    const double pictures = (shell.app().drawings() - drawn) / seconds;
     shell.watch_frames({});
     shell.release(MouseButton::Right);
     const std::size_t vertices = place.document.current()->surface->vertex_count();
@@ -200,6 +203,7 @@ void time_driving(const Bench& bench) {
     std::printf("lambda driven on %zu vertices, 20 iterations with error and curvature\n",
                 vertices);
     std::printf("  %-56s %8.1f /s   goal > 10\n", "models shown", rate);
+    std::printf("  %-56s %8.1f /s   goal > 10\n", "pictures of them", pictures);
     std::printf("  %-56s %8.1f      by 20 iterations alone\n", "time of one",
                 1.0 / (rate * reference));
     print("a frame meanwhile", median(frames), "");
@@ -314,6 +318,7 @@ void run(int count, char** words) {
             click_around(bench, seed, std::atof(words[3]));
         return;
     }
+    if (count > 2 && std::string(words[2]) == "--driving") return time_driving(bench);
     std::printf("the window\n");
     time_start(bench);
     time_case(bench);
@@ -327,7 +332,8 @@ void run(int count, char** words) {
 
 int main(int count, char** words) {
     if (count < 2) {
-        std::fprintf(stderr, "usage: bench_window PROGRAM [--clicks SECONDS [SEEDS [FIRST]]]\n");
+        std::fprintf(
+            stderr, "usage: bench_window PROGRAM [--driving | --clicks SECONDS [SEEDS [FIRST]]]\n");
         return 2;
     }
     try {
