@@ -7,6 +7,8 @@
 
 #include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/parallel.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/triangle_quality.h"
 #include "smoothing/context/staircases.h"
 #include "workbench/operations/shared/stack_axis.h"
@@ -20,6 +22,7 @@ using namespace std::chrono_literals;
 /// The mouse rests: what takes longer may begin.
 constexpr auto kRest = 150ms;
 
+constexpr double kNearest = 0.98;     ///< of the vertices are within the colours' range [-]
 constexpr double kLeastRange = 1e-6;  ///< of a deviation: smaller ones are rounding errors [mm]
 
 /// The end of the colours for a size: 1, 2 or 5 times a power of ten, kept as long as sizes fill a
@@ -35,14 +38,16 @@ double kept_full(double full, double size) {
 
 /// The distances of the local error, negative where the surface has moved inward.
 /// \param full the end of the colours of the last one
-DeviationMap deviation_of(const LocalError& error, const Surface& before, const Surface& after,
-                          double full) {
-    DeviationMap map{.values = error.values};
-    const auto normals = vertex_normals_of(before);
-    for (std::size_t v = 0; v < map.values.size(); ++v)
-        if ((after.points()[v] - before.points()[v]).dot((*normals)[v]) < 0.0)
-            map.values[v] = -map.values[v];
-    map.full = kept_full(full, shown_range(error.values).most);
+/// \param normals of the surface before
+DeviationMap deviation_of(const LiveSmoother::State& state, const Positions& before,
+                          const Positions& normals, double full) {
+    DeviationMap map{.values = state.change->error.values};
+    std::vector<double> sizes = map.values;
+    map.full = kept_full(full, percentile(sizes, kNearest));
+    const Positions& after = state.surface.points();
+    for_each_vertex(map.values.size(), [&](std::size_t v) {
+        if ((after[v] - before[v]).dot(normals[v]) < 0.0) map.values[v] = -map.values[v];
+    });
     return map;
 }
 
@@ -82,6 +87,7 @@ private:
         forget();
         base_ = question.base;
         surface_ = surface_of(question.scene);
+        normals_ = vertex_normals_of(surface_);
         scene_ = question.scene;
         smoother_ = std::make_unique<LiveSmoother>(question.scene, *device_);
         before_range_.reset();
@@ -92,7 +98,7 @@ private:
         LiveModel model{.question = number, .state = state};
         if (kind == ColouringKind::Deviation && state.change) {
             model.deviation = std::make_shared<const DeviationMap>(
-                deviation_of(state.change->error, surface_, state.surface, full_deviation_));
+                deviation_of(state, surface_.points(), *normals_, full_deviation_));
             full_deviation_ = model.deviation->full;
         } else if (kind != ColouringKind::Deviation && has_live_colours(kind))
             model.colours = std::make_shared<const ColourValues>(ColourValues{
@@ -127,7 +133,8 @@ private:
     DeviceSource source_;
     std::optional<std::optional<HeldDevice>> device_;  ///< none: not sought yet
     int base_ = 0;
-    Surface surface_;  ///< before
+    Surface surface_;                           ///< before
+    std::shared_ptr<const Positions> normals_;  ///< of that
     Scene scene_;
     std::optional<StackAxes> axes_;  ///< of staircases
     Value axes_of_;                  ///< the argument that they follow from
