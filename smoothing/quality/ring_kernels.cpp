@@ -161,6 +161,14 @@ CurvatureSums curvature_sums(const Fans& fans, const PackRow* positions,
                   : any_cpu::sum_curvatures(fans, positions, vertices, count, interior, origin);
 }
 
+void find_normal_angles(const Fans& fans, const PackRow* positions, const std::uint32_t* vertices,
+                        std::size_t count, double* angles) {
+    if (wide())
+        avx2::normal_angles(fans, positions, vertices, count, angles);
+    else
+        any_cpu::normal_angles(fans, positions, vertices, count, angles);
+}
+
 double six_volumes(const PackRow* positions, std::span<const Triangle> triangles,
                    const PackRow& origin) {
     return wide() ? avx2::sum_six_volumes(positions, triangles, origin)

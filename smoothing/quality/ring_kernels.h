@@ -63,6 +63,16 @@ struct CurvatureSums {
                                            const std::uint32_t* vertices, std::size_t count,
                                            const double* interior, const PackRow& origin);
 
+/// A sum of unit normals times angles below this is the rounding remainder of normals that cancel
+/// each other: none, as in vertex_normals [rad].
+constexpr double kLeastNormal = 1e-9;
+
+/// Normal curvature of some vertices: the largest angle between a vertex's normal, its triangles'
+/// normals weighted by their angles there, and these [rad]. Angles are good to 1e-9. 0 without a
+/// normal or a fan.
+void find_normal_angles(const Fans& fans, const PackRow* positions, const std::uint32_t* vertices,
+                        std::size_t count, double* angles);
+
 /// Six times the volume between triangles and the origin [mm^3].
 [[nodiscard]] double six_volumes(const PackRow* positions, std::span<const Triangle> triangles,
                                  const PackRow& origin);

@@ -88,6 +88,12 @@ public:
     [[nodiscard]] Suggestion along(std::size_t parameter, const ParameterSet& current,
                                    const Progress& progress = {});
 
+    /// A search that measures by estimates only, where there are any, and shares them with this
+    /// one.
+    [[nodiscard]] ParameterSearch estimating() const {
+        return {estimates_ ? estimates_ : table_, space_, settings_};
+    }
+
     [[nodiscard]] const SearchSpace& space() const { return space_; }
 
     [[nodiscard]] MeasureSource& table() { return *table_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 namespace vesselbench {
 
 namespace {
@@ -56,6 +58,20 @@ void analyse_step_by_step(ParameterSearch& graphs, ParameterSearch& best,
     known.best = best.settled(*known.best, progress);
     known.complete = true;
     send(known);
+}
+
+void analyse_dragged(ParameterSearch& graphs, ParameterSearch& best, const ParameterSet& current,
+                     const std::function<void(const StepwiseAnswer&)>& send,
+                     const Progress& progress) {
+    tbb::task_arena(1).execute([&] {
+        ParameterSearch rough = graphs.estimating();
+        static_cast<void>(sensitivity(rough, current, CurveValues::Coarse, progress));
+        // What is known besides makes finer curves, for nothing.
+        StepwiseAnswer known{.analysis = sensitivity(rough, current, CurveValues::Known, progress)};
+        send(known);
+        known.best = best.first_look({}, progress);
+        send(known);
+    });
 }
 
 }  // namespace vesselbench

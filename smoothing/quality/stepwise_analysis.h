@@ -26,4 +26,12 @@ void analyse_step_by_step(ParameterSearch& graphs, ParameterSearch& best,
                           const std::function<void(const StepwiseAnswer&)>& send,
                           const Progress& progress);
 
+/// Sends rough answers while a value is dragged (thesis 6.5.5): a suggestion for each parameter
+/// from coarse values, then one of all parameters together, both found by estimates where there are
+/// any. None of them is complete. It occupies the calling thread only: whatever is dragged comes
+/// first. \throw Cancelled
+void analyse_dragged(ParameterSearch& graphs, ParameterSearch& best, const ParameterSet& current,
+                     const std::function<void(const StepwiseAnswer&)>& send,
+                     const Progress& progress);
+
 }  // namespace vesselbench

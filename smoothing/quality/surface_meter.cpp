@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -67,9 +69,15 @@ struct SurfaceMeter::Data {
 
     [[nodiscard]] std::size_t chunks() const { return (original.size() + kChunk - 1) / kChunk; }
 
+    /// What is kept of each place, by place; null: nothing.
+    struct Kept {
+        VertexId* followed = nullptr;  ///< references
+        double* distances = nullptr;   ///< [mm]
+    };
+
     /// Contribution of some places to the sums of the errors.
     void add_errors(Packs moved, std::span<const std::uint32_t> places, const VertexId* references,
-                    VertexId* followed, QualityMeasures& sums) const;
+                    const Kept& kept, QualityMeasures& sums) const;
     void add_curvatures(Packs moved, std::span<const std::uint32_t> places,
                         QualityMeasures& sums) const;
 
@@ -81,6 +89,8 @@ struct SurfaceMeter::Data {
     [[nodiscard]] double triangle_volume(Packs moved) const;
     [[nodiscard]] double area_scale() const;
     [[nodiscard]] double closing_volume(Packs moved) const;
+    void find_angles(Packs moved, std::span<const std::uint32_t> places, double* angles) const;
+    [[nodiscard]] double irregular_angle(Packs moved, std::uint32_t place) const;
     void add_irregular(Packs moved, std::uint32_t place, QualityMeasures& sums) const;
 };
 
@@ -130,7 +140,7 @@ struct ChunkErrors {
 }  // namespace
 
 void SurfaceMeter::Data::add_errors(Packs moved, std::span<const std::uint32_t> places,
-                                    const VertexId* references, VertexId* followed,
+                                    const VertexId* references, const Kept& kept,
                                     QualityMeasures& sums) const {
     const std::size_t count = places.size();
     ChunkErrors found;
@@ -171,7 +181,8 @@ void SurfaceMeter::Data::add_errors(Packs moved, std::span<const std::uint32_t> 
                                              found.references[i], LocalErrorForm::Thesis);
         sums.error += found.distances[i];
         if (planes) sums.error_thesis += found.planes[i];
-        if (followed != nullptr) followed[places[i]] = found.references[i];
+        if (kept.followed != nullptr) kept.followed[places[i]] = found.references[i];
+        if (kept.distances != nullptr) kept.distances[places[i]] = found.distances[i];
     }
 }
 
@@ -205,6 +216,35 @@ void SurfaceMeter::Data::add_curvatures(Packs moved, std::span<const std::uint32
     if (!fans.any_irregular) return;
     for (const std::uint32_t place : places)
         if (fans.irregular[place] != 0) add_irregular(moved, place, sums);
+}
+
+/// As normal_curvature of geometry/kernel/measure.h [rad].
+double SurfaceMeter::Data::irregular_angle(Packs moved, std::uint32_t place) const {
+    const Vec3 v = point_of(moved[place]);
+    std::vector<Vec3> normals;
+    Vec3 sum = Vec3::Zero();
+    for (const TriangleId t : surface.topology->triangles_at().row(place)) {
+        const Triangle& c = surface.triangles()[t];
+        const std::uint32_t k = corner_of(c, place);
+        const Vec3 e = point_of(moved[c[(k + 1) % 3]]) - v, f = point_of(moved[c[(k + 2) % 3]]) - v;
+        const Vec3 normal = e.cross(f);
+        if (!(normal.norm() > 0.0)) continue;
+        normals.push_back(normal.normalized());
+        sum += std::atan2(normal.norm(), e.dot(f)) * normals.back();
+    }
+    double largest = 0.0;
+    if (sum.norm() <= kLeastNormal) return largest;
+    for (const Vec3& n : normals)
+        largest = std::max(largest, std::atan2(sum.cross(n).norm(), sum.dot(n)));
+    return largest;
+}
+
+void SurfaceMeter::Data::find_angles(Packs moved, std::span<const std::uint32_t> places,
+                                     double* angles) const {
+    find_normal_angles(fans, moved.data(), places.data(), places.size(), angles);
+    if (!fans.any_irregular) return;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (fans.irregular[places[i]] != 0) angles[i] = irregular_angle(moved, places[i]);
 }
 
 double SurfaceMeter::Data::triangle_volume(Packs moved) const {
@@ -267,7 +307,8 @@ QualityMeasures SurfaceMeter::measured(Packs moved, const VertexId* references,
                                        VertexId* followed) const {
     std::vector<QualityMeasures> parts(data_->chunks());
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t chunk) {
-        data_->add_errors(moved, data_->places_of(chunk), references, followed, parts[chunk]);
+        data_->add_errors(moved, data_->places_of(chunk), references, {.followed = followed},
+                          parts[chunk]);
         data_->add_curvatures(moved, data_->places_of(chunk), parts[chunk]);
     });
     QualityMeasures sums;
@@ -290,7 +331,7 @@ QualityMeasures SurfaceMeter::sampled(Packs moved, VertexId* references) const {
     QualityMeasures sums;
     for (std::size_t first = 0; first < places.size(); first += kChunk) {
         const std::span some(places.data() + first, std::min(kChunk, places.size() - first));
-        data_->add_errors(moved, some, references, references, sums);
+        data_->add_errors(moved, some, references, {.followed = references}, sums);
         data_->add_curvatures(moved, some, sums);
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, places.size()));
@@ -315,6 +356,31 @@ QualityMeasures SurfaceMeter::follow_and_measure(Packs moved,
 
 QualityMeasures SurfaceMeter::measure(Packs moved, const std::vector<VertexId>& references) const {
     return measured(moved, references.data(), nullptr);
+}
+
+SeenMeasures SurfaceMeter::measure_seen(Packs moved) const {
+    SeenMeasures seen;
+    seen.error.values.resize(moved.size());
+    std::vector<double> angles(data_->chunks());
+    const std::vector<VertexId> own = own_references();
+    tbb::parallel_for(std::size_t{0}, angles.size(), [&](std::size_t chunk) {
+        const auto places = data_->places_of(chunk);
+        QualityMeasures sums;
+        data_->add_errors(moved, places, own.data(), {.distances = seen.error.values.data()}, sums);
+        std::array<double, kChunk> found;
+        data_->find_angles(moved, places, found.data());
+        angles[chunk] = std::accumulate(found.begin(), found.begin() + std::ssize(places), 0.0);
+    });
+    for (const double value : seen.error.values) {  // in order: the same bits every time
+        seen.error.mean += value;
+        seen.error.largest = std::max(seen.error.largest, value);
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(1, moved.size()));
+    seen.error.mean /= count;
+    seen.volume = data_->triangle_volume(moved) + data_->closing_volume(moved);
+    seen.normal_curvature_deg =
+        std::accumulate(angles.begin(), angles.end(), 0.0) * 180.0 / std::numbers::pi / count;
+    return seen;
 }
 
 }  // namespace vesselbench

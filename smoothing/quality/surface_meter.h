@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/local_error.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
@@ -11,6 +12,13 @@
 #include "smoothing/quality/quality_measures.h"
 
 namespace vesselbench {
+
+/// What is seen of a state while it is smoothed: the figures of `smooth`, within rounding.
+struct SeenMeasures {
+    LocalError error;                   ///< at the places of a state
+    double volume = 0.0;                ///< [mm^3]
+    double normal_curvature_deg = 0.0;  ///< mean over the vertices (thesis 5.4.1)
+};
 
 /// Measures states of one surface against their original, repeatedly: all measures in two passes
 /// over the vertices, on all threads, about the time of 20 sweeps of a filter. Bit-identical for
@@ -53,6 +61,10 @@ public:
     /// some thousand vertices: enough to compare sets before the best ones are measured.
     [[nodiscard]] QualityMeasures follow_and_estimate(Packs moved,
                                                       std::vector<VertexId>& references) const;
+
+    /// The errors of all places from references followed from the places themselves, whatever was
+    /// measured before.
+    [[nodiscard]] SeenMeasures measure_seen(Packs moved) const;
 
     [[nodiscard]] const QualityMeasures& original() const { return original_; }
 

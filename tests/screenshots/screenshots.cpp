@@ -97,6 +97,14 @@ public:
         if (!shell.fill_item(item, text)) throw AlgorithmFailure("no field: " + item);
     }
 
+    /// Scrolls the list of an item. \param notches upwards
+    void scroll(const std::string& item, int notches) {
+        const ScreenRect rect = shell.app().ui().items().at(item).rect;
+        shell.move_mouse(rect.middle_x(), rect.middle_y());
+        for (int i = 0; i < std::abs(notches); ++i) shell.wheel(notches > 0 ? 1.0F : -1.0F);
+        shell.frame();
+    }
+
     /// Waits for what the last click started.
     void wait() {
         const Document& document = shell.app().place().document;
@@ -211,6 +219,18 @@ void gallery(Photographer& p) {
     p.click("live.spots");
 }
 
+/// How many triangles a decimation should leave.
+void quality(Photographer& p) {
+    p.click("rail.remeshing");
+    p.click("choose.decimate");
+    p.click("form.live");
+    p.wait();
+    p.rest_mouse();
+    p.take("quality");
+    p.click("form.fields");
+    p.click("operation.back");
+}
+
 /// The surface as it comes from the image; the edit is undone afterwards.
 void live(Photographer& p) {
     p.click("rail.source");
@@ -224,7 +244,10 @@ void live(Photographer& p) {
     p.click("view.deviation");
     p.wait();
     p.rest_mouse();
+    p.scroll("quality.view", -4);
+    p.rest_mouse();
     p.take("live-graphs");
+    p.scroll("quality.graph.lambda", 20);
     p.click("quality.view");
     p.click("quality.view=Bars by parameter");
     p.rest_mouse();
@@ -235,6 +258,7 @@ void live(Photographer& p) {
     gallery(p);
     p.click("form.fields");
     p.click("operation.back");
+    quality(p);
     p.click("tool.undo");
     p.wait();
 }

@@ -1,11 +1,9 @@
 // The window on a display: its size, its memory, its history.
 
 #include <filesystem>
-#include <fstream>
 
 #include <catch2/catch.hpp>
 #include <epoxy/gl.h>
-#include <unistd.h>
 
 #include "geometry/kernel/measure.h"
 #include "tests/support/paths.h"
@@ -22,14 +20,6 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Memory of this process [MB].
-double resident_megabytes() {
-    std::ifstream file("/proc/self/statm");
-    double whole = 0, resident = 0;
-    file >> whole >> resident;
-    return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
-}
 
 /// The rectangle of every item lies in the window.
 void check_inside(Driver& window, float width, float height) {

@@ -139,6 +139,24 @@ void add_spot(Driver& window, double z) {
     CHECK(spot.normal.dot(Vec3(spot.point.x(), spot.point.y(), 0.0)) > 0.0);
 }
 
+/// Three spots are kept, and are there when the project is opened again.
+void keep_spots(Driver& window) {
+    open_smooth(window);
+    REQUIRE(window.click_item("live.spots"));
+    for (const double z : {8.0, 15.0, 22.0}) add_spot(window, z);
+    REQUIRE(window.settle());
+    const SpotList& spots = gallery_of(window).spots;
+    const std::vector<Spot> kept = spots.all();
+    REQUIRE(kept.size() == 3);
+    const std::filesystem::path project = document_of(window).project();
+    window.app().place().close();
+    REQUIRE(window.settle());
+    CHECK(spots.all().empty());
+    open_file(window, project.string());
+    REQUIRE(window.run_until([&] { return spots.is_read(); }, 20s));
+    CHECK(spots.all() == kept);
+}
+
 }  // namespace
 
 SCENARIO("A suggestion of the gallery is taken by a double click", "[window][gallery]") {
@@ -274,6 +292,24 @@ SCENARIO("The gallery is interrupted while it searches", "[window][gallery]") {
         CHECK(edit_count(*window) == 2);
         CHECK(gallery_of(*window).mode() == GalleryMode::Off);
     }
+}
+
+SCENARIO("Spots are kept with the project on a display", "[window][gallery][spots][walk]") {
+    if (const auto window = window_on(Screen::Display)) keep_spots(*window);
+}
+
+SCENARIO("The gallery is left while it searches on a display", "[window][gallery][walk]") {
+    const auto window = window_on(Screen::Display);
+    if (!window) return;
+    open_smooth(*window, 96);
+    REQUIRE(window->click_item("live.gallery"));
+    window->press_key(keys::kEscape);
+    CHECK(gallery_of(*window).mode() == GalleryMode::Off);
+    window->press_key(keys::kEscape);
+    CHECK_FALSE(window->app().place().form());
+    REQUIRE(window->settle());
+    CHECK_FALSE(gallery_of(*window).original());
+    CHECK(edit_count(*window) == 1);
 }
 
 SCENARIO("Spots are kept with the project", "[window][gallery][spots]") {

@@ -76,6 +76,15 @@ SCENARIO("What an operation says of its result precedes what it changed", "[wind
     result.change.triangles_before = 1;
     result.change.triangles_after = 2;
     CHECK(effect_text(result) == "threshold 60, 1 -> 2 triangles");
+    result.change = {.largest_deviation = 0.92,
+                     .triangles_before = 2,
+                     .triangles_after = 2,
+                     .moved_vertices = 5};
+    CHECK(effect_text(result) == "threshold 60, moved up to 0.920 mm");
+    // Along the surface they may move as they like.
+    result.report = R"({"local_error":{"mean_mm":0.1,"largest_mm":0.31}})";
+    CHECK(effect_text(result) == "distance up to 0.310 mm");
+    result.change = {.triangles_before = 1, .triangles_after = 2};
     result.report = R"({"headline":7})";
     CHECK(effect_text(result) == "1 -> 2 triangles");
     result.report.clear();

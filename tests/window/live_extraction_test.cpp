@@ -130,8 +130,9 @@ SCENARIO("The iso-value slides on a display", "[window][extraction][walk]") {
     if (const auto window = window_on(Screen::Display)) slide_and_apply(*window);
 }
 
-SCENARIO("Sliding the iso-value is interrupted in the middle", "[window][extraction]") {
-    const auto window = window_on(Screen::None);
+SCENARIO("Escape brings back the iso-value from before a drag", "[window][extraction][walk]") {
+    const Screen screen = GENERATE(Screen::None, Screen::Display);
+    const auto window = window_on(screen);
     if (!window) return;
     open_extraction(*window);
     begin(*window);
@@ -139,15 +140,23 @@ SCENARIO("Sliding the iso-value is interrupted in the middle", "[window][extract
     press_at(*window, 0.9F);
     CHECK(iso_of(*window) > decided);
     slide_to(*window, 0.6F);
-    THEN("Escape brings back what was there, and the rest of the drag does nothing") {
-        window->press_key(keys::kEscape);
-        CHECK(text_in(*window, "threshold").empty());
-        slide_to(*window, 0.3F);
-        window->release(MouseButton::Left);
-        CHECK(text_in(*window, "threshold").empty());
-        REQUIRE(wait_for_whole(*window));
-        CHECK(extraction_of(*window).shown()->state.threshold == decided);
-    }
+    window->press_key(keys::kEscape);
+    CHECK(text_in(*window, "threshold").empty());
+    // The rest of the drag does nothing.
+    slide_to(*window, 0.3F);
+    window->release(MouseButton::Left);
+    CHECK(text_in(*window, "threshold").empty());
+    REQUIRE(wait_for_whole(*window));
+    CHECK(extraction_of(*window).shown()->state.threshold == decided);
+}
+
+SCENARIO("Sliding the iso-value is interrupted in the middle", "[window][extraction]") {
+    const auto window = window_on(Screen::None);
+    if (!window) return;
+    open_extraction(*window);
+    begin(*window);
+    press_at(*window, 0.9F);
+    slide_to(*window, 0.6F);
     THEN("a form that is left takes the surface with it") {
         window->app().place().leave_form();
         window->frame();

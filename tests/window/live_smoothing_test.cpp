@@ -50,6 +50,10 @@ void drive(Driver& window, float right, float up) {
                           y - up * static_cast<float>(i) / 10);
 }
 
+const std::vector<QualityCurve>& curves_of(const QualityAnalysis& quality) {
+    return quality.answer()->analysis.curves;
+}
+
 void open_smooth(Driver& window) {
     open_file(window, tube_file(36));
     choose(window, "smoothing", "smooth");
@@ -188,6 +192,41 @@ SCENARIO("While it follows, typed values are followed, too", "[window][live]") {
     }
 }
 
+SCENARIO("The worst places are those of the model that is smoothed live", "[window][live]") {
+    const auto window = window_on(Screen::None);
+    if (!window) return;
+    open_smooth(*window);
+    Workplace& place = window->app().place();
+    place.view.choose(ColouringKind::Deviation);
+    drive(*window, 40, 100);
+    window->release(MouseButton::Right);
+    REQUIRE(wait_for_exact(*window));
+    window->press_key(keys::letter('X'));
+    REQUIRE(place.looked_at());
+    const LiveModel& shown = *live_of(*window).shown();
+    const auto& values = shown.deviation->values;
+    const auto worst = static_cast<std::size_t>(
+        std::ranges::max_element(values, {}, [](double d) { return std::abs(d); }) -
+        values.begin());
+    CHECK(*place.looked_at() == shown.state.surface.points()[worst]);
+    CHECK(has_message(*window, "worst place 1 of"));
+    window->press_key(keys::letter('X'));
+    CHECK(has_message(*window, "worst place 2 of"));
+    THEN("another model has its own") {
+        place.set_field("iterations", "3");
+        REQUIRE(wait_for_exact(*window));
+        window->press_key(keys::letter('X'));
+        const auto& points = live_of(*window).shown()->state.surface.points();
+        CHECK(std::ranges::count(points, *place.looked_at()) == 1);
+    }
+    THEN("colours that do not follow it have none") {
+        place.view.choose(ColouringKind::LocalRadius);
+        REQUIRE(wait_for_exact(*window));
+        window->press_key(keys::letter('X'));
+        CHECK(has_message(*window, "do not follow the model"));
+    }
+}
+
 SCENARIO("The right button does nothing elsewhere", "[window][live]") {
     const auto window = window_on(Screen::None);
     if (!window) return;
@@ -316,12 +355,24 @@ SCENARIO("Graphs and suggestions come with the live part of the form", "[window]
             const ScreenRect bar =
                 window->app().ui().items().at("quality.bar.iterations.error").rect;
             window->click(bar.x + 0.6F * bar.width, bar.middle_y());
-            CHECK(number_of(*window->app().place().form(), "iterations") == Approx(30).margin(1));
+            CHECK(number_of(*window->app().place().form(), "iterations") == Approx(60).margin(1));
         }
     }
-    THEN("a drive interrupts the analysis, which goes on afterwards") {
+    THEN("suggestions follow a drive, and the analysis goes on afterwards") {
         drive(*window, 40, 0);
-        CHECK_FALSE(quality.pending());
+        REQUIRE(window->run_until(
+            [&] { return curves_of(quality).back().current == 25 && quality.answer()->best; },
+            120s));
+        CHECK(window->app().place().is_driving());
+        CHECK_FALSE(quality.answer()->complete);
+        const double fewer = curves_of(quality).front().suggested;
+        // The longer it smooths, the less of it is suggested.
+        const ScreenRect view = window->app().ui().items().at("view.area").rect;
+        window->move_mouse(view.middle_x() + 120, view.middle_y());
+        REQUIRE(window->run_until([&] { return curves_of(quality).back().current == 35; }, 120s));
+        CHECK(window->app().place().is_driving());
+        CHECK(curves_of(quality).front().suggested <= fewer);
+        window->move_mouse(view.middle_x() + 40, view.middle_y());
         window->release(MouseButton::Right);
         REQUIRE(window->run_until([&] { return !quality.pending() && quality.answer()->complete; },
                                   120s));

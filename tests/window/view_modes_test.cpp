@@ -12,6 +12,7 @@
 #include "gpu/render/view_camera.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stack_phantoms.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/keys.h"
@@ -31,8 +32,8 @@ std::string capped_tube_file() {
 
 /// A window with the tube, and its settings.
 struct Seen {
-    Seen() : shell(test_shell()) {
-        if (shell) open_and_wait(*shell, capped_tube_file());
+    explicit Seen(const std::string& file = capped_tube_file()) : shell(test_shell()) {
+        if (shell) open_and_wait(*shell, file);
     }
 
     Workplace& place() { return shell->app().place(); }
@@ -173,6 +174,61 @@ SCENARIO("A key shows the worst places of the colours in turn", "[window][view]"
     CHECK(*seen.place().looked_at() == worst);
     seen.shell->press_key(keys::letter('X'), {.shift = true});
     CHECK_THAT(newest(), Catch::Contains("worst place 10 of 10"));
+}
+
+SCENARIO("The view flies to a worst place, and turns to its outside", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const auto camera = [&] { return seen.shell->app().camera(); };
+    seen.place().view.choose(ColouringKind::MeanCurvature);
+    REQUIRE(seen.shell->settle(60s));
+    const ViewCamera before = camera();
+    seen.shell->press_key(keys::letter('X'));
+    REQUIRE(seen.place().looked_at());
+    const Vec3 place = *seen.place().looked_at(), outward = seen.place().looked_from();
+    CHECK(outward.norm() == Approx(1.0));
+    WHEN("it flies") {
+        CHECK((camera().centre - before.centre).norm() < 0.5 * (place - before.centre).norm());
+        THEN("it arrives where the place is seen from outside") {
+            REQUIRE(seen.shell->settle(60s));
+            CHECK((camera().centre - place).norm() < 1e-9);
+            CHECK(camera().view.dot(outward) < -0.999);
+            CHECK(camera().half_height < before.half_height);
+        }
+        THEN("a drag takes the camera over") {
+            const float x = seen.view().middle_x(), y = seen.view().middle_y();
+            seen.shell->drag(x, y, x + 30, y);
+            REQUIRE(seen.shell->settle(60s));
+            CHECK((camera().centre - place).norm() > 0.1);
+        }
+    }
+    WHEN("the next one is asked for on the way") {
+        seen.key('X');
+        CHECK(*seen.place().looked_at() != place);
+        CHECK((camera().centre - *seen.place().looked_at()).norm() < 1e-9);
+    }
+}
+
+SCENARIO("Staircases are ranked by their sharpness, not by their weights", "[window][view]") {
+    const std::string file = temporary_folder() + "/steps.vtp";
+    write_surface(of_mask(vessel_in_slices()), file);
+    Seen seen(file);
+    if (!seen.shell) return;
+    seen.place().view.choose(ColouringKind::StaircaseWeight);
+    REQUIRE(seen.shell->settle(60s));
+    REQUIRE(seen.place().view_data().colours());
+    const ColourValues& colours = *seen.place().view_data().colours();
+    // As many as there are of these, the first of them would be no better than any other.
+    CHECK(std::ranges::count(colours.values, std::ranges::max(colours.values)) > 10);
+    REQUIRE(colours.sharpness.size() == colours.values.size());
+    seen.key('X');
+    REQUIRE(seen.place().looked_at());
+    const auto sharpest = std::ranges::max_element(colours.sharpness) - colours.sharpness.begin();
+    const Scene* scene = seen.place().document.shown();
+    CHECK(*seen.place().looked_at() ==
+          scene->surface->points()[static_cast<std::size_t>(sharpest)]);
+    CHECK_THAT(seen.place().document.messages().back().text,
+               Catch::Contains("change of orientation"));
 }
 
 SCENARIO("A colouring that needs something else says what", "[window][view]") {

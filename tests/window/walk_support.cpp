@@ -1,8 +1,10 @@
 #include "tests/window/walk_support.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <catch2/catch.hpp>
+#include <unistd.h>
 
 #include "tests/window/window_support.h"
 #include "workbench/case/parameter_texts.h"
@@ -118,6 +120,13 @@ void export_as(Driver& window, const std::string& name) {
 
 std::vector<LogEntry> stored_log(const std::filesystem::path& project) {
     return Session::open(project, session_options()).log();
+}
+
+double resident_megabytes() {
+    std::ifstream file("/proc/self/statm");
+    double whole = 0, resident = 0;
+    file >> whole >> resident;
+    return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
 }  // namespace vesselbench::test

@@ -72,6 +72,44 @@ SCENARIO("Earlier questions do not change later answers", "[workbench][suggest][
     }
 }
 
+SCENARIO("Dragged values are taken as the nearest of the graphs' own",
+         "[workbench][suggest][live]") {
+    const auto dragged = [](LiveSearch& search, const Arguments& given) {
+        LiveSearch::Answer last;
+        search.answer_dragged(given, 0.5, [&](const LiveSearch::Answer& a) { last = a; }, {});
+        REQUIRE(last.best);
+        CHECK_FALSE(last.complete);
+        return last;
+    };
+    const Scene scene = scene_of(fine_tube(4.0, 30.0, 24));
+    GIVEN("a filter") {
+        LiveSearch search(find_operation("smooth"), scene);
+        const auto one = dragged(search, {{"lambda", 0.49}});
+        const auto other = dragged(search, {{"lambda", 0.51}});
+        CHECK(curve_of(one, "lambda").current == 0.49);
+        CHECK(curve_of(other, "lambda").current == 0.51);
+        CHECK(curve_of(one, "iterations").suggested == curve_of(other, "iterations").suggested);
+        CHECK(one.best == other.best);
+        THEN("a value outside the graph stays") {
+            const auto many = dragged(search, {{"iterations", std::int64_t{130}}});
+            CHECK(curve_of(many, "iterations").points.back().value == 130.0);
+        }
+        THEN("the answer afterwards is that of the very value") {
+            require_fresh(search, scene, {{"lambda", 0.51}});
+        }
+    }
+    GIVEN("an operation whose values take a run each") {
+        LiveSearch search(find_operation("remesh"), scene);
+        const auto answer = dragged(search, {{"edge", 1.31}, {"gradation", 1.22}});
+        CHECK(curve_of(answer, "edge").current == 1.31);
+        THEN("what leaves the surface as it is, is none of them") {
+            LiveSearch decimation(find_operation("decimate"), scene);
+            CHECK(curve_of(dragged(decimation, {{"share", 0.99}}), "share").current == 0.99);
+        }
+        require_fresh(search, scene, {{"edge", 1.31}, {"gradation", 1.22}}, "remesh");
+    }
+}
+
 SCENARIO("The target smoothness moves the suggestion, not the measures",
          "[workbench][suggest][live]") {
     LiveSearch search(find_operation("smooth"), scene_of(fine_tube(4.0, 30.0, 24)));

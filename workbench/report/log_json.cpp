@@ -38,9 +38,17 @@ void add_result(Json& json, const ResultRecord& result) {
     json["device"] = result.device;
 }
 
-}  // namespace
+/// Vertices may slide along the surface: where the operation knows the distance from it, that is
+/// what is told. \return none: it does not
+std::optional<double> reported_distance(const Json& report) {
+    if (!report.is_object() || !report.contains("local_error")) return std::nullopt;
+    const Json& error = report["local_error"];
+    if (!error.is_object() || !error.contains("largest_mm") || !error["largest_mm"].is_number())
+        return std::nullopt;
+    return error["largest_mm"].get<double>();
+}
 
-std::string change_text(const SurfaceChange& change) {
+std::string text_of(const SurfaceChange& change, std::optional<double> distance) {
     std::string text;
     if (const auto part = volume_change(change)) {
         const double percent = 100.0 * *part;
@@ -52,7 +60,9 @@ std::string change_text(const SurfaceChange& change) {
         add_part(text, formatted(*change.volume_after, "volume %.1f mm\u00B3"));
     }
     // Between surfaces of other triangles, the distance may be that to a part which has gone.
-    if (change.largest_deviation && *change.largest_deviation >= 0.0005)
+    if (distance && *distance >= 0.0005)
+        add_part(text, formatted(*distance, "distance up to %.3f mm"));
+    else if (!distance && change.largest_deviation && *change.largest_deviation >= 0.0005)
         add_part(text, formatted(*change.largest_deviation, change.moved_vertices > 0
                                                                 ? "moved up to %.3f mm"
                                                                 : "differs by up to %.3f mm"));
@@ -64,14 +74,22 @@ std::string change_text(const SurfaceChange& change) {
     return text;
 }
 
+}  // namespace
+
+std::string change_text(const SurfaceChange& change) {
+    return text_of(change, {});
+}
+
 std::string effect_text(const ResultRecord& result) {
     std::string text;
+    std::optional<double> distance;
     if (!result.report.empty()) {
         const Json report = Json::parse(result.report, nullptr, false);
+        distance = reported_distance(report);
         if (report.is_object() && report.contains("headline") && report["headline"].is_string())
             text = report["headline"].get<std::string>();
     }
-    const std::string change = change_text(result.change);
+    const std::string change = text_of(result.change, distance);
     if (!change.empty()) add_part(text, change);
     return text;
 }

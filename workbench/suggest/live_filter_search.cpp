@@ -2,8 +2,10 @@
 
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "workbench/operations/smooth/filter_choice.h"
+#include "workbench/suggest/dragged_values.h"
 #include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/smoothing_search.h"
@@ -27,6 +29,14 @@ Arguments values_of(const Operation& operation, const SearchSpace& space, const 
     return values;
 }
 
+/// Graphs go on beyond what is searched for suggestions of all parameters, in longer steps.
+SearchSpace with_more_iterations(SearchSpace space) {
+    constexpr double kMost = 100.0, kStep = 5.0;
+    std::vector<double>& iterations = space.parameters.back().values;
+    while (iterations.back() + kStep <= kMost) iterations.push_back(iterations.back() + kStep);
+    return space;
+}
+
 class LiveFilterSearch final : public LiveSearch::Way {
 public:
     LiveFilterSearch(const Operation& operation, Scene scene)
@@ -35,10 +45,16 @@ public:
     void answer(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
                 const Progress& progress) override;
 
+    void answer_dragged(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+                        const Progress& progress) override;
+
 private:
     void take_subject(const Arguments& given);
     [[nodiscard]] SmoothingSubject subject_of(const Arguments& given, Arguments& arguments) const;
     void take_best(const SmoothingSubject& now, const Arguments& arguments, ScoreSettings score);
+    [[nodiscard]] ParameterSet prepare(const Arguments& given, double tau,
+                                       const Progress& progress);
+    [[nodiscard]] LiveSearch::Answer answer_of(const StepwiseAnswer& found) const;
 
     const Operation& operation_;
     Scene scene_;
@@ -46,6 +62,7 @@ private:
     ChosenEngine chosen_;
     std::optional<ParameterSearch> graphs_, best_;
     Arguments best_for_;  ///< what best_ does not search
+    std::string filter_;  ///< of the last question
 };
 
 /// Finds caps, staircases and distances anew only if other arguments than the searched ones change.
@@ -59,7 +76,8 @@ void LiveFilterSearch::take_subject(const Arguments& given) {
     subject.arguments = checked_arguments(operation_, fixed);
     subject.smoothing = operation_.search.smoothing(scene_, fixed, subject.arguments);
     chosen_ = engine_for(subject);
-    graphs_.emplace(search_for(subject, chosen_, space_for(subject, chosen_, true), {}));
+    graphs_.emplace(
+        search_for(subject, chosen_, with_more_iterations(space_for(subject, chosen_, true)), {}));
     subject_ = std::move(subject);
 }
 
@@ -95,23 +113,47 @@ void LiveFilterSearch::take_best(const SmoothingSubject& now, const Arguments& a
     best_for_ = std::move(others);
 }
 
-void LiveFilterSearch::answer(const Arguments& given, double tau,
-                              const LiveSearch::Receiver& receive, const Progress& progress) {
+/// \return the set of the given values
+ParameterSet LiveFilterSearch::prepare(const Arguments& given, double tau,
+                                       const Progress& progress) {
     const ScoreSettings score{.tau = tau};
-    take_subject(given);
     Arguments arguments;
     const SmoothingSubject now = subject_of(given, arguments);
+    filter_ = arguments.text(operation_.search.filter_parameter);
     progress.check_cancelled();
     take_best(now, arguments, score);
     graphs_->set_score(score);
-    const auto send = [&](const StepwiseAnswer& answer) {
-        LiveSearch::Answer out{.analysis = answer.analysis,
-                               .filter = arguments.text(operation_.search.filter_parameter),
-                               .complete = answer.complete};
-        if (answer.best) out.best = values_of(operation_, best_->space(), answer.best->values);
+    return smoothing_set(now, graphs_->space());
+}
+
+LiveSearch::Answer LiveFilterSearch::answer_of(const StepwiseAnswer& found) const {
+    LiveSearch::Answer out{
+        .analysis = found.analysis, .filter = filter_, .complete = found.complete};
+    if (found.best) out.best = values_of(operation_, best_->space(), found.best->values);
+    return out;
+}
+
+void LiveFilterSearch::answer(const Arguments& given, double tau,
+                              const LiveSearch::Receiver& receive, const Progress& progress) {
+    take_subject(given);
+    const ParameterSet now = prepare(given, tau, progress);
+    analyse_step_by_step(
+        *graphs_, *best_, now, [&](const StepwiseAnswer& found) { receive(answer_of(found)); },
+        progress);
+}
+
+void LiveFilterSearch::answer_dragged(const Arguments& given, double tau,
+                                      const LiveSearch::Receiver& receive,
+                                      const Progress& progress) {
+    take_subject(given);
+    const ParameterSet now =
+        prepare(with_nearest_values(operation_, given, graphs_->space(), false), tau, progress);
+    const auto send = [&](const StepwiseAnswer& found) {
+        LiveSearch::Answer out = answer_of(found);
+        set_current_values(out.analysis, given);
         receive(out);
     };
-    analyse_step_by_step(*graphs_, *best_, smoothing_set(now, graphs_->space()), send, progress);
+    analyse_dragged(*graphs_, *best_, now, send, progress);
 }
 
 }  // namespace

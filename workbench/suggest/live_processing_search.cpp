@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "workbench/suggest/dragged_values.h"
 #include "workbench/suggest/processing_subject.h"
 
 namespace vesselbench {
@@ -22,7 +23,11 @@ public:
     void answer(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
                 const Progress& progress) override;
 
+    void answer_dragged(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+                        const Progress& progress) override;
+
 private:
+    void prepare(const Arguments& given);
     void take_spaces();
     void take_fixed(const Arguments& given);
     [[nodiscard]] const ParameterSet& set_of(const Arguments& given, const Progress& progress);
@@ -94,17 +99,37 @@ LiveSearch::Answer LiveProcessingSearch::answer_of(const StepwiseAnswer& found,
     return out;
 }
 
-void LiveProcessingSearch::answer(const Arguments& given, double tau,
-                                  const LiveSearch::Receiver& receive, const Progress& progress) {
+void LiveProcessingSearch::prepare(const Arguments& given) {
     check_rivals(operation_, given);
     take_spaces();
     take_fixed(given);
+}
+
+void LiveProcessingSearch::answer(const Arguments& given, double tau,
+                                  const LiveSearch::Receiver& receive, const Progress& progress) {
+    prepare(given);
     const ParameterSet& now = set_of(given, progress);
     const ScoreSettings score{.form = usual_score_of(operation_), .tau = tau};
     ParameterSearch graphs(table_, all_, score), best(table_, best_space(now), score);
     analyse_step_by_step(
         graphs, best, now,
         [&](const StepwiseAnswer& found) { receive(answer_of(found, best.space())); }, progress);
+}
+
+void LiveProcessingSearch::answer_dragged(const Arguments& given, double tau,
+                                          const LiveSearch::Receiver& receive,
+                                          const Progress& progress) {
+    prepare(given);
+    // Each value takes a run: the coarse ones are all that can be had.
+    const ParameterSet& now = set_of(with_nearest_values(operation_, given, all_, true), progress);
+    const ScoreSettings score{.form = usual_score_of(operation_), .tau = tau};
+    ParameterSearch graphs(table_, all_, score), best(table_, best_space(now), score);
+    const auto send = [&](const StepwiseAnswer& found) {
+        LiveSearch::Answer out = answer_of(found, best.space());
+        set_current_values(out.analysis, given);
+        receive(out);
+    };
+    analyse_dragged(graphs, best, now, send, progress);
 }
 
 }  // namespace

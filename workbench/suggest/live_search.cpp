@@ -18,4 +18,9 @@ void LiveSearch::answer(const Arguments& given, double tau, const Receiver& rece
     way_->answer(given, tau, receive, progress);
 }
 
+void LiveSearch::answer_dragged(const Arguments& given, double tau, const Receiver& receive,
+                                const Progress& progress) {
+    way_->answer_dragged(given, tau, receive, progress);
+}
+
 }  // namespace vesselbench

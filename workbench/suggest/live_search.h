@@ -37,6 +37,12 @@ public:
     void answer(const Arguments& given, double tau, const Receiver& receive,
                 const Progress& progress);
 
+    /// Sends rough answers, none of them complete, while a value is dragged: soon, and on the
+    /// calling thread only. Values are taken as the nearest of the graphs' own, so that all is
+    /// known before long, wherever the drag goes. \throw as answer
+    void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
+                        const Progress& progress);
+
     /// How an operation is searched.
     class Way {
     public:
@@ -48,6 +54,10 @@ public:
         /// As LiveSearch::answer.
         virtual void answer(const Arguments& given, double tau, const Receiver& receive,
                             const Progress& progress) = 0;
+
+        /// As LiveSearch::answer_dragged.
+        virtual void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
+                                    const Progress& progress) = 0;
     };
 
 private:

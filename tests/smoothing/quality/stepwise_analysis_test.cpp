@@ -67,6 +67,39 @@ private:
     mutable std::stop_source stop_;
 };
 
+/// Counts the runs that are started.
+class CountingEngine final : public SmoothingEngine {
+public:
+    explicit CountingEngine(std::shared_ptr<const SmoothingEngine> engine)
+        : engine_(std::move(engine)) {}
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> start(const SmoothingChoice& choice) const override {
+        ++full;
+        return engine_->start(choice);
+    }
+
+    [[nodiscard]] bool estimates() const override { return true; }
+
+    [[nodiscard]] std::unique_ptr<MeasuredRun> start_estimate(
+        const SmoothingChoice& choice) const override {
+        ++rough;
+        return engine_->start(choice);
+    }
+
+    [[nodiscard]] const QualityMeasures& original() const override { return engine_->original(); }
+
+    [[nodiscard]] double mean_edge() const override { return engine_->mean_edge(); }
+
+    [[nodiscard]] bool concurrent() const override { return false; }
+
+    [[nodiscard]] std::size_t run_bytes() const override { return engine_->run_bytes(); }
+
+    mutable int full = 0, rough = 0;
+
+private:
+    std::shared_ptr<const SmoothingEngine> engine_;
+};
+
 std::vector<StepwiseAnswer> answers_of(ParameterSearch& search, const ParameterSet& current) {
     std::vector<StepwiseAnswer> answers;
     analyse_step_by_step(search, search, current,
@@ -86,6 +119,40 @@ SCENARIO("Answers come coarsely first, then finer", "[quality][live]") {
     CHECK_FALSE(answers[1].best);
     CHECK(answers[3].best->score <= answers[2].best->score);
     CHECK(answers[3].complete);
+}
+
+SCENARIO("While a value is dragged, suggestions come from estimates", "[quality][live]") {
+    const Surface ball = with_noise(icosphere(10.0, 3), 0.2);
+    const auto engine = std::make_shared<CountingEngine>(engine_of(ball));
+    ParameterSearch graphs(engine, laplace_space(), {.tau = 0.5});
+    ParameterSearch best(engine, laplace_space(), {.tau = 0.5});
+    std::vector<StepwiseAnswer> answers;
+    const auto drag = [&](const ParameterSet& current) {
+        answers.clear();
+        analyse_dragged(graphs, best, current,
+                        [&](const StepwiseAnswer& answer) { answers.push_back(answer); }, {});
+        REQUIRE(answers.size() == 2);
+    };
+    drag({0.5, 20.0});
+    CHECK(answers[0].analysis.curves[1].points.size() == 11);
+    CHECK_FALSE(answers[0].best);
+    CHECK(answers[1].best);
+    CHECK_FALSE(answers[1].complete);
+    CHECK(engine->rough > 10);
+    CHECK(engine->full == 2);  // the graphs' scale, and the best of all
+    const double suggested = answers[0].analysis.curves[1].suggested;
+    THEN("the suggestion is the coarse value of the lowest score") {
+        ParameterSearch alone(engine_of(ball), laplace_space(), {.tau = 0.5});
+        CHECK(suggested == quality_curve(alone, 1, {0.5, 20.0}, CurveValues::Coarse).suggested);
+    }
+    THEN("it follows the other parameter, and what was found is not found again") {
+        drag({0.1, 20.0});
+        CHECK(answers[0].analysis.curves[1].suggested > suggested);
+        const int runs = engine->rough + engine->full;
+        drag({0.5, 20.0});
+        CHECK(answers[0].analysis.curves[1].suggested == suggested);
+        CHECK(engine->rough + engine->full == runs);
+    }
 }
 
 SCENARIO("The complete answer does not depend on earlier values", "[quality][live]") {

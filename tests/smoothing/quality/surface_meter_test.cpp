@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/statistics.h"
 #include "smoothing/filters/filter.h"
 #include "smoothing/filters/filter_run.h"
 #include "tests/support/iso_surface.h"
@@ -90,6 +91,27 @@ SCENARIO("All measures of one pass are those of geometry", "[quality][meter]") {
             CHECK(found.volume == Approx(all.volume).epsilon(1e-9));
             CHECK(found.curvature_abs == Approx(all.mean_curvature_integral_abs).epsilon(1e-9));
             CHECK(found.curvature == Approx(curvature_as_printed(surface, moved)).epsilon(1e-9));
+        }
+    }
+}
+
+SCENARIO("What is seen of a state are the figures of smoothing", "[quality][meter]") {
+    for (const auto& [name, surface] : surfaces()) {
+        const SurfaceMeter meter(surface.topology, surface.positions);
+        for (const int iterations : {0, 1, 20}) {
+            INFO(name << ", " << iterations << " iterations");
+            const Positions moved = laplace(*surface.topology, surface.points(), {.lambda = 0.8},
+                                            {.iterations = iterations});
+            const Surface after = surface.with_positions(moved);
+            const SeenMeasures seen = meter.measure_seen(packed(moved));
+            const LocalError error = local_error(*surface.topology, surface.points(), moved);
+            REQUIRE(seen.error.values.size() == error.values.size());
+            for (std::size_t v = 0; v < error.values.size(); ++v)
+                REQUIRE(seen.error.values[v] == Approx(error.values[v]).epsilon(1e-6).margin(1e-7));
+            CHECK(seen.error.mean == Approx(error.mean).epsilon(1e-6).margin(1e-9));
+            CHECK(seen.error.largest == Approx(error.largest).epsilon(1e-6).margin(1e-7));
+            CHECK(seen.volume == Approx(volume(after)).epsilon(1e-9));
+            CHECK(seen.normal_curvature_deg == Approx(mean(normal_curvature(after))).epsilon(1e-8));
         }
     }
 }

@@ -3,6 +3,7 @@
 #include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/local_error.h"
 #include "geometry/kernel/surface.h"
+#include "smoothing/quality/surface_meter.h"
 
 namespace vesselbench {
 
@@ -29,6 +30,19 @@ private:
     DerivedCache& cache_;
     double volume_ = 0.0;                ///< [mm^3]
     double normal_curvature_deg_ = 0.0;  ///< mean
+};
+
+/// The same within rounding, several times as fast, for states that are seen for a moment.
+class QuickChangeMeter {
+public:
+    explicit QuickChangeMeter(const Surface& before);
+
+    /// \param after the same surface with other positions
+    [[nodiscard]] SmoothingChange measure(const Surface& after) const;
+
+private:
+    SurfaceMeter meter_;
+    SeenMeasures before_;
 };
 
 }  // namespace vesselbench

@@ -127,19 +127,24 @@ LiveSmoother::State LiveSmoother::exact(State state, const Progress& progress) {
     const bool changed = back.vertices > 0 || state.device != "cpu";
     state.device = "cpu";
     state.exact = true;
-    if (changed) {
-        state.surface = state.surface.with_positions(std::move(moved));
-        measure(state);
-    }
+    if (changed) state.surface = state.surface.with_positions(std::move(moved));
+    progress.check_cancelled();
+    measure_exactly(state);
     return state;
 }
 
 /// The figures of the surface, which may have been measured for another one before.
 void LiveSmoother::measure(State& state) {
+    if (!meter_) meter_.emplace(surface_of(scene_));
     const Stopwatch watch;
-    if (!meter_) meter_.emplace(surface_of(scene_), no_cache_);
     state.change = meter_->measure(state.surface);
     measure_seconds_ = watch.seconds();
+}
+
+/// As the report of `smooth` has them.
+void LiveSmoother::measure_exactly(State& state) {
+    if (!exact_meter_) exact_meter_.emplace(surface_of(scene_), no_cache_);
+    state.change = exact_meter_->measure(state.surface);
 }
 
 /// \return false if the CPU has to

@@ -66,6 +66,7 @@ private:
     void advance(int iterations);
     void take_positions(State& state);
     void measure(State& state);
+    void measure_exactly(State& state);
 
     Scene scene_;
     std::string reason_;
@@ -79,7 +80,8 @@ private:
     std::shared_ptr<const Found> run_of_;
     std::unique_ptr<FilterRun> run_;  ///< the last one, to be continued
     DerivedCache no_cache_{0};        ///< states would displace what is needed again
-    std::optional<ChangeMeter> meter_;
+    std::optional<QuickChangeMeter> meter_;
+    std::optional<ChangeMeter> exact_meter_;
     int portion_ = 1;               ///< iterations between two looks at the clock
     double measure_seconds_ = 0.0;  ///< of the last measurement
 };

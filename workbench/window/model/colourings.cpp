@@ -13,6 +13,7 @@
 #include "meshing/tetrahedra/quality.h"
 #include "smoothing/context/context_finder.h"
 #include "smoothing/context/distance_weights.h"
+#include "smoothing/context/staircases.h"
 #include "workbench/operations/shared/stack_axis.h"
 
 namespace vesselbench {
@@ -47,7 +48,7 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]
 constexpr double kLeastSpread = 0.02;              ///< of a range, relative to its values [-]
 
-std::vector<double> staircase_values(const Scene& scene) {
+void find_staircases(const Scene& scene, ColourValues& found) {
     const auto finder = make_cpu_finder(*scene.surface);
     const auto choice = staircase_choice(scene, *finder, {});
     if (!choice)
@@ -55,10 +56,13 @@ std::vector<double> staircase_values(const Scene& scene) {
             "the direction of the image stack is uncertain: the surface has no image and too few "
             "staircases");
     const auto caps = cap_vertices(finder->caps(), scene.surface->vertex_count());
-    return finder
-        ->staircases(choice->axes,
-                     {.tau_theta = choice->tau_theta, .tau_max = choice->tau_max, .caps = caps})
-        .weights;
+    found.values =
+        finder
+            ->staircases(choice->axes,
+                         {.tau_theta = choice->tau_theta, .tau_max = choice->tau_max, .caps = caps})
+            .weights;
+    found.sharpness =
+        orientation_change(*scene.surface->topology, scene.surface->points(), choice->axes);
 }
 
 std::vector<double> neighbour_values(const Scene& scene) {
@@ -72,8 +76,6 @@ std::vector<double> values_of(ColouringKind kind, const Scene& scene, const Prog
     switch (kind) {
         case MeanCurvature:
             return mean_curvature_of(*scene.surface)->values;
-        case StaircaseWeight:
-            return staircase_values(scene);
         case NeighbourDistance:
             return neighbour_values(scene);
         case TriangleQuality:
@@ -126,7 +128,11 @@ std::string why_no_colours(ColouringKind kind, const Scene& scene) {
 ColourValues colour_values(ColouringKind kind, const Scene& scene, const Progress& progress) {
     if (const std::string reason = why_no_colours(kind, scene); !reason.empty())
         throw InvalidInput(reason);
-    ColourValues found{.kind = kind, .values = values_of(kind, scene, progress)};
+    ColourValues found{.kind = kind};
+    if (kind == StaircaseWeight)
+        find_staircases(scene, found);
+    else
+        found.values = values_of(kind, scene, progress);
     found.range = shown_range(found.values);
     return found;
 }

@@ -13,21 +13,23 @@ using namespace std::chrono_literals;
 /// Values that change faster are not worth a beginning: the model in the view comes first.
 constexpr auto kRest = 60ms;
 
+/// During a drag, for the best of all before a newer value ends its search [s].
+constexpr double kPatience = 1.0;
+
 class QualityAnalysing final : public QualityAnalyses::Work {
 public:
     void answer(const QualityQuestion& question, const QualityAnalyses::Turn& turn) override {
-        if (!turn.rests(kRest)) return;
+        if (!question.dragged && !turn.rests(kRest)) return;
         if (!search_ || base_ != question.base || operation_ != question.operation) {
             search_.emplace(*question.operation, question.scene);
             base_ = question.base;
             operation_ = question.operation;
         }
-        search_->answer(
-            question.given, question.tau,
-            [&](const LiveSearch::Answer& found) {
-                turn.send({turn.number, found});
-            },
-            turn.progress);
+        const auto send = [&](const LiveSearch::Answer& found) { turn.send({turn.number, found}); };
+        if (question.dragged)
+            search_->answer_dragged(question.given, question.tau, send, turn.progress);
+        else
+            search_->answer(question.given, question.tau, send, turn.progress);
     }
 
     void forget() override { search_.reset(); }
@@ -77,26 +79,35 @@ void QualityAnalysis::take_form(const LiveSmoothing::Followed& followed) {
     if (!can_analyse()) forget();
 }
 
-void QualityAnalysis::ask(const LiveSmoothing::Followed& followed) {
-    const Asked now{followed.form->changes(), tau};
-    if (now == asked_ || !followed.form->valid()) return;
-    asked_ = now;
-    used_ = true;
-    analyses_.ask({.scene = *followed.document.current(),
-                   .base = base_,
-                   .operation = operation_,
-                   .given = followed.form->arguments(),
-                   .tau = tau});
+/// Values that change in every frame would keep all suggestions from being seen.
+bool QualityAnalysis::lets_finish() const {
+    if (!asked_.dragged || !analyses_.pending()) return false;
+    const bool has_suggestions = analyses_.newest() && analyses_.newest()->question == question_;
+    return !has_suggestions || since_asked_.seconds() < kPatience;
 }
 
-bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, bool paused) {
+void QualityAnalysis::ask(const LiveSmoothing::Followed& followed, bool dragged) {
+    const Asked now{followed.form->changes(), tau, dragged};
+    if (now == asked_ || !followed.form->valid() || (dragged && lets_finish())) return;
+    asked_ = now;
+    used_ = true;
+    since_asked_ = {};
+    question_ = analyses_.ask({.scene = *followed.document.current(),
+                               .base = base_,
+                               .operation = operation_,
+                               .given = followed.form->arguments(),
+                               .tau = tau,
+                               .dragged = dragged});
+}
+
+bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, QualityPace pace) {
     const bool wanted = std::exchange(wanted_, false);
     take_form(followed);
     if (can_analyse()) {
-        if (paused || !wanted)
+        if (pace == QualityPace::Paused || !wanted)
             interrupt();
         else
-            ask(followed);
+            ask(followed, pace == QualityPace::Dragged);
     }
     return analyses_.update();
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "geometry/kernel/stopwatch.h"
 #include "workbench/suggest/live_search.h"
 #include "workbench/window/model/latest_worker.h"
 #include "workbench/window/model/live_smoothing.h"
@@ -15,8 +16,16 @@ struct QualityQuestion {
     Scene scene;
     int base = 0;  ///< number of the scene: equal ones are the same
     const Operation* operation = nullptr;
-    Arguments given;   ///< without defaults
-    double tau = 0.5;  ///< target of the suggestions [-]
+    Arguments given;       ///< without defaults
+    double tau = 0.5;      ///< target of the suggestions [-]
+    bool dragged = false;  ///< rough answers are wanted, and soon
+};
+
+/// When the window has time for an analysis.
+enum class QualityPace {
+    Full,
+    Dragged,  ///< the mouse changes values: suggestions follow it, graphs are coarse
+    Paused    ///< other work comes first: the last answer stays
 };
 
 struct QualityAnswer {
@@ -39,9 +48,8 @@ public:
     /// In every frame in which they are seen, before update().
     void want() { wanted_ = true; }
 
-    /// Once a frame. \param paused while the mouse changes values: the last answer stays
-    /// \return true if what is known has changed
-    bool update(const LiveSmoothing::Followed& followed, bool paused);
+    /// Once a frame. \return true if what is known has changed
+    bool update(const LiveSmoothing::Followed& followed, QualityPace pace);
 
     /// True if the form is of an operation with a search.
     [[nodiscard]] bool has_form() const { return operation_ != nullptr; }
@@ -66,13 +74,15 @@ public:
 
 private:
     void take_form(const LiveSmoothing::Followed& followed);
-    void ask(const LiveSmoothing::Followed& followed);
+    void ask(const LiveSmoothing::Followed& followed, bool dragged);
+    [[nodiscard]] bool lets_finish() const;
     void interrupt();
     void forget();
 
     struct Asked {
         int changes = -1;
         double tau = -1.0;
+        bool dragged = false;
 
         bool operator==(const Asked&) const = default;
     };
@@ -84,6 +94,8 @@ private:
     std::shared_ptr<const Positions> positions_;  ///< of the model that is analysed
     int base_ = 0;                                ///< its number
     Asked asked_;
+    std::uint64_t question_ = 0;  ///< number of the last one
+    Stopwatch since_asked_;
 };
 
 }  // namespace vesselbench

@@ -72,7 +72,9 @@ bool Workplace::update_live() {
     const bool gallery = gallery_.update(followed, live_);
     // Three suggestions that are waited for, and whatever runs, come first.
     const bool busy = gallery_.searches() || document.activity().has_value();
-    const bool quality = quality_.update(followed, is_driving() || busy);
+    const bool quality = quality_.update(followed, busy           ? QualityPace::Paused
+                                                   : is_driving() ? QualityPace::Dragged
+                                                                  : QualityPace::Full);
     const bool extraction = extraction_.update(followed);
     return live || gallery || quality || extraction;
 }
@@ -223,25 +225,30 @@ void Workplace::follow_remedy(const std::string& operation) {
     choose(operation);
 }
 
-void Workplace::look_at(const Vec3& place) {
+void Workplace::look_at(const Vec3& place, const Vec3& outward) {
     slices_.set_cross(place);
     looked_at_ = place;
+    looked_from_ = outward;
     ++looks_;
+}
+
+std::string Workplace::why_no_worst() const {
+    if (view.colouring == ColouringKind::Patches)
+        return "Choose colours first: their worst places are shown in turn";
+    if (live_.shown() && !has_live_colours(view.colouring))
+        return "These colours do not follow the model while it is smoothed live";
+    return "The colours are not known yet";
 }
 
 void Workplace::look_at_worst(int steps) {
     const ColouringInfo& info = colouring_info(view.colouring);
-    const auto found = worst_.go(document, view_data_, view.colouring, steps);
-    if (!found)
-        return document.tell(make_message(
-            MessageKind::Remark, view.colouring == ColouringKind::Patches
-                                     ? "Choose colours first: their worst places are shown in turn"
-                                     : "The colours are not known yet"));
-    look_at(found->place);
-    const std::string unit = std::string(info.unit) == "-" ? "" : std::string(" ") + info.unit;
-    document.tell(make_message(MessageKind::Remark, std::string(info.label) + " " +
-                                                        formatted(found->value) + unit +
-                                                        ": worst place " + worst_.position()));
+    const auto found = worst_.go({document, view_data_, live_.shown(), view.colouring}, steps);
+    if (!found) return document.tell(make_message(MessageKind::Remark, why_no_worst()));
+    look_at(found->place, found->outward);
+    std::string words = std::string(info.label) + " " + formatted(found->value);
+    if (std::string(info.unit) != "-") words += std::string(" ") + info.unit;
+    if (found->sharpness) words += ", change of orientation " + formatted(*found->sharpness);
+    document.tell(make_message(MessageKind::Remark, words + ": worst place " + worst_.position()));
 }
 
 void Workplace::choose_edit(EditId edit) {

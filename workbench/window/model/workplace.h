@@ -104,13 +104,17 @@ public:
     void follow_remedy(const std::string& operation);
 
     /// Moves the slices and the view to a place [mm].
-    void look_at(const Vec3& place);
+    /// \param outward unit normal of the surface there, from whose side it is seen; zero: unknown
+    void look_at(const Vec3& place, const Vec3& outward = Vec3::Zero());
 
     /// Looks at the next worst place of what the colours show; back with -1. Says why if it cannot.
     void look_at_worst(int steps);
 
     /// The place of the last look_at(), which is marked until a form or a case is left.
     [[nodiscard]] const std::optional<Vec3>& looked_at() const { return looked_at_; }
+
+    /// The normal of the last look_at().
+    [[nodiscard]] const Vec3& looked_from() const { return looked_from_; }
 
     /// Counts calls of look_at().
     [[nodiscard]] int looks() const { return looks_; }
@@ -321,6 +325,7 @@ private:
     [[nodiscard]] bool update_places();
     void arm_required();
     [[nodiscard]] bool preview_is_current() const;
+    [[nodiscard]] std::string why_no_worst() const;
     [[nodiscard]] bool can_change() const;
 
     std::vector<RailStep> rail_ = empty_rail();
@@ -348,6 +353,7 @@ private:
     CompareMode compare_mode_ = CompareMode::SideBySide;
     std::optional<EditId> pointed_, next_pointed_;
     std::optional<Vec3> looked_at_;
+    Vec3 looked_from_ = Vec3::Zero();
     WorstTour worst_;
     int looks_ = 0;
     std::optional<OperationForm> before_drag_;

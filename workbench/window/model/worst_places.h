@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,14 +10,18 @@
 #include "geometry/kernel/vec3.h"
 #include "workbench/window/model/colourings.h"
 #include "workbench/window/model/document.h"
+#include "workbench/window/model/live_model.h"
 #include "workbench/window/model/view_data.h"
 
 namespace vesselbench {
 
 /// A place where the shown measure is worst among its surroundings.
 struct WorstPlace {
-    Vec3 place;          ///< [mm]
-    double value = 0.0;  ///< in the colouring's unit
+    Vec3 place;                       ///< [mm]
+    double value = 0.0;               ///< in the colouring's unit
+    std::size_t index = 0;            ///< of the point
+    std::optional<double> sharpness;  ///< of a staircase, by which it is ranked [-]
+    Vec3 outward = Vec3::Zero();      ///< unit normal of the surface there; zero: unknown
 };
 
 /// The worst values, the worst one first, none nearer to an earlier one than `apart`; values that
@@ -29,17 +34,31 @@ struct WorstPlace {
 /// A tour of the worst places of what the model's colours show.
 class WorstTour {
 public:
+    /// The model as the view shows it.
+    struct Seen {
+        const Document& document;
+        const ViewData& data;
+        std::shared_ptr<const LiveModel> live;  ///< in place of the document's; null: it is not
+        ColouringKind kind = ColouringKind::Patches;
+    };
+
     /// The place `steps` further, round and round; the first if the colours have changed.
     /// \return none: there are no colours now
-    std::optional<WorstPlace> go(const Document& document, const ViewData& data, ColouringKind kind,
-                                 int steps);
+    std::optional<WorstPlace> go(const Seen& seen, int steps);
 
     /// "2 of 10"
     [[nodiscard]] std::string position() const;
 
 private:
-    /// The values that the places are of, and the scene's number.
+    struct Coloured;
+
+    [[nodiscard]] static std::optional<Coloured> coloured(const Seen& seen);
+    [[nodiscard]] bool is_of(const Seen& seen, const Coloured& now) const;
+    void find(const Coloured& now, ColouringKind kind);
+
+    /// What the places are of: the values and the scene's number, or the live model.
     std::pair<const void*, int> of_ = {nullptr, -1};
+    std::weak_ptr<const LiveModel> of_live_;
     std::vector<WorstPlace> places_;
     std::size_t at_ = 0;
 };

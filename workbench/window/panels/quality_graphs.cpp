@@ -191,11 +191,20 @@ void draw_ends(const PanelContext& c, const Axis& axis) {
     label(c, {axis.rect.x + axis.rect.width, y}, 1.0F, formatted(axis.to));
 }
 
+/// With the value of now, and the suggestion, which is seen to follow the target.
 void draw_title(const PanelContext& c, const QualityCurve& curve, double now) {
     text(c.ui, title_of(curve), c.ui.theme.text);
     const std::string value = formatted(now, "%.4g");
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x -
-                    c.ui.grid(0.5F));
+    const std::string suggested = formatted(curve.suggested, "suggested %.3g");
+    const float right = ImGui::GetContentRegionMax().x - c.ui.grid(0.5F);
+    const float wide = ImGui::CalcTextSize(value.c_str()).x;
+    const float also = ImGui::CalcTextSize(suggested.c_str()).x + c.ui.grid(1.5F);
+    const float taken = ImGui::CalcTextSize(title_of(curve).c_str()).x + c.ui.grid(1);
+    if (taken + also + wide < right - ImGui::GetWindowContentRegionMin().x) {
+        ImGui::SameLine(right - wide - also);
+        text(c.ui, suggested, suggestion_colour(c.ui));
+    }
+    ImGui::SameLine(right - wide);
     text(c.ui, value, c.ui.theme.text);
 }
 
@@ -336,7 +345,9 @@ void draw_target(PanelContext& c, const OperationForm& form) {
     for (std::size_t i = 0; i < kNames.size(); ++i) {
         if (i > 0) ImGui::SameLine(0, c.ui.grid(1));
         if (button(c.ui, std::string("quality.") + kNames[i], readable(kNames[i]),
-                   {.width = wide, .help = formatted(kPresetTaus[i], "Aims at a target of %g")}))
+                   {.primary = tau == kPresetTaus[i],
+                    .width = wide,
+                    .help = formatted(kPresetTaus[i], "Aims the suggestions at a target of %g")}))
             tau = kPresetTaus[i];
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <imgui.h>
 
 #include "workbench/window/widgets/controls.h"
@@ -18,6 +19,8 @@ constexpr double kZoomPerNotch = 1.15;   ///< of the wheel
 constexpr double kClipPerNotch = 0.02;   ///< of the way through the model [-]
 constexpr double kFlightPerNotch = 0.5;  ///< [local radii]
 constexpr double kLookHeight = 8.0;      ///< around a place that is looked at [mm]
+constexpr double kFlightTime = 0.5;      ///< to a place that is looked at [s]
+constexpr double kLongestStep = 0.05;    ///< of a flight: the frame before it may be old [s]
 constexpr double kMargin = 0.12;         ///< around a framed model [-]
 constexpr double kSlack = 0.1;  ///< a framed model may change by this before the view follows [-]
 
@@ -32,6 +35,31 @@ constexpr std::array<std::pair<KeyCommand, StandardView>, 6> kSides = {
      {KeyCommand::Superior, StandardView::Superior},
      {KeyCommand::Inferior, StandardView::Inferior}}};
 
+/// The camera that looks at a place.
+/// \param outward the side from which it is seen; zero: as now
+ViewCamera looking_at(ViewCamera camera, const Vec3& place, const Vec3& outward) {
+    camera.centre = place;
+    camera.half_height = std::min(camera.half_height, kLookHeight);
+    if (outward.isZero()) return camera;
+    // The least turn, so that the user keeps track of what is up.
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(camera.view, -outward);
+    camera.up = turn * camera.up;
+    camera.view = -outward;
+    return camera;
+}
+
+/// Between two cameras, a share of the way.
+ViewCamera between(const ViewCamera& from, const ViewCamera& to, double share) {
+    ViewCamera camera = to;
+    const Eigen::Matrix3d axes =
+        Eigen::Quaterniond(to_eye(from)).slerp(share, Eigen::Quaterniond(to_eye(to))).matrix();
+    camera.up = axes.row(1);
+    camera.view = -axes.row(2);
+    camera.centre = from.centre + share * (to.centre - from.centre);
+    camera.half_height = from.half_height * std::pow(to.half_height / from.half_height, share);
+    return camera;
+}
+
 }  // namespace
 
 void CameraControl::face(StandardView side) {
@@ -40,6 +68,7 @@ void CameraControl::face(StandardView side) {
 
 void CameraControl::forget() {
     endoscope_ = {};
+    flight_.reset();
     picker_.forget();
     centring_.reset();
     outside_.reset();
@@ -129,9 +158,22 @@ void CameraControl::handle_view_keys(const KeyCommands& keys, const ViewContent&
 }
 
 void CameraControl::take_look(const Workplace& place) {
-    if (std::exchange(seen_looks_, place.looks()) == place.looks() || !place.looked_at()) return;
-    camera_.centre = *place.looked_at();
-    camera_.half_height = std::min(camera_.half_height, kLookHeight);
+    const bool asked = std::exchange(seen_looks_, place.looks()) != place.looks();
+    if (is_inside()) return flight_.reset();
+    if (asked && place.looked_at()) {
+        const ViewCamera to = looking_at(camera_, *place.looked_at(), place.looked_from());
+        flight_.emplace(Flight{.from = camera_, .to = to, .last = camera_});
+    }
+    if (flight_) continue_flight(ImGui::GetIO().DeltaTime);
+}
+
+void CameraControl::continue_flight(double seconds) {
+    if (camera_ != flight_->last) return flight_.reset();
+    flight_->done += std::min(seconds, kLongestStep) / kFlightTime;
+    const double t = flight_->done;
+    camera_ = t < 1.0 ? between(flight_->from, flight_->to, t * t * (3.0 - 2.0 * t)) : flight_->to;
+    flight_->last = camera_;
+    if (t >= 1.0) flight_.reset();
 }
 
 void CameraControl::request_centre(const SceneView& view, const Layers& layers,

@@ -33,7 +33,10 @@ public:
     [[nodiscard]] bool is_inside() const { return outside_.has_value(); }
 
     /// True while a place is searched, or the camera flies.
-    [[nodiscard]] bool pending() const { return picker_.pending() || endoscope_.moves(); }
+    [[nodiscard]] bool pending() const { return picker_.pending() || is_flying(); }
+
+    /// True while it moves by itself: frames should follow one another.
+    [[nodiscard]] bool is_flying() const { return endoscope_.moves() || flight_; }
 
     /// The case is closed.
     void forget();
@@ -63,7 +66,8 @@ public:
     /// \param over the mouse is over the view
     void handle_keys(const PanelContext& context, const ViewContent& content, bool over);
 
-    /// Turns to the place that a message names.
+    /// Flies to the place that is to be looked at, and turns to its outside. Once a frame; what the
+    /// user does to the camera ends it.
     void take_look(const Workplace& place);
 
     /// The place under the mouse becomes the centre of turns as soon as it is found, unless the
@@ -82,9 +86,17 @@ public:
 
 private:
     void handle_view_keys(const KeyCommands& keys, const ViewContent& content);
+    void continue_flight(double seconds);
+
+    /// From one camera to another.
+    struct Flight {
+        ViewCamera from, to, last;  ///< last: as it was set; another one is the user's
+        double done = 0.0;          ///< share of the time [-]
+    };
 
     ViewCamera camera_;
     int seen_looks_ = 0;
+    std::optional<Flight> flight_;  ///< to a place that is looked at
     Endoscope endoscope_;
     Picker picker_;                            ///< for the centre
     std::optional<ViewCamera> centring_;       ///< the camera whose centre is searched

@@ -41,7 +41,8 @@ struct ViewMouse {
 
 struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
-        : scene(wake, guard),
+        : ask_for_frame(wake),
+          scene(wake, guard),
           camera(renderer),
           brush(renderer),
           places(renderer, wake),
@@ -81,6 +82,7 @@ struct Viewport::Impl {
         return {mouse.x() + scene.shift_at(static_cast<float>(mouse.x())), mouse.y()};
     }
 
+    std::function<void()> ask_for_frame;  ///< soon
     DrawingGuard guard;
     Renderer renderer;
     ViewScene scene;
@@ -299,6 +301,7 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
     draw_frame(c, area);
     guard.report(c.place.document);
     end_frame();
+    if (camera.is_flying() && ask_for_frame) ask_for_frame();
 }
 
 void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
