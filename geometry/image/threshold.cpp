@@ -173,7 +173,9 @@ double bright_class(const Image& image) {
     }
 }
 
-/// Medians of a mask's voxels and of the two-voxel ring around it.
+constexpr int kLayer = 2;  ///< of voxels at a wall
+
+/// Medians of voxels of a mask and of the two-voxel layer around it.
 struct WallLevels {
     double inside = 0.0;
     double around = 0.0;
@@ -181,16 +183,16 @@ struct WallLevels {
     [[nodiscard]] double middle() const { return 0.5 * (inside + around); }
 };
 
-/// Empty if the mask contains no voxel, or all of them.
-std::optional<WallLevels> wall_levels(const Image& image, const Image& mask,
+/// \param core voxels of the mask that do not count; may be null
+/// \return empty if no voxel counts inside, or none is around
+std::optional<WallLevels> wall_levels(const Image& image, const Image& mask, const Image* core,
                                       const Progress& progress) {
-    constexpr int kRing = 2;  // voxels
-    const auto inside = values_between(image, mask, nullptr);
+    const auto inside = values_between(image, mask, core);
     progress.check_cancelled();
-    const auto ring = values_between(image, dilated(mask, kRing), &mask);
-    if (inside.empty() || ring.empty()) return std::nullopt;
+    const auto around = values_between(image, dilated(mask, kLayer), &mask);
+    if (inside.empty() || around.empty()) return std::nullopt;
     progress.check_cancelled();
-    return WallLevels{.inside = median(inside), .around = median(ring)};
+    return WallLevels{.inside = median(inside), .around = median(around)};
 }
 
 }  // namespace
@@ -198,12 +200,15 @@ std::optional<WallLevels> wall_levels(const Image& image, const Image& mask,
 double bright_threshold(const Image& image, const Progress& progress) {
     const double threshold = bright_class(image);
     progress.check_cancelled();
-    const auto levels = wall_levels(image, mask_of_iso(image, threshold, false), progress);
+    const Image bright = mask_of_iso(image, threshold, false);
+    const Image core = eroded(bright, kLayer);
+    progress.check_cancelled();
+    const auto levels = wall_levels(image, bright, &core, progress);
     return levels ? levels->middle() : threshold;
 }
 
 double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
-    const auto levels = wall_levels(image, mask, progress);
+    const auto levels = wall_levels(image, mask, nullptr, progress);
     if (!levels)
         throw InvalidInput(
             "the mask contains no voxel, or all of them: check it, or give threshold=");

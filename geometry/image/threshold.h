@@ -39,10 +39,11 @@ struct ImageJudgement {
 [[nodiscard]] double otsu(const std::vector<float>& values);
 
 /// Threshold for vessels that are the brightest part of the image: midway between the medians of
-/// their voxels and of the two-voxel ring around them. Their voxels are those above Otsu's
-/// threshold, repeated on the values above it while these are more than a twentieth of all voxels
-/// (vessels do not fill more of a body image) and the split leaves most of them, tissue, below: a
-/// vessel alone is not split again. Otsu's threshold itself depends on voxels far from the wall.
+/// the two layers of voxels inside their walls and of the two outside. Inside are the voxels above
+/// Otsu's threshold, repeated on the values above it while these are more than a twentieth of all
+/// voxels (vessels do not fill more of a body image) and the split leaves most of them, tissue,
+/// below: a vessel alone is not split again. Otsu's threshold itself depends on voxels far from the
+/// wall.
 /// \throw InvalidInput if all voxels are equal; Cancelled if the user cancels
 [[nodiscard]] double bright_threshold(const Image& image, const Progress& progress = {});
 

@@ -74,6 +74,23 @@ SCENARIO("A ball in an image becomes a sphere of its volume", "[images][extracti
     }
 }
 
+SCENARIO("The automatic threshold lies midway at the vessel's wall", "[images][extraction]") {
+    Image grid;
+    grid.size = {48, 48, 48};
+    grid.index_to_patient = oblique_matrix(Vec3::Constant(0.5), Vec3::Zero());
+    const Vec3 centre = grid.to_patient(Vec3(33, 24, 24));
+    const Image image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        const double tissue = grid.to_index(p).x() < 15.0 ? 0.0 : 40.0;  // air, then tissue
+        const double share = std::clamp(0.5 + (4.0 - (p - centre).norm()) / 1.5, 0.0, 1.0);
+        return tissue + (100.0 - tissue) * share;
+    });
+    THEN("voxels far from it, as of air, do not count") {
+        const Extraction ball = extract_surface(image, {}, {});
+        CHECK(ball.threshold == Approx(70.0).epsilon(0.03));
+        CHECK(volume(ball.surface) == Approx(ball_volume(4.0)).epsilon(0.03));
+    }
+}
+
 SCENARIO("The dark side of a threshold can be the vessel", "[images][extraction]") {
     Image image = ball_image(10.0, 40, Vec3(0.6, 0.6, 0.8));
     std::vector<float> inverse;

@@ -381,12 +381,21 @@ std::string further_inlets(const Surface& surface) {
            " the same way as the inlet: if blood flows in there as well, give " + command;
 }
 
+/// Standard deviation of the direction of a cut [deg]; null where none was made or measured.
+ordered_json doubt_json(const OpeningPlan& plan, const EndRecord& end) {
+    if (!end.opening) return nullptr;
+    const PlannedOpening& opening = plan.openings[*end.opening];
+    if (opening.way != OpeningWay::Cut || !opening.place.measured) return nullptr;
+    return opening.place.doubt_deg;
+}
+
 ordered_json ends_json(const OpeningPlan& plan, const Resolved& resolved) {
     ordered_json list = ordered_json::array();
     for (const EndRecord& end : plan.ends)
         list.push_back(
             {{"place_mm", {end.place.x(), end.place.y(), end.place.z()}},
              {"diameter_mm", end.diameter},
+             {"direction_sd_deg", doubt_json(plan, end)},
              {"fate", to_string(end.fate)},
              {"opening", end.opening ? ordered_json(resolved.patches[*end.opening]) : nullptr},
              {"why", end.why}});

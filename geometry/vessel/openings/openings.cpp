@@ -28,6 +28,8 @@ constexpr double kLeastRiseAtTip = 30.0;
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
 constexpr double kNoticedTiltDeg = 2.0;
+/// So is a larger standard deviation of the direction that it was given [deg].
+constexpr double kNoticedDoubtDeg = 2.0;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
 
@@ -492,6 +494,11 @@ private:
             plan_.warnings.push_back("the vessel behind the opening at " + at +
                                      " is too short to measure its axis: the opening follows the "
                                      "centerline's direction");
+        else if (place.doubt_deg > kNoticedDoubtDeg)
+            plan_.warnings.push_back("the direction of the opening at " + at + " is known to " +
+                                     degrees_text(place.doubt_deg) +
+                                     " only (one standard deviation): its vessel is short, uneven "
+                                     "or few voxels wide");
         if (place.tilt_deg > kNoticedTiltDeg)
             plan_.warnings.push_back("the opening at " + at + " is tilted by " +
                                      degrees_text(place.tilt_deg) + " against the vessel's axis");
