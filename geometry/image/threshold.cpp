@@ -198,13 +198,19 @@ std::optional<WallLevels> wall_levels(const Image& image, const Image& mask, con
 }  // namespace
 
 double bright_threshold(const Image& image, const Progress& progress) {
-    const double threshold = bright_class(image);
-    progress.check_cancelled();
-    const Image bright = mask_of_iso(image, threshold, false);
-    const Image core = eroded(bright, kLayer);
-    progress.check_cancelled();
-    const auto levels = wall_levels(image, bright, &core, progress);
-    return levels ? levels->middle() : threshold;
+    constexpr int kMostRounds = 4;
+    constexpr double kSettled = 0.01;  // of the difference of the levels
+    double threshold = bright_class(image);
+    for (int round = 0; round < kMostRounds; ++round) {
+        progress.check_cancelled();
+        const Image bright = mask_of_iso(image, threshold, false);
+        const Image core = eroded(bright, kLayer);
+        const auto levels = wall_levels(image, bright, &core, progress);
+        if (!levels) return threshold;
+        const double last = std::exchange(threshold, levels->middle());
+        if (std::abs(threshold - last) < kSettled * (levels->inside - levels->around)) break;
+    }
+    return threshold;
 }
 
 double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {

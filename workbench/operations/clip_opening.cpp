@@ -75,6 +75,8 @@ OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<
                                .radii = arguments.optional_real("radii"),
                                .strict = arguments.flag("strict"),
                                .border_cuts = image.has_value()};
+    options.leave_closed = arguments.text("closed_ends") == "leave";
+    if (options.leave_closed) options.border_cuts = false;
     if (image) options.voxels = voxel_edges(*image);
     if (!options.tip) options.inlets = points_of(arguments, "inlet");
     options.open = points_of(arguments, "open");
@@ -503,7 +505,14 @@ std::vector<Parameter> chosen_parameters() {
              .default_value = "flow",
              .help = "flow: fail unless there are two openings and the largest end is one of "
                      "them; none: no such check",
-             .choices = {"flow", "none"}}};
+             .choices = {"flow", "none"}},
+            {.name = "closed_ends",
+             .type = Choice,
+             .default_value = "open",
+             .help = "open: closed ends are opened where the surface's rims are not all its ends; "
+                     "leave: closed ends and the caps at an image's border stay as they are, as a "
+                     "print needs no openings",
+             .choices = {"open", "leave"}}};
 }
 
 /// What an earlier run decided.

@@ -228,6 +228,10 @@ private:
         const SurfaceEnd& end = ends_[e];
         if (in_side_[e] && !options_.strict)
             return close(e, "it lies in the side of a vessel that passes there");
+        if (!end.is_visible() && options_.leave_closed && !is_wanted(e)) {
+            records_[e].asked = true;
+            return close(e, "closed ends are left as they are" + opening_text(e));
+        }
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
             records_[e].sac = blind && blind->bulges;

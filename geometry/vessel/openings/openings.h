@@ -81,6 +81,8 @@ struct OpeningPlanOptions {
     /// Patches of kind Cut are where an image ends, which nobody meant to be an opening's plane:
     /// only perpendicular ones are kept.
     bool border_cuts = false;
+    /// Ends that are closed stay as they are, except those named in `open` or `inlets`.
+    bool leave_closed = false;
     /// Of the image that the surface was made from: ends thinner than these are left closed.
     std::optional<VoxelEdges> voxels;
     Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]
