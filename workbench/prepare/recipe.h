@@ -31,10 +31,10 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 /// Reads a recipe, a JSON list of {"operation": name, "arguments": {parameter: value},
 /// "step": name, "optional": true|false, "unless_closed": true|false, "unless_made":
 /// {"operation": name, "arguments": {parameter: value}}, "otherwise": {parameter: value}, "when":
-/// word or list of words} where everything except "operation" is optional. An entry is used if each word of its "when" is in `use`, and each word prefixed
-/// by "no-" is not. The arguments of all entries are checked, also of those that are not used;
-/// required ones may still be absent.
-/// \throw UsageError that names the entry and the mistake
+/// word or list of words} where everything except "operation" is optional. An entry is used if each
+/// word of its "when" is in `use`, and each word prefixed by "no-" is not. The arguments of all
+/// entries are checked, also of those that are not used; required ones may still be absent. \throw
+/// UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);
 
 /// The built-in recipe that `prepare` uses by default (DESIGN 2).
