@@ -452,7 +452,8 @@ private:
     Outcome made_;
 };
 
-std::vector<Parameter> chosen_parameters() {
+/// Which end, and where it is cut.
+std::vector<Parameter> place_parameters() {
     using enum ParameterType;
     return {{.name = "tip",
              .type = Point,
@@ -483,8 +484,13 @@ std::vector<Parameter> chosen_parameters() {
             {.name = "kind",
              .type = Choice,
              .help = "role of the opening at tip for the solver; default: by size",
-             .choices = {"inlet", "outlet"}},
-            {.name = "open",
+             .choices = {"inlet", "outlet"}}};
+}
+
+/// Which ends are opened, if all of them are looked at.
+std::vector<Parameter> choice_parameters() {
+    using enum ParameterType;
+    return {{.name = "open",
              .type = List,
              .unit = "mm",
              .help = "ends that are opened although they look closed, such as short ones: x,y,z of "
@@ -540,7 +546,8 @@ std::vector<Parameter> resolved_parameters() {
 }
 
 std::vector<Parameter> parameters() {
-    std::vector<Parameter> all = chosen_parameters();
+    std::vector<Parameter> all = place_parameters();
+    for (Parameter& parameter : choice_parameters()) all.push_back(std::move(parameter));
     for (Parameter& parameter : resolved_parameters()) all.push_back(std::move(parameter));
     return all;
 }
