@@ -23,9 +23,9 @@ namespace {
 /// Every vertex moved along its direction from the middle line or plane by a normal deviate.
 Surface roughened(const Surface& surface, double amount, unsigned seed) {
     std::mt19937 random(seed);
-    std::normal_distribution<double> deviate(0.0, amount);
+    std::normal_distribution<double> deviate;
     Positions points = surface.points();
-    for (Vec3& p : points) p += Vec3(deviate(random), deviate(random), deviate(random));
+    for (Vec3& p : points) p += amount * Vec3(deviate(random), deviate(random), deviate(random));
     return surface.with_positions(std::move(points));
 }
 
