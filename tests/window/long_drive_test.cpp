@@ -104,8 +104,13 @@ SCENARIO("The right button is held for long", "[window][live][display]") {
     window->move_mouse(view.middle_x(), view.middle_y());
     window->press(MouseButton::Right);
     window->move_mouse(view.middle_x() + 40, view.middle_y());
+    REQUIRE(window->run_until(
+        [&] {
+            const Arguments& values = place.form()->arguments();
+            return values.has("iterations") && values.integer("iterations") == 25;
+        },
+        60s));
     window->release(MouseButton::Right);
-    CHECK(place.form()->arguments().integer("iterations") == 25);
     apply_form(*window);
     CHECK(edit_count(*window) == 2);
 }
