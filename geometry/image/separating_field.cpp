@@ -198,8 +198,8 @@ std::vector<Crossing> crossings_of(const VoxelBand& band, const Values& f) {
     return crossings;
 }
 
-/// The level at which edges are crossed midway in the mean. The grid lines along each axis then
-/// have the length inside that the voxels say, and so has the surface their volume.
+/// The level at which edges are crossed midway in the mean: the grid lines along each axis then
+/// have the length inside that the voxels say.
 double fair_level(const std::vector<Crossing>& crossings) {
     double low = 0.0, high = 0.0;
     for (const Crossing& c : crossings) {
