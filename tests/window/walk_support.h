@@ -45,7 +45,7 @@ void export_as(Driver& window, const std::string& name);
 /// The log as a new session of its own reads it from the file.
 [[nodiscard]] std::vector<LogEntry> stored_log(const std::filesystem::path& project);
 
-/// Memory of this process [MB].
+/// Memory of this process [MB], without what its allocator keeps for later.
 [[nodiscard]] double resident_megabytes();
 
 }  // namespace vesselbench::test
