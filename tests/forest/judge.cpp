@@ -68,6 +68,7 @@ struct Opening {
     std::optional<std::size_t> end;  ///< of the truth
     double cut_at = 0.0;             ///< on its branch's line [mm]
     double tilt = 0.0;               ///< [deg]
+    double doubt = 0.0;              ///< standard deviation of its direction, as it was told [deg]
 };
 
 /// Lengths of the tubes added by extrude-opening, by opening.
@@ -81,21 +82,37 @@ std::map<std::string, double> tube_lengths(const Json& report) {
     return lengths;
 }
 
+/// What clip-opening says of the direction of each opening it cut, by name: its standard deviation
+/// [deg].
+std::map<std::string, double> told_doubts(const Json& report) {
+    std::map<std::string, double> doubts;
+    for (const Json& step : report.value("steps", Json::array())) {
+        if (step.value("operation", "") != "clip-opening" || !step.contains("report")) continue;
+        for (const Json& end : step["report"].value("ends", Json::array()))
+            if (end.value("opening", Json()).is_string() && end["direction_sd_deg"].is_number())
+                doubts[end["opening"]] = end["direction_sd_deg"];
+    }
+    return doubts;
+}
+
 class Judge {
 public:
     Judge(const Truth& truth, const Surface& surface, const Json& report, bool flow)
         : truth_(truth), surface_(surface), flow_(flow), distance_(surface) {
         const auto tubes = tube_lengths(report);
+        const auto doubts = told_doubts(report);
         if (!flow && !tubes.empty()) fail("tubes", counted(tubes.size(), "tube") + " at ends");
         for (const PatchMeasures& patch : measure_patches(surface)) {
             if (patch.kind == PatchKind::Wall) continue;
             const auto tube = tubes.find(patch.name);
             const double length = tube == tubes.end() ? 0.0 : tube->second;
+            const auto doubt = doubts.find(patch.name);
             openings_.push_back({.name = patch.name,
                                  .inlet = patch.kind == PatchKind::Inlet,
                                  .place = patch.centroid - length * patch.normal,
                                  .normal = patch.normal,
-                                 .diameter = 2.0 * std::sqrt(patch.area / std::numbers::pi)});
+                                 .diameter = 2.0 * std::sqrt(patch.area / std::numbers::pi),
+                                 .doubt = doubt == doubts.end() ? 0.0 : doubt->second});
         }
     }
 
@@ -109,7 +126,9 @@ public:
         for (const Opening& opening : openings_)
             told.push_back({{"name", opening.name},
                             {"end", opening.end ? Json(*opening.end) : Json()},
+                            {"optional", opening.end && truth_.ends[*opening.end].optional},
                             {"tilt_deg", opening.tilt},
+                            {"told_sd_deg", opening.doubt},
                             {"cut_at_mm", opening.cut_at}});
         return {{"right", failures_.empty()},
                 {"failures", failures_},
@@ -204,6 +223,7 @@ private:
     void check_cut(const Opening& opening) {
         const auto& end = truth_.ends[*opening.end];
         const auto& branch = truth_.branches[end.branch];
+        if (end.optional) return;  // it need not be there at all
         if (opening.tilt > kMostTilt)
             fail("cap tilted", opening.name + " by " + formatted(opening.tilt, "%.1f") +
                                    " degrees, at " + name_of(*opening.end));

@@ -128,6 +128,9 @@ SCENARIO("The judge of the forest accepts the truth and nothing else", "[forest]
             tilted.truth = truth_of(tilted.tree, tilted.plan);
             CHECK(objections(tree.truth, as_product(tilted, 0), true) ==
                   (angle > 2.0 ? Objections{"cap tilted"} : Objections{}));
+            Truth lenient = tree.truth;
+            lenient.ends[*lenient.branches[1].end].optional = true;
+            CHECK(objections(lenient, as_product(tilted, 0), true) == Objections{});
         }
     }
     THEN("truth.json says all that is judged by") {
