@@ -28,6 +28,8 @@ public:
 
     void frame() override { shell_.frame(); }
 
+    std::optional<Picture> picture() const override { return shell_.picture(); }
+
     void move_mouse(float x, float y) override { shell_.move_mouse(x, y); }
 
     void press(MouseButton button) override { shell_.press(button); }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "workbench/window/shell/offscreen_shell.h"
@@ -17,6 +18,9 @@ public:
 
     [[nodiscard]] virtual App& app() = 0;
     virtual void frame() = 0;
+
+    /// What the last frame drew; none on a display.
+    [[nodiscard]] virtual std::optional<Picture> picture() const { return std::nullopt; }
 
     // --- the devices
 

@@ -124,6 +124,19 @@ Eigen::Vector2f wall_at(Driver& window, double z) {
     return place->cast<float>();
 }
 
+/// Pixels of a part of the window that are much darker than the second one beside them.
+int lines_in(const Picture& picture, const ScreenRect& part) {
+    constexpr int kMuch = 25;
+    const auto green = [&](int x, int y) {
+        return int(picture.rgb[3 * (y * picture.width + x) + 1]);
+    };
+    int count = 0;
+    for (int y = int(part.y); y < int(part.y + part.height); ++y)
+        for (int x = int(part.x); x < int(part.x + part.width); ++x)
+            count += green(x + 2, y) - green(x, y) > kMuch ? 1 : 0;
+    return count;
+}
+
 void add_spot(Driver& window, double z) {
     const SpotList& spots = gallery_of(window).spots;
     const std::size_t before = spots.all().size();
@@ -370,6 +383,18 @@ SCENARIO("Spots are kept with the project", "[window][gallery][spots]") {
         window->press_key(keys::kEscape);
         CHECK(gallery_of(*window).mode() == GalleryMode::Off);
         CHECK(window->app().place().form());
+    }
+    THEN("the original's wireframe is drawn over the suggestion") {
+        window->move_mouse(2, 2);
+        REQUIRE(window->settle());
+        const auto& items = window->app().ui().items();
+        const Picture picture = window->picture().value();
+        const Eigen::Vector2f lower = wall_at(*window, 17.0), upper = wall_at(*window, 20.0);
+        ScreenRect plain{lower.x() - 20, upper.y(), 40, lower.y() - upper.y()};
+        CHECK(lines_in(picture, plain) == 0);
+        ScreenRect spot = items.at("gallery.cell.1").rect;
+        plain = {spot.middle_x() - 20, spot.y + 0.25F * spot.height, 40, 0.25F * spot.height};
+        CHECK(lines_in(picture, plain) > 100);
     }
     THEN("the wheel magnifies a spot, and leaves the camera alone") {
         const ViewCamera camera = window->app().camera();

@@ -97,6 +97,27 @@ SCENARIO("The right button smooths on a display", "[window][live][walk]") {
     if (const auto window = window_on(Screen::Display)) smooth_live(*window);
 }
 
+SCENARIO("Who applies what was not shown yet is told how far it is from what was",
+         "[window][live]") {
+    const auto window = window_on(Screen::None);
+    if (!window) return;
+    open_smooth(*window);
+    drive(*window, -40, 0);
+    window->release(MouseButton::Right);
+    REQUIRE(wait_for_exact(*window));
+    const Positions seen = live_of(*window).shown()->state.surface.points();
+    // Without a frame between them, nothing can be computed for the new value.
+    Workplace& place = window->app().place();
+    place.set_field("iterations", "60");
+    place.apply();
+    REQUIRE(window->wait_until_idle());
+    REQUIRE(edit_count(*window) == 2);
+    const Surface& applied = *document_of(*window).current()->surface;
+    const std::string difference = difference_text(applied.with_positions(seen), applied);
+    REQUIRE_FALSE(difference.empty());
+    CHECK(has_message(*window, "The result differs from the live preview by " + difference));
+}
+
 SCENARIO("Escape during a drive brings back the fields and the model", "[window][live]") {
     const auto window = window_on(Screen::None);
     if (!window) return;
@@ -280,6 +301,42 @@ SCENARIO("Newer questions end older ones, and no old answer follows", "[window][
     CHECK(models.newest()->state.iterations == 59);
     models.forget();
     CHECK_FALSE(models.newest());
+}
+
+SCENARIO("Live colours show the staircase weights of the question", "[window][live]") {
+    // A cylinder whose radius jumps: the step is a staircase of the stack along z.
+    const auto stepped = [](const Vec3& p) {
+        const double factor = p.z() < 15 ? 1.0 : 1.5;
+        return Vec3(factor * p.x(), factor * p.y(), p.z());
+    };
+    Scene scene;
+    scene.surface = mapped(fine_tube(4.0, 30.0, 36), stepped);
+    scene.sampling = Sampling{.spacing = {0.5, 0.5, 1.0}, .confidence = 1.0};
+    LiveModels models({}, live_modelling([]() -> HeldDevice { throw GpuUnavailable("not here"); }));
+    for (const double least : {0.0, 0.25}) {
+        const auto question =
+            models.ask({.scene = scene,
+                        .base = 1,
+                        .arguments = checked_arguments(find_operation("smooth"),
+                                                       {{"staircase", true}, {"beta_min", least}}),
+                        .colouring = ColouringKind::StaircaseWeight});
+        const auto answered = [&] {
+            static_cast<void>(models.update());
+            return models.newest() && models.newest()->question == question && !models.pending();
+        };
+        while (!answered()) std::this_thread::sleep_for(1ms);
+        REQUIRE(models.newest()->colours);
+        const std::vector<double>& weights = models.newest()->colours->values;
+        REQUIRE(weights.size() == scene.surface->vertex_count());
+        double at_step = 0.0, away = 0.0;
+        for (VertexId v = 0; v < weights.size(); ++v) {
+            const double z = scene.surface->points()[v].z();
+            if (std::abs(z - 15) < 1.0) at_step = std::max(at_step, weights[v]);
+            if (z > 3 && z < 8) away = std::max(away, weights[v]);
+        }
+        CHECK(at_step == 1.0);
+        CHECK(away == least);
+    }
 }
 
 SCENARIO("A difference is told if it is more than rounding", "[window][live]") {

@@ -1,9 +1,12 @@
 #include "workbench/operations/smooth/live_smoother.h"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
@@ -87,6 +90,32 @@ SCENARIO("Live weights are those of the operation", "[workbench][smooth][live]")
         require_applied(live, scene, margin);
         require_applied(live, scene, {{"distance", std::string("margin")}, {"margin", 3.0}});
         require_applied(live, scene, {{"distance", std::string("exponential")}, {"omega", 0.2}});
+    }
+}
+
+SCENARIO("While iterations take long, what is done so far is sent", "[workbench][smooth][live]") {
+    const Scene scene = scene_of(icosphere(5.0, 6));
+    LiveSmoother live(scene);
+    const Arguments given = {{"filter", std::string("laplace")},
+                             {"iterations", std::int64_t{9000}}};
+    std::vector<LiveSmoother::State> sent;
+    static_cast<void>(live.run(
+        arguments(given), [&](const LiveSmoother::State& state) { sent.push_back(state); }, {}));
+    REQUIRE(sent.size() > 2);
+    CHECK(sent.back().whole);
+    CHECK(sent.back().iterations == 9000);
+    CHECK(std::ranges::is_sorted(sent, {}, &LiveSmoother::State::iterations));
+    const LiveSmoother::State& part = sent.front();
+    REQUIRE_FALSE(part.whole);
+    REQUIRE(part.iterations < 9000);
+    CHECK_FALSE(part.exact);
+    THEN("each is the filter's result after so many iterations") {
+        CHECK(part.surface.points() == laplace(*scene.surface->topology, scene.surface->points(),
+                                               {.lambda = part.resolved.real("lambda")},
+                                               {.iterations = part.iterations}));
+    }
+    THEN("the next run continues from what is done") {
+        require_applied(live, scene, given);
     }
 }
 

@@ -61,10 +61,9 @@ ImDrawList& draw_list() {
     return *ImGui::GetWindowDrawList();
 }
 
-/// "Tau max [mm]"
-std::string title_of(const QualityCurve& curve) {
-    const bool plain = curve.unit.empty() || curve.unit == "-";
-    return readable(curve.name) + (plain ? "" : " [" + curve.unit + "]");
+/// " mm" behind a figure; empty without a unit
+std::string unit_of(const QualityCurve& curve) {
+    return curve.unit.empty() || curve.unit == "-" ? "" : " " + curve.unit;
 }
 
 /// The axis of a parameter.
@@ -185,21 +184,21 @@ void draw_grid(const PanelContext& c, const Axis& axis) {
     }
 }
 
-void draw_ends(const PanelContext& c, const Axis& axis) {
+void draw_ends(const PanelContext& c, const QualityCurve& curve, const Axis& axis) {
     const float y = axis.rect.y + axis.rect.height + c.ui.grid(0.25F);
     label(c, {axis.rect.x, y}, 0.0F, formatted(axis.from));
-    label(c, {axis.rect.x + axis.rect.width, y}, 1.0F, formatted(axis.to));
+    label(c, {axis.rect.x + axis.rect.width, y}, 1.0F, formatted(axis.to) + unit_of(curve));
 }
 
 /// With the value of now, and the suggestion, which is seen to follow the target.
 void draw_title(const PanelContext& c, const QualityCurve& curve, double now) {
-    text(c.ui, title_of(curve), c.ui.theme.text);
+    text(c.ui, readable(curve.name), c.ui.theme.text);
     const std::string value = formatted(now, "%.4g");
     const std::string suggested = formatted(curve.suggested, "suggested %.3g");
     const float right = ImGui::GetContentRegionMax().x - c.ui.grid(0.5F);
     const float wide = ImGui::CalcTextSize(value.c_str()).x;
     const float also = ImGui::CalcTextSize(suggested.c_str()).x + c.ui.grid(1.5F);
-    const float taken = ImGui::CalcTextSize(title_of(curve).c_str()).x + c.ui.grid(1);
+    const float taken = ImGui::CalcTextSize(readable(curve.name).c_str()).x + c.ui.grid(1);
     if (taken + also + wide < right - ImGui::GetWindowContentRegionMin().x) {
         ImGui::SameLine(right - wide - also);
         text(c.ui, suggested, suggestion_colour(c.ui));
@@ -235,7 +234,7 @@ void draw_graph(PanelContext& c, const OperationForm& form, const SensitivityAna
     for (const MeasureLook& look : looks_of(analysis.scale, form))
         draw_curve(c, analysis, curve, axis, look);
     draw_value_line(c, axis, now);
-    draw_ends(c, axis);
+    draw_ends(c, curve, axis);
     ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
@@ -316,7 +315,7 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
         const QualityCurve& curve = analysis.curves[bar.curve];
         const bool by_parameter = order == BarOrder::Parameter;
         const std::string own =
-            by_parameter ? title_of(curve) : readable_sentence(measure_name(bar.measure));
+            by_parameter ? readable(curve.name) : readable_sentence(measure_name(bar.measure));
         if (own != group) {
             if (!group.empty()) space(c.ui, 0.75F);
             if (by_parameter)
@@ -325,7 +324,8 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
                 text(c.ui, own, c.ui.theme.text);
         }
         group = own;
-        draw_bar(c, form, curve, bar, by_parameter ? measure_name(bar.measure) : title_of(curve));
+        draw_bar(c, form, curve, bar,
+                 by_parameter ? measure_name(bar.measure) : readable(curve.name));
     }
     small_text(c.ui, "bright: better; plain: cannot be combined with the other values",
                c.ui.theme.muted);
