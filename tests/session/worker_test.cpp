@@ -1,6 +1,8 @@
 #include "workbench/worker/worker.h"
 
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -69,6 +71,14 @@ SCENARIO("Where all operations run in workers, some stay", "[session][worker]") 
         CHECK(far.device == "gpu");
         CHECK(run("far-bump", sphere(), kTop).device == "cpu");
     }
+}
+
+SCENARIO("A program that does not answer --worker does not start itself without end",
+         "[session][worker]") {
+    ::setenv("VESSELBENCH_WORKER", "1", 1);  // as in a worker
+    CHECK_THROWS_AS(run("far-bump", sphere(), kTop), std::logic_error);
+    ::unsetenv("VESSELBENCH_WORKER");
+    CHECK_NOTHROW(run("far-bump", sphere(), kTop));
 }
 
 SCENARIO("Errors keep their class across the processes", "[session][worker]") {

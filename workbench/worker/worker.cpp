@@ -5,10 +5,12 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -225,6 +227,9 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
     return outcome;
 }
 
+/// In the environment of every worker.
+constexpr const char* kWorkerMark = "VESSELBENCH_WORKER";
+
 /// The worker process, killed and reaped with its owner.
 class Child {
 public:
@@ -243,7 +248,12 @@ public:
         std::vector<char*> words;
         for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
-        const int code = posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), environ);
+        std::string mark = std::string(kWorkerMark) + "=1";
+        std::vector<char*> surroundings = {mark.data()};
+        for (char** entry = environ; *entry != nullptr; ++entry) surroundings.push_back(*entry);
+        surroundings.push_back(nullptr);
+        const int code =
+            posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), surroundings.data());
         posix_spawn_file_actions_destroy(&actions);
         if (code != 0) throw IoError("cannot start the worker process " + command[0]);
     }
@@ -459,6 +469,9 @@ Bytes run_request(const OperationLookup& find) {
 Outcome run_in_worker(const Operation& operation, const Scene& scene,
                       const CheckedArguments& arguments, const Progress& progress,
                       const WorkerOptions& options) {
+    // A program that does not answer --worker would start itself without end.
+    if (std::getenv(kWorkerMark) != nullptr)
+        throw std::logic_error("a worker starts a worker: main() has to answer --worker");
     auto command = options.command;
     if (command.empty()) command = {"/proc/self/exe", "--worker"};
     const Descriptor request = memory_file("vesselbench-request");
