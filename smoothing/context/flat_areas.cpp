@@ -87,6 +87,7 @@ struct Ground {
     const AreaNormals& faces;
     std::size_t smallest;
     double flat_cosine, spread_cosine;
+    std::vector<std::uint32_t> part_of;  ///< #V: number of the planar part, from 1; 0: none
 };
 
 /// Calls visit(t) for the triangles at both vertices, ascending.
@@ -179,13 +180,17 @@ private:
         for (std::size_t next = inside_; next < area_.size(); ++next) {
             const Triangle corners = triangles[area_[next]];
             const FaceNormal from = faces[area_[next]];
-            for (std::size_t k = 0; k < 3; ++k)
-                visit_common(ground_.rows, corners[k], corners[(k + 1) % 3], [&](TriangleId t) {
+            const auto in_part = [&](VertexId v) { return ground_.part_of[v] == number_; };
+            for (std::size_t k = 0; k < 3; ++k) {
+                const VertexId a = corners[k], b = corners[(k + 1) % 3];
+                if (in_part(a) || in_part(b)) continue;  // all triangles there have been met
+                visit_common(ground_.rows, a, b, [&](TriangleId t) {
                     if (met_[t] == number_ || !is_free(numbers[t])) return;
                     const FaceNormal to = faces[t];
                     const double least = ground_.flat_cosine * to.length * from.length;
                     if (to.weighted().dot(from.weighted()) >= least) add(t, to);
                 });
+            }
         }
     }
 
@@ -221,11 +226,15 @@ std::vector<std::uint8_t> in_planes(const CompressedRows& parts,
     return in_plane;
 }
 
-/// Number of the part that a triangle is within, from 1; 0: none, kNotSearched: not of the wall.
-AreaNumbers numbers_within(const Surface& surface, const CompressedRows& parts) {
-    std::vector<std::uint32_t> part_of(surface.vertex_count(), 0);
+std::vector<std::uint32_t> numbers_of(const CompressedRows& parts, std::size_t vertex_count) {
+    std::vector<std::uint32_t> part_of(vertex_count, 0);
     for (std::size_t i = 0; i + 1 < parts.offsets.size(); ++i)
         for (const VertexId v : parts.row(i)) part_of[v] = static_cast<std::uint32_t>(i + 1);
+    return part_of;
+}
+
+/// Number of the part that a triangle is within, from 1; 0: none, kNotSearched: not of the wall.
+AreaNumbers numbers_within(const Surface& surface, const std::vector<std::uint32_t>& part_of) {
     std::vector<std::uint8_t> is_wall;
     for (const Patch& patch : surface.patches) is_wall.push_back(patch.kind == PatchKind::Wall);
     const auto triangles = surface.triangles();
@@ -295,8 +304,9 @@ std::vector<std::vector<TriangleId>> find_flat_areas(const AreaNormals& faces,
                         faces,
                         static_cast<std::size_t>(parameters.smallest_faces),
                         cosine(parameters.flat_angle_deg),
-                        spread_cosine()};
-    AreaNumbers numbers = numbers_within(surface, parts);
+                        spread_cosine(),
+                        numbers_of(parts, surface.vertex_count())};
+    AreaNumbers numbers = numbers_within(surface, ground.part_of);
     // Areas are made one after the other, none from a triangle that another has taken. Nearly all
     // take the same ones as if they were alone, which is computed for all of them in parallel.
     // Triangles within a later part are free until its turn, though they have its number already.

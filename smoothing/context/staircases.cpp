@@ -16,7 +16,7 @@ namespace {
 constexpr double kDegenerate = -1.0;
 
 /// Eq. 5.3; kDegenerate where a face has no normal.
-double orientation(const FaceNormal& face, const Vec3& axis) {
+inline __attribute__((always_inline)) double orientation(const FaceNormal& face, const Vec3& axis) {
     if (face.length == 0.0) return kDegenerate;
     return std::max(0.0, 1.0 - std::abs(face.weighted().dot(axis)) / face.length);
 }
