@@ -117,7 +117,7 @@ std::vector<Cap> find_caps(const DeviceSurface& surface, const CapParameters& pa
     find_parts(surface, buffers);
     const auto vertices = read_planes(surface, parameters.smallest_faces, buffers);
     const AreaNormals faces(surface.surface(), AreaNormals::When::Asked);
-    return caps_of_parts(surface.surface(), faces, rows_of(vertices), parameters);
+    return caps_of_parts(faces, rows_of(vertices), parameters);
 }
 
 }  // namespace vesselbench

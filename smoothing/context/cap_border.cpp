@@ -25,16 +25,18 @@ double area_of(const Surface& surface, std::span<const TriangleId> triangles) {
 
 }  // namespace
 
-bool CapBorder::goes_on(const Area& area, VertexId v) const {
-    const auto row = surface_.topology->triangles_at().row(v);
-    return std::any_of(row.begin(), row.end(),
-                       [&](TriangleId t) { return area.numbers[t] != area.number; });
-}
-
-bool CapBorder::touches(const Area& area, VertexId v) const {
-    const auto row = surface_.topology->triangles_at().row(v);
-    return std::any_of(row.begin(), row.end(),
-                       [&](TriangleId t) { return area.numbers[t] == area.number; });
+void CapBorder::count_corners(const Area& area, std::span<const TriangleId> triangles) {
+    vertices_.resize(3 * triangles.size() + 1);  // and a last write that does not count
+    std::size_t found = 0;
+    for (const TriangleId t : triangles)
+        for (const VertexId v : surface_.triangles()[t]) {
+            Corners& corners = corners_[v];
+            const bool is_new = corners.area != area.number;
+            vertices_[found] = v;
+            found += is_new ? 1 : 0;
+            corners = {area.number, is_new ? 1 : corners.count + 1};
+        }
+    vertices_.resize(found);
 }
 
 /// Sign of the largest distance along the normal to the neighbours outside the area.
@@ -53,18 +55,16 @@ int CapBorder::side_beyond(const Area& area, VertexId v) const {
 /// Collects the area's border vertices as long as they agree.
 /// \return +1 or -1 if the surface leaves the area along or against its normal wherever it leaves
 ///         its plane; else 0
-int CapBorder::common_side(Area& area, std::span<const TriangleId> triangles) {
+int CapBorder::common_side(Area& area) const {
+    const CompressedRows& rows = surface_.topology->triangles_at();
     int common = 0;
-    for (const TriangleId t : triangles)
-        for (const VertexId v : surface_.triangles()[t]) {
-            if (seen_[v] == area.number) continue;
-            seen_[v] = area.number;
-            if (!goes_on(area, v)) continue;
-            area.border.push_back(v);
-            const int side = side_beyond(area, v);
-            if (side != 0 && side == -common) return 0;
-            if (side != 0) common = side;
-        }
+    for (const VertexId v : vertices_) {
+        if (corners_[v].count == rows.row(v).size()) continue;
+        area.border.push_back(v);
+        const int side = side_beyond(area, v);
+        if (side != 0 && side == -common) return 0;
+        if (side != 0) common = side;
+    }
     return common;
 }
 
@@ -117,10 +117,10 @@ bool CapBorder::drops(const Area& area, VertexId start, int side, double radius)
     }
 }
 
-bool CapBorder::encloses_cap(const AreaNumbers& areas, std::span<const TriangleId> triangles,
-                             const Vec3& normal) {
-    Area area{areas, areas[triangles.front()], normal, {}};
-    const int side = common_side(area, triangles);
+bool CapBorder::encloses_cap(std::span<const TriangleId> triangles, const Vec3& normal) {
+    Area area{++last_area_, normal, {}};
+    count_corners(area, triangles);
+    const int side = common_side(area);
     if (side == 0) return false;
     const double radius = inner_radius(area);
     if (area_of(surface_, triangles) > kElongation * std::numbers::pi * radius * radius)

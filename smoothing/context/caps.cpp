@@ -38,7 +38,8 @@ Cap make_cap(const Surface& surface, std::vector<TriangleId> triangles, const Ve
 }
 
 /// The patches other than the wall.
-std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
+std::vector<Cap> patch_caps(const AreaNormals& faces) {
+    const Surface& surface = faces.surface();
     const auto is_wall = [](const Patch& patch) { return patch.kind == PatchKind::Wall; };
     if (std::ranges::all_of(surface.patches, is_wall)) return {};
     std::vector<std::vector<TriangleId>> triangles(surface.patches.size());
@@ -54,16 +55,17 @@ std::vector<Cap> patch_caps(const Surface& surface, const AreaNormals& faces) {
 }
 
 /// The flat areas whose surroundings make them caps.
-std::vector<Cap> flat_caps(const Surface& surface, const AreaNormals& faces,
-                           const CompressedRows& parts, const CapParameters& parameters) {
-    auto [numbers, areas] = find_flat_areas(surface, faces, parts, parameters);
+std::vector<Cap> flat_caps(const AreaNormals& faces, const CompressedRows& parts,
+                           const CapParameters& parameters) {
+    const Surface& surface = faces.surface();
+    auto areas = find_flat_areas(faces, parts, parameters);
     std::vector<std::optional<Cap>> caps(areas.size());
     tbb::enumerable_thread_specific<CapBorder> borders([&] { return CapBorder(surface); });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), 4), [&](const auto& range) {
         CapBorder& border = borders.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const Vec3 normal = mean_normal(faces, areas[i]);
-            if (!border.encloses_cap(numbers, areas[i], normal)) continue;
+            if (!border.encloses_cap(areas[i], normal)) continue;
             std::sort(areas[i].begin(), areas[i].end());
             caps[i] = make_cap(surface, std::move(areas[i]), normal, false);
         }
@@ -83,12 +85,11 @@ void require_cap_parameters(const CapParameters& parameters) {
                            " must be 1 or more");
 }
 
-std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
-                               const CompressedRows& parts, const CapParameters& parameters) {
-    std::vector<Cap> caps = patch_caps(surface, faces);
+std::vector<Cap> caps_of_parts(const AreaNormals& faces, const CompressedRows& parts,
+                               const CapParameters& parameters) {
+    std::vector<Cap> caps = patch_caps(faces);
     if (!parts.values.empty())
-        for (Cap& cap : flat_caps(surface, faces, parts, parameters))
-            caps.push_back(std::move(cap));
+        for (Cap& cap : flat_caps(faces, parts, parameters)) caps.push_back(std::move(cap));
     std::stable_sort(caps.begin(), caps.end(), [](const Cap& a, const Cap& b) {
         return a.triangles.front() < b.triangles.front();
     });
@@ -98,8 +99,13 @@ std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
 std::vector<Cap> find_caps(const Surface& surface, const CapParameters& parameters) {
     require_cap_parameters(parameters);
     if (surface.empty()) return {};
-    const AreaNormals faces(surface, AreaNormals::When::Ahead);
-    return caps_of_parts(surface, faces, plane_parts(surface, faces, parameters), parameters);
+    return find_caps(AreaNormals(surface, AreaNormals::When::Ahead), parameters);
+}
+
+std::vector<Cap> find_caps(const AreaNormals& faces, const CapParameters& parameters) {
+    require_cap_parameters(parameters);
+    if (faces.surface().empty()) return {};
+    return caps_of_parts(faces, plane_parts(faces, parameters), parameters);
 }
 
 std::vector<std::uint8_t> cap_vertices(const std::vector<Cap>& caps, std::size_t vertex_count) {

@@ -40,10 +40,13 @@ struct CapParameters {
 [[nodiscard]] std::vector<Cap> find_caps(const Surface& surface,
                                          const CapParameters& parameters = {});
 
+/// The same from normals computed before.
+[[nodiscard]] std::vector<Cap> find_caps(const AreaNormals& faces,
+                                         const CapParameters& parameters = {});
+
 /// Completes find_caps from planar parts, however they were found: the areas of those whose
 /// surroundings make them caps, and the patches other than the wall.
-[[nodiscard]] std::vector<Cap> caps_of_parts(const Surface& surface, const AreaNormals& faces,
-                                             const CompressedRows& parts,
+[[nodiscard]] std::vector<Cap> caps_of_parts(const AreaNormals& faces, const CompressedRows& parts,
                                              const CapParameters& parameters);
 
 /// \throw InvalidInput if a parameter is out of range

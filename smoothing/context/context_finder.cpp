@@ -13,7 +13,7 @@ public:
 
     [[nodiscard]] StaircaseContext staircases(const StackAxes& stack_axes,
                                               const StaircaseParameters& parameters) override {
-        const auto change = orientation_change(*surface_.topology, surface_.points(), stack_axes);
+        const auto change = orientation_change(faces(), stack_axes);
         StaircaseContext found;
         found.weights =
             staircase_weights(*surface_.topology, surface_.points(), change, parameters);
@@ -41,9 +41,19 @@ private:
         neighbours_ = std::move(asked);
     }
 
-    [[nodiscard]] std::vector<Cap> search_caps() override { return find_caps(surface_); }
+    [[nodiscard]] std::vector<Cap> search_caps() override {
+        if (surface_.empty()) return {};
+        return find_caps(faces());
+    }
 
-    Surface surface_;
+    /// Detection of staircases and caps share them.
+    [[nodiscard]] const AreaNormals& faces() {
+        if (!faces_) faces_.emplace(surface_, AreaNormals::When::Ahead);
+        return *faces_;
+    }
+
+    const Surface surface_;
+    std::optional<AreaNormals> faces_;                          ///< refers to the surface
     std::vector<std::shared_ptr<const Positions>> neighbours_;  ///< those of the distances
     std::vector<double> distances_;                             ///< #V; empty: not known
 };

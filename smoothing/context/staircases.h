@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
+#include "smoothing/context/area_normals.h"
 
 namespace vesselbench {
 
@@ -43,6 +44,11 @@ private:
 /// \throw InvalidInput if an axis has no direction
 [[nodiscard]] std::vector<double> orientation_change(const Topology& topology,
                                                      const Positions& positions,
+                                                     const StackAxes& stack_axes);
+
+/// The same from normals computed before, which the search for caps shares.
+/// \throw InvalidInput if an axis has no direction
+[[nodiscard]] std::vector<double> orientation_change(const AreaNormals& faces,
                                                      const StackAxes& stack_axes);
 
 /// \throw InvalidInput if the axis has no direction

@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/stopwatch.h"
+#include "smoothing/context/area_normals.h"
 #include "smoothing/context/caps.h"
 #include "smoothing/context/staircase_weights.h"
 #include "smoothing/context/staircases.h"
@@ -140,8 +141,9 @@ double detection_seconds(const Surface& surface, std::span<const double> change,
     const Surface fresh =
         make_surface(surface.points(), {surface.triangles().begin(), surface.triangles().end()});
     const Stopwatch watch;
-    const auto detected = orientation_change(*fresh.topology, fresh.points(), kStackAxis);
-    const auto caps = cap_vertices(find_caps(fresh), detected.size());
+    const AreaNormals faces(fresh, AreaNormals::When::Ahead);
+    const auto detected = orientation_change(faces, kStackAxis);
+    const auto caps = cap_vertices(find_caps(faces), detected.size());
     parameters.caps = caps;
     const auto weights = staircase_weights(*fresh.topology, fresh.points(), change, parameters);
     return watch.seconds();

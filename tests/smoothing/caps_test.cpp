@@ -10,6 +10,7 @@
 #include "geometry/image/iso_surface.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/phantoms/phantom.h"
+#include "smoothing/context/staircases.h"
 #include "smoothing/filters/laplace.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
@@ -221,4 +222,23 @@ SCENARIO("Cap detection accepts any surface", "[smoothing][caps]") {
     CHECK(find_caps(odd, {.smallest_faces = 1}).size() < 5);
     CHECK_THROWS_WITH(find_caps(odd, {.smallest_faces = 0}), Catch::Contains("smallest_faces"));
     CHECK_THROWS_WITH(find_caps(odd, {.flat_angle_deg = -1.0}), Catch::Contains("flat_angle_deg"));
+}
+
+SCENARIO("Caps and orientation changes from shared normals are the same bits",
+         "[smoothing][caps]") {
+    const Surface raw = tube_with_plate();
+    for (const int iterations : {0, 5}) {
+        CAPTURE(iterations);
+        Surface surface = raw.with_positions(
+            laplace(*raw.topology, raw.points(), {}, {.iterations = iterations}));
+        Positions folded = surface.points();
+        folded[7] = folded[8] = folded[9];  // degenerate triangles
+        for (const Surface& s : {surface, surface.with_positions(folded)}) {
+            const AreaNormals faces(s, AreaNormals::When::Ahead);
+            CHECK(same(find_caps(faces), find_caps(s)));
+            const StackAxes axes(Eigen::Matrix3d::Identity());
+            CHECK(orientation_change(faces, axes) ==
+                  orientation_change(*s.topology, s.points(), axes));
+        }
+    }
 }
