@@ -85,8 +85,7 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
     CHECK(difference(after, draw(smooth, options)) < 0.005);
     CHECK(difference(before, after) > 0.02);
     THEN("colours show a value at each vertex") {
-        const auto errors =
-            read_storage<float>(device->device(), meter.errors(), rough.vertex_count());
+        const auto errors = read_vertices<float>(*device, meter.errors());
         const double most = meter.read().front().largest_error;
         PictureOptions coloured = options;
         for (const float error : errors)
