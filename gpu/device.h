@@ -36,6 +36,9 @@ struct Device {
     const std::map<std::string, std::string>* shaders = nullptr;
     /// True when the driver has lost the context, or none is current on this thread.
     std::function<bool()> lost;
+    /// Surfaces whose vertices do not follow the mesh are reordered (DeviceOrder). False: to
+    /// compare.
+    bool reorders = true;
     /// Asked before each command, by tests: true if it is to fail. Null: none fails by intent.
     std::function<bool(DeviceCommand)> fails;
     std::shared_ptr<DeviceHealth> health = std::make_shared<DeviceHealth>();

@@ -8,6 +8,7 @@
 
 #include <epoxy/gl.h>
 
+#include "geometry/kernel/parallel.h"
 #include "smoothing/context/flat_areas.h"
 
 namespace vesselbench {
@@ -60,9 +61,19 @@ void find_parts(const DeviceSurface& surface, const PartBuffers& buffers) {
     const Device& device = surface.device();
     const std::size_t count = surface.vertex_count();
     const DeviceRows& rings = surface.rings(1);
-    bind_storage({nullptr, &buffers.normals, &buffers.labels, &rings.offsets, &rings.values,
-                  &buffers.low_parts, &buffers.high_parts});
-    dispatch(device, surface.program("join_parts"), count);
+    const DeviceOrder& order = surface.order();
+    Buffer numbers;
+    if (!order.is_own()) {
+        std::vector<VertexId> vertices(count);
+        for_each_vertex(count, [&](std::size_t i) { vertices[i] = order.vertex_at(i); });
+        numbers = make_storage(device, std::span<const VertexId>(vertices), "vertices' numbers");
+    }
+    bind_storage({order.is_own() ? nullptr : &numbers, &buffers.normals, &buffers.labels,
+                  &rings.offsets, &rings.values, &buffers.low_parts, &buffers.high_parts});
+    const Program& join = surface.program("join_parts");
+    glUseProgram(join.id());
+    glUniform1i(1, order.is_own() ? 0 : 1);
+    dispatch(device, join, count);
     dispatch(device, surface.program("part_sums"), count);
     const Program& program = surface.program("part_insides");
     glUseProgram(program.id());
@@ -91,6 +102,11 @@ std::vector<LabelledVertex> read_planes(const DeviceSurface& surface, int smalle
     const Buffer list = make_storage(device, found * sizeof(LabelledVertex), "vertices in planes");
     run(list, true);
     auto vertices = read_storage<LabelledVertex>(device, list, found);
+    const DeviceOrder& order = surface.order();
+    for (auto& [vertex, part] : vertices) {
+        vertex = order.vertex_at(vertex);
+        part = order.vertex_at(part);
+    }
     std::ranges::sort(vertices, [](const LabelledVertex& a, const LabelledVertex& b) {
         return std::array{a.part, a.vertex} < std::array{b.part, b.vertex};
     });

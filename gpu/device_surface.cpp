@@ -12,11 +12,7 @@
 
 namespace vesselbench {
 
-namespace {
-
 using Eigen::Vector4f;
-
-}  // namespace
 
 DevicePoint device_point(const Vec3& point, const Vec3& centre) {
     const Vec3 place = point - centre;
@@ -31,18 +27,21 @@ DeviceSurface::DeviceSurface(Device device, Surface surface)
     topology_ = device_.store->topology(device_, surface_.topology);
     centre_ = bounds(surface_).centre();
     std::vector<Vector4f> anchors(vertex_count()), shifts(vertex_count());
-    for (std::size_t v = 0; v < anchors.size(); ++v) {
-        const DevicePoint point = device_point(surface_.points()[v], centre_);
-        anchors[v] << point.anchor, 1.0F;
-        shifts[v] << point.shift, 1.0F;
-    }
+    for_each_vertex(anchors.size(), [&](std::size_t place) {
+        const DevicePoint point =
+            device_point(surface_.points()[order().vertex_at(place)], centre_);
+        anchors[place] << point.anchor, 1.0F;
+        shifts[place] << point.shift, 1.0F;
+    });
     anchors_ = make_storage(device_, std::span<const Vector4f>(anchors), "anchors");
     shifts_ = make_storage(device_, std::span<const Vector4f>(shifts), "shifts");
 }
 
 const DeviceTable& DeviceSurface::exact() const {
     if (!exact_) {
-        const Positions& points = surface_.points();
+        const Positions moved =
+            order().is_own() ? Positions() : order().by_place(surface_.points());
+        const Positions& points = order().is_own() ? surface_.points() : moved;
         const std::span numbers(points.front().data(), 3 * points.size());
         exact_ = make_table(device_, numbers, wide(), "positions in double precision");
     }
@@ -62,7 +61,7 @@ const Buffer& DeviceSurface::anchor_umbrellas(int rings) const {
         Vec3 sum = Vec3::Zero();
         for (const VertexId u : rows.row(v)) sum += anchors[u] - anchors[v];
         if (!rows.row(v).empty()) sum /= static_cast<double>(rows.row(v).size());
-        umbrellas[v] << sum.cast<float>(), 0.0F;
+        umbrellas[order().place_of(v)] << sum.cast<float>(), 0.0F;
     });
     buffer = make_storage(device_, std::span<const Vector4f>(umbrellas), "umbrellas");
     topology_->forget_neighbours();

@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "geometry/kernel/surface.h"
 #include "gpu/compute.h"
@@ -11,7 +13,8 @@
 namespace vesselbench {
 
 /// A surface on the device: uploaded once, for all filters and measures there. Data that
-/// only some of them need is uploaded on first use. The context that was current at
+/// only some of them need is uploaded on first use. What the device has of vertices is in the
+/// order of their places (order()). The context that was current at
 /// construction must be current whenever the object is used or destroyed. Not
 /// thread-safe.
 class DeviceSurface {
@@ -25,6 +28,8 @@ public:
     [[nodiscard]] const Surface& surface() const { return surface_; }
 
     [[nodiscard]] std::size_t vertex_count() const { return surface_.vertex_count(); }
+
+    [[nodiscard]] const DeviceOrder& order() const { return topology_->order(); }
 
     /// Origin of positions on the device: the centre of the bounding box [mm].
     [[nodiscard]] const Vec3& centre() const { return centre_; }
@@ -41,7 +46,7 @@ public:
     /// #V.
     [[nodiscard]] const DeviceTable& exact() const;
 
-    /// Corners of the triangles: 3 uint, #T.
+    /// Corners of the triangles, which keep their numbers: 3 uint, #T.
     [[nodiscard]] const DeviceTable& triangles() const { return topology_->triangles(device_); }
 
     /// Triangles at every vertex: uint.
@@ -83,6 +88,23 @@ private:
     mutable std::optional<Buffer> anchor_umbrellas_[2];
     mutable std::optional<DeviceTable> exact_;
 };
+
+/// Reads values at the vertices, from the order they have on the device into their own.
+/// \throw GpuUnavailable as read_storage
+template <class T>
+[[nodiscard]] std::vector<T> read_vertices(const DeviceSurface& surface, const Buffer& buffer) {
+    return surface.order().by_vertex(
+        read_storage<T>(surface.device(), buffer, surface.vertex_count()));
+}
+
+/// A buffer of values at the vertices, given in their own order. \throw GpuUnavailable as
+/// make_storage
+template <class T>
+[[nodiscard]] Buffer make_vertices(const DeviceSurface& surface, std::vector<T> values,
+                                   const std::string& label) {
+    const std::vector<T> by_place = surface.order().by_place(std::move(values));
+    return make_storage(surface.device(), std::span<const T>(by_place), label);
+}
 
 /// A point relative to a centre, as two single-precision numbers per coordinate.
 struct DevicePoint {

@@ -52,16 +52,25 @@ void leave(const DeviceTable& table) {
 
 DeviceTopology::DeviceTopology(const Device& device, std::shared_ptr<const Topology> topology)
     : topology_(std::move(topology)),
+      order_(device.reorders ? DeviceOrder(*topology_) : DeviceOrder()),
+      reorders_(device.reorders),
       largest_block_(device.limits.largest_storage_block),
       wide_(largest_table(*topology_) > largest_block_) {}
 
 bool DeviceTopology::is_of(const Device& device,
                            const std::shared_ptr<const Topology>& topology) const {
-    return topology_ == topology && largest_block_ == device.limits.largest_storage_block;
+    return topology_ == topology && reorders_ == device.reorders &&
+           largest_block_ == device.limits.largest_storage_block;
 }
 
-DeviceRows DeviceTopology::upload(const Device& device, const CompressedRows& rows,
-                                  const std::string& label) const {
+DeviceRows DeviceTopology::upload(const Device& device, const CompressedRows& by_vertex,
+                                  Values values, const std::string& label) const {
+    std::optional<CompressedRows> moved;
+    if (!order_.is_own()) {
+        moved = order_.rows_by_place(by_vertex);
+        if (values == Values::Vertices) moved->values = order_.as_places(std::move(moved->values));
+    }
+    const CompressedRows& rows = moved ? *moved : by_vertex;
     const bool wide = wide_ || rows.values.size() * sizeof(VertexId) > largest_block_;
     return {make_storage(device, std::span<const std::uint32_t>(rows.offsets), label + " offsets"),
             make_table(device, std::span<const std::uint32_t>(rows.values), wide, label)};
@@ -71,14 +80,20 @@ const DeviceTable& DeviceTopology::triangles(const Device& device) const {
     if (!triangles_) {
         const auto& triangles = topology_->triangles();
         const std::span words(triangles.front().data(), 3 * triangles.size());
-        triangles_ = make_table(device, words, wide_, "triangles");
+        if (order_.is_own()) {
+            triangles_ = make_table(device, words, wide_, "triangles");
+        } else {
+            const auto places = order_.as_places({words.begin(), words.end()});
+            triangles_ = make_table(device, std::span<const VertexId>(places), wide_, "triangles");
+        }
     }
     return *triangles_;
 }
 
 const DeviceRows& DeviceTopology::triangles_at(const Device& device) const {
     if (!triangles_at_)
-        triangles_at_ = upload(device, topology_->triangles_at(), "triangles at vertices");
+        triangles_at_ =
+            upload(device, topology_->triangles_at(), Values::Triangles, "triangles at vertices");
     return *triangles_at_;
 }
 
@@ -95,27 +110,30 @@ void DeviceTopology::forget_neighbours() const {
 const DeviceRows& DeviceTopology::rings(const Device& device, int count) const {
     auto& rows = rings_[count == 1 ? 0 : 1];
     if (!rows)
-        rows = upload(device, neighbours(count),
+        rows = upload(device, neighbours(count), Values::Vertices,
                       count == 1 ? "neighbours" : "neighbours within two rings");
     return *rows;
 }
 
 const DeviceRows& DeviceTopology::corners(const Device& device) const {
     if (corners_) return *corners_;
-    const CompressedRows& rows = topology_->triangles_at();
+    std::optional<CompressedRows> moved;
+    if (!order_.is_own()) moved = order_.rows_by_place(topology_->triangles_at());
+    const CompressedRows& rows = moved ? *moved : topology_->triangles_at();
     std::vector<Corner> others(rows.values.size());
-    for_each_vertex(topology_->vertex_count(), [&](std::size_t v) {
-        for (std::uint32_t i = rows.offsets[v]; i < rows.offsets[v + 1]; ++i) {
+    for_each_vertex(topology_->vertex_count(), [&](std::size_t place) {
+        const std::uint32_t begin = rows.offsets[place], end = rows.offsets[place + 1];
+        for (std::uint32_t i = begin; i < end; ++i) {
             const Triangle& t = topology_->triangles()[rows.values[i]];
-            const std::size_t at = corner_of(t, static_cast<VertexId>(v));
-            others[i] = {t[(at + 1) % 3], t[(at + 2) % 3]};
+            const std::size_t at = corner_of(t, order_.vertex_at(place));
+            others[i] = {order_.place_of(t[(at + 1) % 3]), order_.place_of(t[(at + 2) % 3])};
         }
-        connect(std::span(others).subspan(rows.offsets[v], rows.offsets[v + 1] - rows.offsets[v]));
+        connect(std::span(others).subspan(begin, end - begin));
     });
     std::vector<std::uint32_t> offsets = rows.offsets;
     const auto& boundary = topology_->boundary_vertices();
     for (std::size_t v = 0; v < boundary.size(); ++v)
-        if (boundary[v] != 0) offsets[v] |= kBoundary;
+        if (boundary[v] != 0) offsets[order_.place_of(v)] |= kBoundary;
     corners_ =
         DeviceRows{make_storage(device, std::span<const std::uint32_t>(offsets), "corner offsets"),
                    make_table(device, std::span<const Corner>(others), wide_, "corners")};

@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/surface.h"
 #include "gpu/compute.h"
+#include "gpu/device_order.h"
 
 namespace vesselbench {
 
@@ -15,12 +16,14 @@ public:
     /// \param device shares the object that belongs to DeviceStore
     DeviceTopology(const Device& device, std::shared_ptr<const Topology> topology);
 
-    /// True if it is this topology's, for devices with these limits.
+    /// True if it is this topology's, for devices with these limits and this order.
     [[nodiscard]] bool is_of(const Device& device,
                              const std::shared_ptr<const Topology>& topology) const;
 
     /// True if tables of the surface exceed the largest storage block; then all have views.
     [[nodiscard]] bool wide() const { return wide_; }
+
+    [[nodiscard]] const DeviceOrder& order() const { return order_; }
 
     /// As DeviceSurface. \throw GpuUnavailable if they do not fit
     [[nodiscard]] const DeviceTable& triangles(const Device& device) const;
@@ -28,7 +31,7 @@ public:
     [[nodiscard]] const DeviceRows& rings(const Device& device, int count) const;
     [[nodiscard]] const DeviceRows& corners(const Device& device) const;
 
-    /// Neighbours within 1 or 2 rings, on the CPU.
+    /// Neighbours of every vertex within 1 or 2 rings, on the CPU.
     [[nodiscard]] const CompressedRows& neighbours(int rings) const;
 
     /// Frees those within 2 rings on the CPU, if the device has them.
@@ -38,10 +41,14 @@ public:
     void leave() const;
 
 private:
-    [[nodiscard]] DeviceRows upload(const Device& device, const CompressedRows& rows,
-                                    const std::string& label) const;
+    enum class Values { Vertices, Triangles };
+
+    [[nodiscard]] DeviceRows upload(const Device& device, const CompressedRows& by_vertex,
+                                    Values values, const std::string& label) const;
 
     std::shared_ptr<const Topology> topology_;
+    DeviceOrder order_;
+    bool reorders_;
     std::size_t largest_block_;
     bool wide_;
     mutable std::optional<DeviceTable> triangles_;

@@ -35,8 +35,7 @@ private:
 
     /// An operation multiplies weights by painted ones and reports their means.
     [[nodiscard]] std::vector<double> read(const GpuWeights& weights) const {
-        const auto found =
-            read_storage<float>(surface_->device(), weights.weights(), surface_->vertex_count());
+        const auto found = read_vertices<float>(*surface_, weights.weights());
         return {found.begin(), found.end()};
     }
 

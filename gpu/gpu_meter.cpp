@@ -32,12 +32,14 @@ GpuMeter::GpuMeter(std::shared_ptr<const DeviceSurface> surface, std::size_t sta
     const Device& device = surface_->device();
     const std::size_t count = surface_->vertex_count();
     const Topology& topology = *surface_->surface().topology;
-    const CompressedRows rims = rim_rows(topology);
+    const DeviceOrder& order = surface_->order();
+    CompressedRows rims = rim_rows(topology);
+    rims.values = order.as_places(std::move(rims.values));
     rim_count_ = rims.offsets.size() - 1;
     rims_ = {make_storage(device, std::span<const std::uint32_t>(rims.offsets), "rim offsets"),
              {make_storage(device, std::span<const std::uint32_t>(rims.values), "rims")}};
     own_references_ =
-        make_storage(device, std::span<const VertexId>(own_references(topology)), "own references");
+        make_vertices(*surface_, order.as_places(own_references(topology)), "own references");
     references_ = make_storage(device, count * sizeof(VertexId), "references");
     normals_ = make_storage(device, count * sizeof(Vector4f), "normals");
     errors_ = make_storage(device, count * sizeof(float), "local errors");

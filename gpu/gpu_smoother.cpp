@@ -37,9 +37,10 @@ std::vector<Vector4f> weighted_start(const DeviceSurface& surface, const FilterS
     const Positions& points = surface.surface().points();
     const auto fixed = checked_fixed_vertices(*surface.surface().topology, points, settings);
     std::vector<Vector4f> start(points.size());
-    for_each_vertex(start.size(), [&](std::size_t v) {
+    for_each_vertex(start.size(), [&](std::size_t place) {
+        const VertexId v = surface.order().vertex_at(place);
         const double weight = settings.weights.empty() ? 1.0 : settings.weights[v];
-        start[v] << device_point(points[v], surface.centre()).shift,
+        start[place] << device_point(points[v], surface.centre()).shift,
             fixed[v] != 0 ? kFixed : static_cast<float>(weight);
     });
     return start;
@@ -174,8 +175,7 @@ Buffer GpuSmoother::upload_weights(const DeviceSurface& surface, std::span<const
         throw InvalidInput("got " + std::to_string(weights.size()) + " weights for " +
                            std::to_string(surface.vertex_count()) + " vertices");
     for (const double weight : weights) require_range("weight", weight, 0.0, 1.0);
-    const std::vector<float> single(weights.begin(), weights.end());
-    return make_storage(surface.device(), std::span<const float>(single), "weights");
+    return make_vertices(surface, std::vector<float>(weights.begin(), weights.end()), "weights");
 }
 
 void GpuSmoother::set_weights(std::span<const double> weights) {
@@ -239,11 +239,12 @@ void GpuSmoother::run(int iterations, const Progress& progress) {
 Positions GpuSmoother::positions() const {
     const std::size_t count = surface_->vertex_count();
     const auto moved = read_storage<Vector4f>(surface_->device(), shifts(), count);
+    const DeviceOrder& order = surface_->order();
     const Positions& start = surface_->surface().points();
     Positions result(count);
     for_each_vertex(count, [&](std::size_t v) {
         const DevicePoint from = device_point(start[v], surface_->centre());
-        const Eigen::Vector3f shift = moved[v].head<3>();
+        const Eigen::Vector3f shift = moved[order.place_of(v)].head<3>();
         result[v] =
             shift == from.shift
                 ? start[v]

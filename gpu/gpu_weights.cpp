@@ -58,15 +58,14 @@ void GpuWeights::find_orientation_change(const StackAxes& stack_axes) {
 }
 
 std::vector<double> GpuWeights::orientation_change() const {
-    return read_storage<double>(surface_->device(), changes_, surface_->vertex_count());
+    return read_vertices<double>(*surface_, changes_);
 }
 
 void GpuWeights::find_staircase_distances(const StaircaseParameters& parameters) {
     std::vector<float> free(surface_->vertex_count(), 1.0F);
     for (std::size_t v = 0; v < parameters.caps.size(); ++v)
         if (parameters.caps[v] != 0) free[v] = 0.0F;
-    Buffer free_of_caps =
-        make_storage(surface_->device(), std::span<const float>(free), "free of caps");
+    Buffer free_of_caps = make_vertices(*surface_, std::move(free), "free of caps");
     staircases_ = search_staircases(*surface_, changes_, free_of_caps, parameters.tau_theta,
                                     parameters.tau_max);
     free_of_caps_ = std::move(free_of_caps);  // after a failed search, nothing has changed

@@ -50,7 +50,7 @@ public:
         sources_ = found().sources;
     }
 
-    /// \return vertices still open
+    /// \return vertices still open, not by their places
     std::vector<OpenVertex> find_nearest() {
         fill_storage(device_, doubts_, kNone);
         if (sources_ == 0) return {};
@@ -81,6 +81,7 @@ public:
     /// The staircase vertices, ascending.
     [[nodiscard]] std::vector<VertexId> sources() const {
         auto sources = read_storage<VertexId>(device_, sources_by_cell_, sources_);
+        for (VertexId& source : sources) source = surface_.order().vertex_at(source);
         std::ranges::sort(sources);
         return sources;
     }
@@ -146,6 +147,11 @@ private:
         bind_storage({nullptr, &doubts_, &nearest_, nullptr, nullptr, &list, nullptr, &found_});
         dispatch(device_, surface_.program("open_vertices"), count_);
         auto vertices = read_storage<OpenVertex>(device_, list, open);
+        const DeviceOrder& order = surface_.order();
+        for (auto& [vertex, known] : vertices) {
+            vertex = order.vertex_at(vertex);
+            if (known != kNone) known = order.vertex_at(known);
+        }
         std::ranges::sort(vertices, {}, &OpenVertex::vertex);
         return vertices;
     }
@@ -169,7 +175,7 @@ void settle(const DeviceSurface& surface, const std::vector<VertexId>& sources, 
     std::vector<float> values;
     for (std::size_t i = 0; i < open.size(); ++i) {
         if (!std::isfinite(distances[i])) continue;
-        places.push_back(open[i].vertex);
+        places.push_back(surface.order().place_of(open[i].vertex));
         values.push_back(static_cast<float>(distances[i]));
         result.farthest = std::max(result.farthest, distances[i]);
     }

@@ -49,7 +49,7 @@ void DrawnDeviceSurface::bind_triangles() const {
 
 std::size_t DrawnDeviceSurface::bind_edges() const {
     bind_vertices();
-    return edges_.bind(*surface_->surface().topology);
+    return edges_.bind(*surface_->surface().topology, surface_->order());
 }
 
 }  // namespace vesselbench

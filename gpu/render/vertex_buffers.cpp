@@ -23,9 +23,13 @@ void float_attribute(unsigned place, const Buffer& buffer, int numbers, std::siz
                           reinterpret_cast<const void*>(offset));
 }
 
-std::size_t DrawnEdges::bind(const Topology& topology) {
+std::size_t DrawnEdges::bind(const Topology& topology, const DeviceOrder& order) {
     if (!buffer_) {
-        const auto edges = unique_edges(topology);
+        auto edges = unique_edges(topology);
+        for (auto& [a, b] : edges) {
+            a = order.place_of(a);
+            b = order.place_of(b);
+        }
         buffer_ = make_buffer(bytes_of(edges), "drawn edges");
         count_ = edges.size();
     }

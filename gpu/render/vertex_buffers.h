@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/kernel/surface.h"
+#include "gpu/device_order.h"
 #include "gpu/objects.h"
 
 namespace vesselbench {
@@ -34,7 +35,7 @@ void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::siz
 class DrawnEdges {
 public:
     /// Binds them to the vertex array that is bound. \return their number
-    std::size_t bind(const Topology& topology);
+    std::size_t bind(const Topology& topology, const DeviceOrder& order = {});
 
 private:
     std::optional<Buffer> buffer_;

@@ -2,48 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "smoothing/filters/mesh_order.h"
+
 namespace vesselbench {
 
 namespace {
-
-/// Any sensible vertex numbering by slices or fronts has a band at most this wide.
-std::size_t usual_bandwidth(std::size_t count) {
-    return 4 * NeighbourBlocks::kBlock +
-           8 * static_cast<std::size_t>(std::sqrt(static_cast<double>(count)));
-}
-
-/// Breadth-first search; appends the component of `start` to `order`.
-void append_component(const CompressedRows& rows, VertexId start, std::vector<std::uint8_t>& seen,
-                      std::vector<VertexId>& order) {
-    std::size_t next = order.size();
-    seen[start] = 1;
-    order.push_back(start);
-    for (; next < order.size(); ++next)
-        for (const VertexId u : rows.row(order[next]))
-            if (!seen[u]) {
-                seen[u] = 1;
-                order.push_back(u);
-            }
-}
-
-/// Starts every component at one of its ends: the vertex that a first search reaches last.
-std::vector<VertexId> order_along_mesh(const CompressedRows& rows, std::size_t count) {
-    std::vector<VertexId> order, trial;
-    order.reserve(count);
-    std::vector<std::uint8_t> seen(count, 0), tried(count, 0);
-    for (VertexId v = 0; v < count; ++v) {
-        if (seen[v]) continue;
-        trial.clear();
-        append_component(rows, v, tried, trial);
-        append_component(rows, trial.back(), seen, order);
-    }
-    return order;
-}
 
 constexpr std::uint32_t kMany = 31;  // neighbours: rows with as many or more are sorted at the end
 
@@ -84,12 +51,6 @@ void copy_row(std::span<const VertexId> row, const VertexId* rows_end, std::uint
         for (const VertexId u : row) *out++ = 4 * u;
 }
 
-std::vector<std::uint32_t> inverse(const std::vector<VertexId>& order) {
-    std::vector<std::uint32_t> places(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
-    return places;
-}
-
 }  // namespace
 
 NeighbourBlocks::NeighbourBlocks(const CompressedRows& rows)
@@ -97,9 +58,9 @@ NeighbourBlocks::NeighbourBlocks(const CompressedRows& rows)
       members_((vertex_count_ + kBlock - 1) / kBlock * kBlock),
       neighbours_(rows.values.size()) {
     std::size_t band = fill(rows, {});
-    if (band > usual_bandwidth(vertex_count_)) {
-        order_ = order_along_mesh(rows, vertex_count_);
-        band = fill(rows, inverse(order_));
+    if (!follows_mesh(band, vertex_count_)) {
+        order_ = order_along_mesh(rows);
+        band = fill(rows, places_in(order_));
     }
     reach_ = (band + kBlock - 1) / kBlock;
 }

@@ -20,10 +20,7 @@ struct BlockGroup {
 /// The neighbours of every vertex, laid out for filters that sum them repeatedly: blocks of
 /// consecutive places; within a block the vertices are grouped by valence, so that the inner loop
 /// has a fixed length and no branch to mispredict. A place is a vertex's rank in an order that
-/// follows the mesh, so that neighbours are close to each other in memory: the surface's own order
-/// if it already does that (iso-surfaces do), else breadth-first.
-/// Source of the order: Cuthill, McKee, "Reducing the bandwidth of sparse symmetric matrices",
-/// 1969.
+/// follows the mesh (mesh_order.h), so that neighbours are close to each other in memory.
 class NeighbourBlocks {
 public:
     static constexpr std::size_t kBlock = 512;  ///< places in a block

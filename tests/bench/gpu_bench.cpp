@@ -16,6 +16,7 @@
 #include "gpu/device_caps.h"
 #include "gpu/device_choice.h"
 #include "gpu/device_neighbours.h"
+#include "gpu/device_order.h"
 #include "gpu/filter_on_device.h"
 #include "gpu/gpu_engine.h"
 #include "gpu/gpu_meter.h"
@@ -26,6 +27,7 @@
 #include "smoothing/context/staircases.h"
 #include "smoothing/quality/quality_table.h"
 #include "tests/bench/organ.h"
+#include "tests/support/shuffled.h"
 
 namespace vesselbench::bench {
 
@@ -63,6 +65,17 @@ Times times_of(const std::function<void()>& work) {
         clocks.push_back(by_clock);
     }
     return {median(times), median(clocks)};
+}
+
+/// Wall-clock time [ms], the best of three: for work that reads numbers back on the way.
+double clock_milliseconds(const std::function<void()>& work) {
+    std::vector<double> times;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        const Stopwatch watch;
+        work();
+        times.push_back(1e3 * watch.seconds());
+    }
+    return std::ranges::min(times);
 }
 
 /// What some work asks of the device, which no machine changes.
@@ -136,6 +149,39 @@ void time_smoothing(const HeldDevice& held, const Surface& surface, double bandw
     std::fflush(stdout);
 }
 
+/// The same surface with its vertices numbered at random.
+Surface numbered_at_random(const Surface& surface) {
+    std::vector<VertexId> numbers;
+    return test::shuffled(surface, numbers);
+}
+
+/// What an order along the mesh brings on a surface whose numbering does not follow it.
+void time_order(const HeldDevice& held, const Surface& surface) {
+    const Surface mixed = numbered_at_random(surface);
+    const auto time = [&](const Surface& shape, bool reorders) {
+        Device device = held.device;
+        device.reorders = reorders;
+        const auto there = std::make_shared<const DeviceSurface>(device, shape);
+        GpuSmoother smoother(there, {});
+        GpuMeter meter(there);
+        return times_of([&] {
+            smoother.start(LaplaceHcParameters{});
+            meter.restart();
+            smoother.run(kIterations);
+            meter.measure(smoother.shifts());
+        });
+    };
+    const double usual = time(surface, true).clock, as_given = time(mixed, false).clock,
+                 reordered = time(mixed, true).clock;
+    const double ordering =
+        clock_milliseconds([&] { static_cast<void>(DeviceOrder(*mixed.topology)); });
+    std::printf(
+        "          numbered at random: %.3f ms by the clock, in an order along the mesh %.3f "
+        "(%.2f times), in the surface's usual one %.3f; the CPU finds the order in %.1f ms\n",
+        as_given, reordered, as_given / reordered, usual, ordering);
+    std::fflush(stdout);
+}
+
 std::vector<ParameterSet> all_sets() {
     std::vector<ParameterSet> sets;
     for (int lambda = 0; lambda <= 10; ++lambda)
@@ -183,17 +229,6 @@ void count_filtering(const HeldDevice& held, const Surface& surface) {
     print_counts(held.device, "again", filter);
     print_counts(held.device, "from another start",
                  [&] { static_cast<void>(filter_on_device(there, start, LaplaceHcParameters{})); });
-}
-
-/// Wall-clock time [ms], the best of three: for work that reads numbers back on the way.
-double clock_milliseconds(const std::function<void()>& work) {
-    std::vector<double> times;
-    for (int repeat = 0; repeat < 3; ++repeat) {
-        const Stopwatch watch;
-        work();
-        times.push_back(1e3 * watch.seconds());
-    }
-    return std::ranges::min(times);
 }
 
 void print_beside(const Surface& surface, const char* what, double on_device, double on_cpu) {
@@ -262,6 +297,7 @@ void time_all(bool any_device, const std::vector<double>& sizes) {
     for (const double size : sizes) {
         const Surface surface = organ(size);
         time_smoothing(held, surface, bandwidth);
+        time_order(held, surface);
         time_search(held, surface);
         count_filtering(held, surface);
         time_detections(held, organ(size, kVoxelsOfASlice));

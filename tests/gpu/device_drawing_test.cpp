@@ -1,10 +1,17 @@
+#include <atomic>
+#include <condition_variable>
 #include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <thread>
 #include <utility>
 
 #include <catch2/catch.hpp>
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/context.h"
+#include "gpu/fence.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
 #include "gpu/picture_view.h"
@@ -14,6 +21,7 @@
 #include "gpu/render/vertex_buffers.h"
 #include "tests/gpu/device_support.h"
 #include "tests/support/shapes.h"
+#include "tests/support/shuffled.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -85,8 +93,7 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
     CHECK(difference(after, draw(smooth, options)) < 0.005);
     CHECK(difference(before, after) > 0.02);
     THEN("colours show a value at each vertex") {
-        const auto errors =
-            read_storage<float>(device->device(), meter.errors(), rough.vertex_count());
+        const auto errors = read_vertices<float>(*device, meter.errors());
         const double most = meter.read().front().largest_error;
         PictureOptions coloured = options;
         for (const float error : errors)
@@ -108,6 +115,112 @@ SCENARIO("A smoothed surface is drawn from the device's buffers", "[gpu][drawing
         CHECK(difference(found, draw(inverted, options)) < 0.005);
         CHECK(difference(found, before) > 0.02);
     }
+}
+
+namespace {
+
+/// A state that another thread has made, complete behind the fence.
+struct MadeState {
+    int iterations = 0;
+    GpuSmoother smoother;
+    std::unique_ptr<GpuMeter> meter;
+    Fence ready;
+};
+
+/// Smooths on a thread of its own, in a context that shares with the current one, and hands on the
+/// states in buffers of their own.
+class SmoothingThread {
+public:
+    explicit SmoothingThread(const Surface& surface, std::vector<int> iterations) {
+        shared_.release();
+        thread_ = std::thread([this, surface, iterations = std::move(iterations)] {
+            shared_.make_current();
+            const DebugOutput reports([](const std::string& text) { FAIL_CHECK(text); });
+            make(surface, iterations);
+            shared_.release();
+            changed_.notify_all();
+        });
+    }
+
+    ~SmoothingThread() { thread_.join(); }
+
+    SmoothingThread(const SmoothingThread&) = delete;
+    SmoothingThread& operator=(const SmoothingThread&) = delete;
+
+    /// The next state; null: there are no more.
+    const MadeState* next() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return ended_ || taken_ < states_.size(); });
+        return taken_ < states_.size() ? states_[taken_++].get() : nullptr;
+    }
+
+    [[nodiscard]] const std::shared_ptr<const DeviceSurface>& surface() const { return surface_; }
+
+    std::atomic<bool> lost = false;
+
+private:
+    void make(const Surface& surface, const std::vector<int>& iterations) {
+        try {
+            Device device = current_device();
+            device.lost = [this] { return lost.load(); };
+            surface_ = std::make_shared<const DeviceSurface>(device, surface);
+            static_cast<void>(surface_->triangles());  // only this thread uploads
+            GpuSmoother smoother(surface_, {});
+            smoother.start(LaplaceParameters{});
+            for (const int count : iterations) add(smoother, count);
+        } catch (const GpuUnavailable&) {
+        }
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
+
+    void add(GpuSmoother& smoother, int count) {
+        smoother.run(count - smoother.iterations_done());
+        GpuSmoother state = smoother.copy();
+        auto meter = std::make_unique<GpuMeter>(surface_);
+        meter->measure(state.shifts());
+        auto made = std::make_unique<MadeState>(
+            MadeState{count, std::move(state), std::move(meter), Fence()});
+        const std::lock_guard lock(mutex_);
+        states_.push_back(std::move(made));
+        changed_.notify_all();
+    }
+
+    OffscreenContext shared_{Sharing::WithCurrent, true};
+    std::shared_ptr<const DeviceSurface> surface_;
+    std::mutex mutex_;  ///< of what follows
+    std::condition_variable changed_;
+    std::vector<std::unique_ptr<MadeState>> states_;
+    std::size_t taken_ = 0;
+    bool ended_ = false;
+    std::thread thread_;
+};
+
+}  // namespace
+
+SCENARIO("What another thread smooths is drawn from its buffers", "[gpu][drawing]") {
+    const auto test = test_device();
+    if (!test) return;
+    std::vector<VertexId> numbers;
+    const Surface rough = shuffled(varied_surfaces().front().surface, numbers);
+    PictureOptions options = small();
+    options.frame = std::make_shared<const Surface>(rough);
+    SmoothingThread thread(rough, {1, 5, 20, 25});
+    std::optional<StateDrawing> drawing;
+    int drawn = 0;
+    while (const MadeState* state = thread.next()) {
+        if (!drawing) drawing.emplace(thread.surface());
+        state->ready.order();
+        const Picture found =
+            drawing->picture({&state->smoother.shifts(), &state->meter->normals()}, options);
+        const Surface smooth =
+            rough.with_positions(apply_filter(*rough.topology, rough.points(), LaplaceParameters{},
+                                              {.iterations = state->iterations}));
+        CHECK(difference(found, draw(smooth, options)) < 0.005);
+        drawn += 1;
+        if (drawn == 2) thread.lost = true;  // what was handed on is still drawn
+    }
+    CHECK(drawn >= 2);
 }
 
 SCENARIO("What the driver refuses to draw is reported", "[gpu][drawing]") {

@@ -24,8 +24,9 @@ namespace {
 double largest_difference(const TestDevice& test, const Surface& surface,
                           const std::vector<Surface>& neighbours) {
     const auto wanted = neighbour_distances(surface.points(), neighbours);
-    const NeighbourDistances found = find_neighbour_distances(*uploaded(test, surface), neighbours);
-    const auto distances = read_storage<float>(test.device, found.distances, wanted.size());
+    const auto device = uploaded(test, surface);
+    const NeighbourDistances found = find_neighbour_distances(*device, neighbours);
+    const auto distances = read_vertices<float>(*device, found.distances);
     double largest = 0.0;
     for (std::size_t v = 0; v < wanted.size(); ++v)
         largest = std::max(largest, std::abs(distances[v] - wanted[v]));
@@ -87,7 +88,7 @@ SCENARIO("Weights from distances that never left the device are the CPU's", "[gp
         weights.restart();
         weights.multiply_distances(found, {.scaling = scaling});
         const auto wanted = distance_weights(distances, {.scaling = scaling});
-        const auto made = read_storage<float>(test->device, weights.weights(), wanted.size());
+        const auto made = read_vertices<float>(*device, weights.weights());
         for (std::size_t v = 0; v < wanted.size(); ++v)
             CHECK(made[v] == Approx(wanted[v]).margin(1e-5));
     }

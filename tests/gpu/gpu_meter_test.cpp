@@ -79,9 +79,8 @@ SCENARIO("Normals, curvature and error at each vertex agree with the CPU's", "[g
         smoother.run(10);
         GpuMeter meter(device);
         meter.measure(smoother.shifts());
-        const auto normals =
-            read_storage<Eigen::Vector4f>(device->device(), meter.normals(), count);
-        const auto errors = read_storage<float>(device->device(), meter.errors(), count);
+        const auto normals = read_vertices<Eigen::Vector4f>(*device, meter.normals());
+        const auto errors = read_vertices<float>(*device, meter.errors());
         const Surface moved = surface.with_positions(smoother.positions());
         const Positions wanted = vertex_normals(moved);
         const auto curvature = mean_curvature(moved).values;
@@ -168,19 +167,23 @@ SCENARIO("References of a run are followed only when asked to", "[gpu][meter]") 
     const auto test = test_device();
     if (!test) return;
     const auto device = uploaded(*test, varied_surfaces().front().surface);
-    const std::size_t count = device->vertex_count();
+    const auto read = [&](const Buffer& references) {
+        auto vertices = read_vertices<VertexId>(*device, references);
+        for (VertexId& v : vertices) v = device->order().vertex_at(v);
+        return vertices;
+    };
     GpuSmoother smoother(device, {});
     GpuMeter meter(device);
     smoother.start(LaplaceParameters{1.0});
     smoother.run(30);
     const PooledBuffer references = meter.make_references();
-    const auto own = read_storage<VertexId>(device->device(), references, count);
+    const auto own = read(references);
     CHECK(own == own_references(*device->surface().topology));
     meter.measure(smoother.shifts(), references, false);
     const double unfollowed = meter.read().front().quality.error;
-    CHECK(read_storage<VertexId>(device->device(), references, count) == own);
+    CHECK(read(references) == own);
     meter.follow(smoother.shifts(), references);
-    const auto followed = read_storage<VertexId>(device->device(), references, count);
+    const auto followed = read(references);
     CHECK(followed != own);
     std::vector<VertexId> wanted = own;
     follow_drift(*device->surface().topology, device->surface().points(), smoother.positions(),

@@ -19,9 +19,9 @@ namespace {
 
 const Vec3 kAxis(0.3, -0.2, 2.0);
 
-double largest_difference(const Device& device, const Buffer& weights,
+double largest_difference(const DeviceSurface& surface, const Buffer& weights,
                           const std::vector<double>& wanted) {
-    const auto found = read_storage<float>(device, weights, wanted.size());
+    const auto found = read_vertices<float>(surface, weights);
     double largest = 0.0;
     for (std::size_t v = 0; v < wanted.size(); ++v)
         largest = std::max(largest, std::abs(found[v] - wanted[v]));
@@ -67,7 +67,8 @@ SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][
     const auto caps = cap_vertices({}, surface.vertex_count());
     std::vector<std::uint8_t> some_caps = caps;
     for (std::size_t v = 0; v < some_caps.size(); v += 11) some_caps[v] = 1;
-    GpuWeights weights(uploaded(*test, surface));
+    const auto device = uploaded(*test, surface);
+    GpuWeights weights(device);
     weights.find_orientation_change(kAxis);
     const auto change = orientation_change(*surface.topology, surface.points(), kAxis);
     for (const auto scaling : {StaircaseScaling::TauMax, StaircaseScaling::Thesis})
@@ -80,7 +81,7 @@ SCENARIO("Staircase weights on the device are the CPU's, caps left out", "[gpu][
                                                      .caps = some_caps};
                 weights.restart();
                 weights.multiply_staircases(parameters);
-                CHECK(largest_difference(test->device, weights.weights(),
+                CHECK(largest_difference(*device, weights.weights(),
                                          staircase_weights(*surface.topology, surface.points(),
                                                            change, parameters)) <= 1e-6);
             }
@@ -116,23 +117,23 @@ SCENARIO("Distance weights on the device are the CPU's", "[gpu][weights]") {
     const auto distances = distances_to_plane(sphere);
     const auto [least, most] = std::ranges::minmax(distances);
     const std::vector<float> single(distances.begin(), distances.end());
-    const NeighbourDistances known{
-        make_storage(test->device, std::span<const float>(single), "distances"), least, most,
-        distances.size()};
-    GpuWeights weights(uploaded(*test, sphere));
+    const auto device = uploaded(*test, sphere);
+    const NeighbourDistances known{make_vertices(*device, single, "distances"), least, most,
+                                   distances.size()};
+    GpuWeights weights(device);
     for (const auto scaling :
          {DistanceScaling::Linear, DistanceScaling::Margin, DistanceScaling::Exponential})
         for (const double omega : {0.06, 3.0}) {
             const DistanceParameters parameters{.scaling = scaling, .margin = 4.0, .omega = omega};
             weights.restart();
             weights.multiply_distances(known, parameters);
-            CHECK(largest_difference(test->device, weights.weights(),
+            CHECK(largest_difference(*device, weights.weights(),
                                      distance_weights(distances, parameters)) <= 1e-5);
         }
     THEN("a margin that nothing exceeds leaves nothing to move") {
         weights.restart();
         weights.multiply_distances(known, {.scaling = DistanceScaling::Margin, .margin = 500.0});
-        CHECK(largest_difference(test->device, weights.weights(),
+        CHECK(largest_difference(*device, weights.weights(),
                                  std::vector<double>(distances.size(), 0.0)) == 0.0);
     }
     CHECK_THROWS_AS(weights.multiply_distances(known, {.omega = 0.0}), InvalidInput);

@@ -41,10 +41,9 @@ OnDevice search(const std::shared_ptr<const DeviceSurface>& surface,
     const Device& device = surface->device();
     const std::vector<float> ones(changes.size(), 1.0F);
     const DeviceDistances found = search_staircases(
-        *surface, make_storage(device, std::span<const double>(changes), "changes"),
+        *surface, make_vertices(*surface, changes, "changes"),
         make_storage(device, std::span<const float>(ones), "ones"), tau_theta, tau_max);
-    return {read_storage<float>(device, found.distances, changes.size()), found.farthest,
-            found.open};
+    return {read_vertices<float>(*surface, found.distances), found.farthest, found.open};
 }
 
 /// Vertices whose distances are not the CPU's, rounded to single precision.

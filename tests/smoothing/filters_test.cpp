@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "smoothing/filters/laplace_hc.h"
 #include "smoothing/filters/taubin.h"
 #include "tests/support/shapes.h"
+#include "tests/support/shuffled.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -213,19 +213,6 @@ Positions laplace_as_printed(const CompressedRows& rows, Positions x, double lam
         x = next;
     }
     return x;
-}
-
-/// The same surface with its vertices numbered at random; `numbers`: old to new.
-Surface shuffled(const Surface& surface, std::vector<VertexId>& numbers) {
-    numbers.resize(surface.vertex_count());
-    std::iota(numbers.begin(), numbers.end(), 0U);
-    std::shuffle(numbers.begin(), numbers.end(), std::mt19937(3));
-    Positions points(numbers.size());
-    for (std::size_t v = 0; v < numbers.size(); ++v) points[numbers[v]] = surface.points()[v];
-    std::vector<Triangle> triangles;
-    for (const auto& [a, b, c] : surface.triangles())
-        triangles.push_back({numbers[a], numbers[b], numbers[c]});
-    return make_surface(std::move(points), std::move(triangles));
 }
 
 }  // namespace

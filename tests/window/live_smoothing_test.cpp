@@ -277,7 +277,8 @@ SCENARIO("The right button does nothing elsewhere", "[window][live]") {
 SCENARIO("Newer questions end older ones, and no old answer follows", "[window][live]") {
     Scene scene;
     scene.surface = fine_tube(4.0, 30.0, 60);
-    LiveModels models({}, live_modelling([]() -> HeldDevice { throw GpuUnavailable("not here"); }));
+    LiveModels models(
+        {}, live_modelling({.source = []() -> HeldDevice { throw GpuUnavailable("not here"); }}));
     const auto ask = [&](std::int64_t iterations, int base) {
         return models.ask({.scene = scene,
                            .base = base,

@@ -51,7 +51,8 @@ DocumentOptions document_options(const AppOptions& options) {
 
 struct App::Impl {
     explicit Impl(const AppOptions& options)
-        : place(document_options(options), Settings(or_else(options.settings, settings_folder))),
+        : place(document_options(options), Settings(or_else(options.settings, settings_folder)),
+                options.live),
           viewport(options.wake),
           thumbnails(options.wake, cache_of(options)),
           files(options.wake),

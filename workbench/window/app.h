@@ -21,6 +21,7 @@ struct AppOptions {
     std::filesystem::path cache;      ///< folder; empty: that of the settings, else the user's
     std::string device;               ///< name of the OpenGL device, for the status line
     double display_scale = 1.0;       ///< of the display: 2 where pixels are half as large
+    LiveDevice live = {};             ///< device of live smoothing
 };
 
 /// The window's content. It draws into the current ImGui and OpenGL contexts, and knows nothing of

@@ -61,7 +61,7 @@ std::vector<double> values_of(ColouringKind kind, const LiveSmoother::State& sta
 /// What the thread keeps between questions: the smoother of the last scene.
 class LiveModelling final : public LiveModels::Work {
 public:
-    explicit LiveModelling(DeviceSource source) : source_(std::move(source)) {}
+    explicit LiveModelling(LiveDevice device) : wanted_(std::move(device)) {}
 
     void answer(const LiveQuestion& question, const LiveModels::Turn& turn) override {
         LiveSmoother& smoother = smoother_of(question);
@@ -83,7 +83,7 @@ public:
 private:
     LiveSmoother& smoother_of(const LiveQuestion& question) {
         if (smoother_ && base_ == question.base) return *smoother_;
-        if (!device_) device_ = choose_device(DeviceChoice::Auto, source_).device;
+        if (!device_) device_ = choose_device(wanted_.choice, wanted_.source).device;
         forget();
         base_ = question.base;
         surface_ = surface_of(question.scene);
@@ -95,7 +95,8 @@ private:
     }
 
     LiveModel coloured(std::uint64_t number, ColouringKind kind, const LiveSmoother::State& state) {
-        LiveModel model{.question = number, .state = state};
+        LiveModel model{.question = number, .state = state, .reason = smoother_->reason()};
+        if (!model.reason.empty()) device_->reset();  // nor is it asked for the next scene
         if (kind == ColouringKind::Deviation && state.change) {
             model.deviation = std::make_shared<const DeviationMap>(
                 deviation_of(state, surface_.points(), *normals_, full_deviation_));
@@ -130,7 +131,7 @@ private:
         return *before_range_;
     }
 
-    DeviceSource source_;
+    LiveDevice wanted_;
     std::optional<std::optional<HeldDevice>> device_;  ///< none: not sought yet
     int base_ = 0;
     Surface surface_;                           ///< before
@@ -151,8 +152,8 @@ bool has_live_colours(ColouringKind kind) {
            kind == ColouringKind::StaircaseWeight || kind == ColouringKind::TriangleQuality;
 }
 
-LiveModels::Maker live_modelling(const DeviceSource& source) {
-    return [source] { return std::make_unique<LiveModelling>(source); };
+LiveModels::Maker live_modelling(const LiveDevice& device) {
+    return [device] { return std::make_unique<LiveModelling>(device); };
 }
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/operations/smooth/live_smoother.h"
@@ -27,6 +28,7 @@ struct LiveModel {
     /// Of other colourings. Their range is that of the surface before, so that values can be seen
     /// to change. Null: none, or not known yet.
     std::shared_ptr<const ColourValues> colours = nullptr;
+    std::string reason = {};  ///< why the CPU has taken over from the device; empty: it has not
 };
 
 /// True if a model that is smoothed live can be coloured so.
@@ -34,8 +36,13 @@ struct LiveModel {
 
 using LiveModels = LatestWorker<LiveQuestion, LiveModel>;
 
-/// Work that computes live models.
-/// \param source of the device, whose context stays with the thread
-[[nodiscard]] LiveModels::Maker live_modelling(const DeviceSource& source = offscreen_device);
+/// The device that live models may be computed on.
+struct LiveDevice {
+    DeviceChoice choice = DeviceChoice::Auto;
+    DeviceSource source = offscreen_device;  ///< its context stays with the thread of the models
+};
+
+/// Work that computes live models. After the device has failed once, the CPU computes all.
+[[nodiscard]] LiveModels::Maker live_modelling(const LiveDevice& device = {});
 
 }  // namespace vesselbench

@@ -26,8 +26,8 @@ std::map<std::string, double> numbers_in(const Arguments& arguments) {
 
 }  // namespace
 
-LiveSmoothing::LiveSmoothing(std::function<void()> wake)
-    : LiveForm(std::move(wake), live_modelling()) {}
+LiveSmoothing::LiveSmoothing(std::function<void()> wake, const LiveDevice& device)
+    : LiveForm(std::move(wake), live_modelling(device)) {}
 
 // --- following the form
 

@@ -28,7 +28,7 @@ struct SmoothingKey {
 class LiveSmoothing : public LiveForm<LiveQuestion, LiveModel, SmoothingKey> {
 public:
     /// \param wake called by another thread when update() has something to do
-    explicit LiveSmoothing(std::function<void()> wake);
+    explicit LiveSmoothing(std::function<void()> wake, const LiveDevice& device = {});
 
     /// What the model follows in a frame.
     struct Followed {

@@ -23,14 +23,14 @@ std::optional<EditId> image_edit(const Snapshot& snapshot) {
 
 }  // namespace
 
-Workplace::Workplace(DocumentOptions options, Settings remembered)
+Workplace::Workplace(DocumentOptions options, Settings remembered, const LiveDevice& live)
     : document(options),
       settings(std::move(remembered)),
       search_(options.wake),
       view_data_(options.wake),
       slices_(options.wake),
       wake_(options.wake),
-      live_(options.wake),
+      live_(options.wake, live),
       quality_(options.wake),
       gallery_(options.wake),
       extraction_(std::move(options.wake)) {}
@@ -68,6 +68,7 @@ bool Workplace::update_live() {
                                            .step = step_,
                                            .colouring = view.colouring};
     const bool live = live_.update(followed);
+    tell_fallback();
     if (view.flies) end_models_gallery();
     const bool gallery = gallery_.update(followed, live_);
     // Three suggestions that are waited for, and whatever runs, come first.
@@ -102,6 +103,14 @@ void Workplace::tell_difference() {
     if (difference.empty()) return;
     document.tell(make_message(MessageKind::Remark,
                                "The result differs from the live preview by " + difference));
+}
+
+/// Slower previews have a reason.
+void Workplace::tell_fallback() {
+    if (told_fallback_ || !live_.model() || live_.model()->reason.empty()) return;
+    told_fallback_ = true;
+    document.tell(make_message(MessageKind::Remark,
+                               "Live smoothing continues on the CPU: " + live_.model()->reason));
 }
 
 bool Workplace::update_places() {

@@ -35,7 +35,8 @@ enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture };
 /// typed, and the lists that panels show.
 class Workplace {
 public:
-    Workplace(DocumentOptions options, Settings settings);
+    /// \param live device of live smoothing
+    Workplace(DocumentOptions options, Settings settings, const LiveDevice& live = {});
 
     /// Collects what has ended; once a frame. \return true if something shown has changed
     bool update();
@@ -322,6 +323,7 @@ private:
     void end_models_gallery();
     void end_applied_form();
     void tell_difference();
+    void tell_fallback();
     [[nodiscard]] bool update_places();
     void arm_required();
     [[nodiscard]] bool preview_is_current() const;
@@ -367,6 +369,7 @@ private:
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called
     std::shared_ptr<const Positions> applied_to_;    ///< of the model at that time
+    bool told_fallback_ = false;                     ///< that the device has failed
     std::optional<PatchMeasures> opening_;           ///< whose role is asked for
 };
 
