@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/kernel/measure.h"
 
@@ -11,7 +12,9 @@ namespace {
 
 constexpr double kParallel = 0.999962;  // cosine of 0.5 degrees
 constexpr double kStraight = 0.996;     // cosine of 5 degrees: ends of a straight vessel
-constexpr double kSmallEnd = 0.1;       // of the largest end's area: smaller ones are no evidence
+// Of the largest end's area: smaller ones are no evidence. The image cuts off a tail of an organ as
+// flat as its body; of the caps found, small ones are mostly sides of voxels.
+constexpr double kSmallCut = 0.01, kSmallCap = 0.1;
 
 template <class Triangles>
 CutEnd end_of(const Surface& surface, const Triangles& triangles) {
@@ -31,6 +34,14 @@ CutEnd end_of(const Surface& surface, const Triangles& triangles) {
 
 bool is_usable(const CutEnd& end) {
     return std::isfinite(end.area) && end.area > 0.0 && end.normal.norm() > 0.5;
+}
+
+/// Removes the ends that are small beside the largest one.
+std::vector<CutEnd> without_small(std::vector<CutEnd> ends, double share) {
+    double largest = 0.0;
+    for (const CutEnd& end : ends) largest = std::max(largest, end.area);
+    std::erase_if(ends, [&](const CutEnd& end) { return end.area < share * largest; });
+    return ends;
 }
 
 /// True if some end is beside the line through another one across its plane.
@@ -53,7 +64,7 @@ std::vector<CutEnd> cut_ends(const Surface& surface) {
     std::vector<CutEnd> ends;
     for (const auto& part : parts)
         if (const CutEnd end = end_of(surface, part); is_usable(end)) ends.push_back(end);
-    return ends;
+    return without_small(std::move(ends), kSmallCut);
 }
 
 std::vector<CutEnd> cut_ends(const Surface& surface, std::span<const Cap> caps) {
@@ -63,12 +74,10 @@ std::vector<CutEnd> cut_ends(const Surface& surface, std::span<const Cap> caps) 
         if (cap.from_patch) continue;
         if (const CutEnd end = end_of(surface, cap.triangles); is_usable(end)) ends.push_back(end);
     }
-    return ends;
+    return without_small(std::move(ends), kSmallCap);
 }
 
 std::optional<EndsAxis> axis_of_ends(std::span<const CutEnd> ends) {
-    double largest = 0.0;
-    for (const CutEnd& end : ends) largest = std::max(largest, end.area);
     std::optional<EndsAxis> best;
     double best_area = 0.0;
     for (const CutEnd& first : ends) {
@@ -76,7 +85,6 @@ std::optional<EndsAxis> axis_of_ends(std::span<const CutEnd> ends) {
         Vec3 sum = Vec3::Zero();
         double area = 0.0, others = 0.0;
         for (const CutEnd& end : ends) {
-            if (end.area < kSmallEnd * largest) continue;
             const double cosine = end.normal.dot(first.normal);
             if (std::abs(cosine) < kParallel) {
                 others += end.area;

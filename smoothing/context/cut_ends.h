@@ -16,11 +16,12 @@ struct CutEnd {
     double area = 0.0;           ///< [mm^2]
 };
 
-/// The patches of kind Cut. Inlets and outlets were clipped by a user, across the vessel.
+/// The patches of kind Cut, but those below a hundredth of the largest one's area. Inlets and
+/// outlets were clipped by a user, across the vessel.
 [[nodiscard]] std::vector<CutEnd> cut_ends(const Surface& surface);
 
-/// The same, or without such patches the caps that were found: some of these are flat sides of a
-/// mask.
+/// The same, or without such patches the caps that were found, down to a tenth of the largest one's
+/// area: some of these are flat sides of a mask.
 [[nodiscard]] std::vector<CutEnd> cut_ends(const Surface& surface, std::span<const Cap> caps);
 
 /// The direction across parallel ends.

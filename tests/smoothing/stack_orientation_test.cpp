@@ -13,10 +13,12 @@
 #include "geometry/formats/image_file.h"
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "smoothing/context/cut_ends.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stack_phantoms.h"
+#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -273,6 +275,33 @@ SCENARIO("Parallel ends that the image cut off are evidence", "[smoothing][stack
     CHECK(confidence({low, high, end(Vec3(1, 0, 0), Vec3(9, 9, 9), 30.0)}) < 0.5);
     // A straight vessel that was clipped across has parallel ends, too.
     CHECK(confidence({low, end(Vec3(0, 0, 1), Vec3(0.5, 0, 20), 25.0)}) == 0.0);
+}
+
+SCENARIO("The small end of an organ that the image cut off is evidence, a small cap is not",
+         "[smoothing][stack orientation]") {
+    // Cubes whose tops of 10 x 10 and 2 x 2 mm lie in one plane.
+    const Surface large = cube(10.0), small = mapped(cube(2.0), [](const Vec3&p) {
+                                          return Vec3(p.x() + 12.0, p.y(), p.z() + 8.0);
+                                      });
+    const Surface both = merged(large, small);
+    REQUIRE(bounds(large).max.z() == Approx(bounds(small).max.z()));
+    const auto is_top = [&](TriangleId t) {
+        return area_normal(both.points(), both.triangles()[t]).normalized().z() > 0.5;
+    };
+    PatchLabels labels(both.triangle_count());
+    std::array<Cap, 2> caps;
+    for (TriangleId t = 0; t < labels.size(); ++t) {
+        if (!is_top(t)) continue;
+        const std::size_t part = t < large.triangle_count() ? 0 : 1;
+        labels[t] = static_cast<std::uint16_t>(part + 1);
+        caps[part].triangles.push_back(t);
+    }
+    const Surface marked = both.with_patches(
+        labels, {{"wall", PatchKind::Wall}, {"cut_1", PatchKind::Cut}, {"cut_2", PatchKind::Cut}});
+    CHECK(cut_ends(marked).size() == 2);
+    REQUIRE(axis_of_ends(cut_ends(marked)));
+    CHECK(axis_of_ends(cut_ends(marked))->confidence == Approx(2.0 / 3.0));
+    CHECK(cut_ends(both, caps).size() == 1);
 }
 
 SCENARIO("Cubic voxels show no stack axis, but the ends of a real vessel do (thesis Table 5.6)",
