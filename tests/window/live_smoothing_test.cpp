@@ -313,7 +313,8 @@ SCENARIO("Live colours show the staircase weights of the question", "[window][li
     Scene scene;
     scene.surface = mapped(fine_tube(4.0, 30.0, 36), stepped);
     scene.sampling = Sampling{.spacing = {0.5, 0.5, 1.0}, .confidence = 1.0};
-    LiveModels models({}, live_modelling([]() -> HeldDevice { throw GpuUnavailable("not here"); }));
+    LiveModels models(
+        {}, live_modelling({.source = []() -> HeldDevice { throw GpuUnavailable("not here"); }}));
     for (const double least : {0.0, 0.25}) {
         const auto question =
             models.ask({.scene = scene,
