@@ -247,6 +247,20 @@ SCENARIO("Openings of closed, open and capped surfaces", "[geometry][openings]")
             CHECK(patch_shape(swapped, 1).plane.point.z() == Approx(30.0));
         }
     }
+    GIVEN("a vessel that narrows, whose narrow end is cut obliquely") {
+        const Surface tube = mapped(open_tube(2.0, 30.0, 40, 90), [](const Vec3& p) {
+            const double width = 1.0 - 0.05 * p.z() / 30.0;
+            const double share = std::clamp((p.z() - 15.0) / 15.0, 0.0, 1.0);
+            return Vec3(width * p.x(), width * p.y(), p.z() + share * p.x());
+        });
+        THEN("its rims are kept, and blood flows in at the wide end, though that rim is smaller") {
+            const Surface clipped = clipped_by(tube, plan_openings(tube, graph));
+            const PatchShape inlet = patch_shape(clipped, 1), outlet = patch_shape(clipped, 2);
+            CHECK(clipped.patches[1].kind == PatchKind::Inlet);
+            CHECK(inlet.plane.point.z() == Approx(0.0).margin(0.1));
+            CHECK(outlet.area > 1.2 * inlet.area);
+        }
+    }
     GIVEN("a tube with known but oblique caps") {
         const Surface tube = mapped(closed_tube(2.0, 30.0, 40, 90), [](const Vec3& p) {
             const double share = std::clamp((p.z() - 15.0) / 15.0, 0.0, 1.0);

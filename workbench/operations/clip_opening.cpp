@@ -475,7 +475,7 @@ std::vector<Parameter> place_parameters() {
              .type = List,
              .unit = "mm",
              .help = "a point near the opening where the blood flows in, or x,y,z of each of "
-                     "several; default: the largest opening",
+                     "several; default: that of the widest vessel",
              .meaning = Meaning::Inlet},
             {.name = "name",
              .type = Text,

@@ -1,8 +1,10 @@
 #include "geometry/vessel/openings/opening_names.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/vessel/openings/opening_axis.h"
@@ -38,6 +40,17 @@ std::vector<Moment> patch_moments(const Surface& surface) {
         moments[label].of_area += area * (x[a] + x[b] + x[c]) / 3.0;
     }
     return moments;
+}
+
+/// Area of the vessel's section at an opening that may lie obliquely [mm^2]: a cut at 43 degrees is
+/// a third larger. What the axis does not tell for certain changes nothing.
+double area_across(const Surface& surface, std::size_t patch, double area) {
+    constexpr double kCertain = 2.0;  // standard deviations
+    constexpr double kMostTilt = 60.0;
+    const auto axis = axis_at_patch(surface, patch);
+    if (!axis) return area;
+    const double tilt = std::clamp(axis->tilt_deg - kCertain * axis->doubt_deg, 0.0, kMostTilt);
+    return area * std::cos(tilt * std::numbers::pi / 180.0);
 }
 
 int rank(PatchKind kind) {
@@ -113,16 +126,18 @@ public:
         for (const std::size_t p : chosen) make_inlet(p, first);
     }
 
-    /// The largest opening is the inlet, if it has no name yet or is to be promoted.
+    /// The opening of the widest vessel is the inlet, if it has no name yet or is to be promoted.
     void find_inlet(bool promote) {
         if (areas_.size() < 2 || std::ranges::count(patches_, PatchKind::Inlet, &Patch::kind) > 0)
             return;
-        const auto p = static_cast<std::size_t>(std::max_element(areas_.begin() + 1, areas_.end()) -
-                                                areas_.begin());
-        if (!open_.empty() && (promote || p == open_.front())) {
-            patches_[open_.front()].name = "";
-            make_inlet(open_.front(), 0);
-            open_.erase(open_.begin());
+        std::vector<std::size_t> openings(areas_.size() - 1);
+        std::iota(openings.begin(), openings.end(), std::size_t{1});
+        const std::size_t p = widest(openings);
+        if (!open_.empty() && (promote || std::ranges::count(open_, p) > 0)) {
+            const std::size_t inlet = widest(open_);
+            patches_[inlet].name = "";
+            make_inlet(inlet, 0);
+            std::erase(open_, inlet);
         } else if (open_.empty() && promote && patches_[p].kind == PatchKind::Outlet) {
             if (is_outdated(patches_[p].name)) patches_[p].name = "";
             make_inlet(p, 0);
@@ -138,6 +153,21 @@ public:
 private:
     void sort_by_area(std::vector<std::size_t>& list) const {
         std::ranges::stable_sort(list, std::greater{}, [&](std::size_t p) { return areas_[p]; });
+    }
+
+    /// The one whose vessel has the largest section. Those of less than half the largest area would
+    /// have to be oblique by more than 60 degrees.
+    [[nodiscard]] std::size_t widest(const std::vector<std::size_t>& openings) const {
+        double largest = 0.0, most = -1.0;
+        for (const std::size_t p : openings) largest = std::max(largest, areas_[p]);
+        std::size_t found = openings.front();
+        for (const std::size_t p : openings) {
+            if (areas_[p] < 0.5 * largest) continue;
+            const double across = area_across(surface_, p, areas_[p]);
+            if (across > most) found = p;
+            most = std::max(most, across);
+        }
+        return found;
     }
 
     void make_inlet(std::size_t p, int first) {

@@ -19,8 +19,9 @@ namespace vesselbench {
 /// several are, the others outlet_1, outlet_2 ..., by descending area. An inlet that is named as an
 /// outlet, or the other way round, is renamed.
 /// \param inlets points near the openings that are the inlets [mm], all others become outlets;
-/// none: the largest opening, unless a patch of that kind exists or the largest is not in `unnamed`
-/// \param promote without inlets, the largest of `unnamed`, else the largest outlet, becomes one
+/// none: the opening of the widest vessel, measured across its axis, unless a patch of that kind
+/// exists or that opening is not in `unnamed`
+/// \param promote without inlets, the widest of `unnamed`, else the widest outlet, becomes one
 [[nodiscard]] Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
                                     std::span<const Vec3> inlets = {}, bool promote = false);
 
