@@ -8,6 +8,7 @@
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/centerlines/lumen_bridges.h"
 #include "geometry/vessel/centerlines/lumen_grid.h"
 #include "geometry/vessel/centerlines/refinement.h"
 #include "geometry/vessel/centerlines/skeleton.h"
@@ -190,6 +191,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
                     const Progress& progress) {
     LumenGrid grid = voxelise(wall.points, wall.closed, spacing, wall.rule, progress.part(0, 0.3));
     Attempt attempt;
+    bridge_parts(grid, *wall.distance, progress);
     attempt.components = keep_large_components(grid, kSmallestComponent);
     if (grid.voxels.empty()) return attempt;
     measure_depth(grid, progress);
