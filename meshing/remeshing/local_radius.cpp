@@ -1,13 +1,13 @@
 #include "meshing/remeshing/local_radius.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/lumen_width.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
@@ -118,29 +118,6 @@ std::vector<double> radii_from_lines(const Surface& surface, const std::vector<L
     return radii;
 }
 
-/// Half the median length of rays across the lumen, in a cone of 30 degrees about the inward
-/// normal; 0 if they hit nothing. In a tube the rays along the axis are too long by as much as
-/// those across are too short.
-double radius_from_rays(const SurfaceDistance& search, const Vec3& at, const Vec3& inward,
-                        double farthest) {
-    constexpr int kRays = 6;
-    const double skin = 1e-6 * farthest;  // skips the wall that the ray starts on
-    const Vec3 x = inward.unitOrthogonal(), y = inward.cross(x);
-    std::vector<double> lengths;
-    const auto shoot = [&](const Vec3& direction) {
-        const auto hit = search.first_hit(at + skin * direction, direction, farthest);
-        if (hit) lengths.push_back(hit->distance + skin);
-    };
-    shoot(inward);
-    for (int i = 0; i < kRays; ++i) {
-        const double turn = 2.0 * std::numbers::pi * i / kRays;
-        shoot((std::cos(std::numbers::pi / 6) * inward +
-               std::sin(std::numbers::pi / 6) * (std::cos(turn) * x + std::sin(turn) * y))
-                  .normalized());
-    }
-    return lengths.empty() ? 0.0 : 0.5 * median(std::move(lengths));
-}
-
 std::vector<double> radii_from_rays(const Surface& surface, double limit, const Progress& cancel) {
     const SurfaceDistance search = distance_to(surface);
     cancel.check_cancelled();
@@ -152,7 +129,7 @@ std::vector<double> radii_from_rays(const Surface& surface, double limit, const 
         cancel.check_cancelled();
         const std::size_t v = i * stride;
         radii[v] =
-            std::min(limit, radius_from_rays(search, surface.points()[v], -normals[v], farthest));
+            std::min(limit, 0.5 * lumen_width(search, surface.points()[v], -normals[v], farthest));
     });
     fill_zeros(*surface.topology, radii);
     cancel.check_cancelled();

@@ -221,6 +221,7 @@ std::vector<Trial> vessel_trials(const Files& files) {
         {"brush-smooth", {{"at", dome}, {"radius", 3.0}}, false, {}, true},
         {"brush-inflate", {{"at", dome}, {"radius", 3.0}}},
         {"brush-weight", {{"at", dome}, {"radius", 3.0}}},
+        {"widen", {{"width", 2.5}}},
         {"remove-branch", {{"tip", stub}}, true},
         {"clip-opening", {}, true, {}, true},
         {"extrude-opening", {{"diameters", 1.0}}, true},

@@ -88,6 +88,7 @@ std::vector<Trial> trials(const Files& files) {
         {"brush-inflate", "tube", {{"at", side}, {"radius", "2"}}, {{"strength", "-0.4"}}},
         {"brush-weight", "tube", {{"at", side}, {"radius", "2"}}, {{"attribute", "plaque"}}},
         {"fill-hole", "open", {}, {{"near", "0,0,30"}}},
+        {"widen", "tube", {{"width", "9"}}, {{"width", "9.5"}}},
         {"clip-opening", "y", {{"tip", end}, {"radii", "3"}}, {{"radii", "4"}}},
         {"extrude-opening", "opened", {{"diameters", "2"}}, {{"diameters", "1"}}},
         {"smooth", "tube", {{"iterations", "2"}}, {{"filter", "taubin"}}},

@@ -35,6 +35,7 @@ namespace vesselbench {
     ROW(brush_inflate) \
     ROW(brush_weight) \
     ROW(fill_hole) \
+    ROW(widen) \
     ROW(clip_opening) \
     ROW(extrude_opening) \
     ROW(smooth) \
