@@ -20,9 +20,10 @@ struct ImageFile {
 /// Reads an image with its orientation, converted to [mm] and LPS, in a format of image_formats():
 /// by its suffix, or by its content if the format recognises it; a folder holds the slices of one
 /// DICOM series. Intensities are scaled according to the file (slope, intercept). Of a DICOM file
-/// only geometry and pixels are used. \throw IoError if the file cannot be read \throw InvalidInput
-/// if it is truncated, damaged, of an unknown kind, has a voxel that is not a finite number, more
-/// than one value per voxel, more than three dimensions, or more than 2^30 voxels
+/// only geometry and pixels are used.
+/// \throw IoError if the file cannot be read; InvalidInput if it is truncated, damaged, of an
+/// unknown kind, has a voxel that is not a finite number, more than one value per voxel, more than
+/// three dimensions, or more than 2^30 voxels
 [[nodiscard]] ImageFile read_image_file(const std::string& path);
 
 /// The image of read_image_file alone.

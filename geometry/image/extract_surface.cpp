@@ -1,7 +1,6 @@
 #include "geometry/image/extract_surface.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "geometry/image/clean_image.h"
@@ -10,6 +9,7 @@
 #include "geometry/image/separating_field.h"
 #include "geometry/image/shells.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -19,14 +19,7 @@ namespace {
 constexpr double kMaskIso = 0.5;
 
 std::string text_of(double number) {
-    std::ostringstream out;
-    out << number;
-    return out.str();
-}
-
-std::string size_text(const Image& image) {
-    return std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
-           std::to_string(image.size[2]) + " voxels";
+    return formatted(number, "%.6g");
 }
 
 void check(const Image& image, const std::optional<Image>& mask) {
@@ -34,9 +27,7 @@ void check(const Image& image, const std::optional<Image>& mask) {
     const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
     if (!(*most > *least))
         throw InvalidInput("the image is empty: all its voxels are " + text_of(*least));
-    if (mask && mask->size != image.size)
-        throw InvalidInput("the mask has " + size_text(*mask) + ", but the image has " +
-                           size_text(image) + ": give the mask of this image");
+    if (mask) require_same_place(image, *mask);
 }
 
 /// Intensities ready for extraction, and the parameters they were made with.
@@ -92,7 +83,7 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters, 
         result.threshold = *source.bright;
         result.reasons.push_back(
             "threshold " + text_of(result.threshold) +
-            ": midway between the medians of the brightest voxels and around them");
+            ": midway between the medians of the voxels inside the wall and outside");
     }
 }
 
@@ -111,7 +102,7 @@ Image cleaned_intensities(const Image& image, const Cleaning& cleaning,
     return closed(clean, cleaning.closing);
 }
 
-/// Masks: opening and closing on the voxels, then blurring (the iso-value stays one half).
+/// Masks: opening and closing on the voxels.
 Image cleaned_mask(const Image& mask, const Cleaning& cleaning) {
     return closed(opened(mask, cleaning.opening), cleaning.closing);
 }
@@ -192,8 +183,9 @@ Field masked_field(ImageSource& source, const ExtractionParameters& parameters, 
     progress.check_cancelled();
     if (!parameters.threshold) {
         result.threshold = masked_threshold(source.image, inside, progress);
-        result.reasons.push_back("threshold " + text_of(result.threshold) +
-                                 ": midway between the medians inside the mask and around it");
+        result.reasons.push_back(
+            "threshold " + text_of(result.threshold) +
+            ": midway between the medians of the voxels inside the wall and outside");
     }
     Field field = threshold_field(source, parameters, result, progress);
     progress.check_cancelled();

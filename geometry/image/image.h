@@ -54,6 +54,11 @@ struct Sampling {
 
 [[nodiscard]] Sampling sampling_of(const Image& image);
 
+/// For headers that were rounded.
+/// \throw InvalidInput that says what differs, unless both have the same size and their corners lie
+/// within a tenth of a voxel of each other
+void require_same_place(const Image& image, const Image& mask);
+
 /// True if both have the same size and the same index-to-patient matrix (to a thousandth of a
 /// voxel).
 [[nodiscard]] bool same_grid(const Image& a, const Image& b);

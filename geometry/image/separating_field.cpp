@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/voxel_band.h"
@@ -113,19 +109,6 @@ private:
     std::array<float, 3> across_{};
 };
 
-/// Sum of term(v), in an order that does not depend on the threads.
-template <class Term>
-double sum_of(std::size_t count, const Term& term) {
-    constexpr std::size_t kGrain = 8192;
-    return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::size_t>(0, count, kGrain), 0.0,
-        [&](const auto& range, double sum) {
-            for (std::size_t v = range.begin(); v != range.end(); ++v) sum += term(v);
-            return sum;
-        },
-        std::plus<>());
-}
-
 /// All voxels around it on its own side belong to the outline as well.
 bool is_thin(const VoxelBand& band, std::size_t v) {
     return std::ranges::none_of(band.neighbours[v], [&](std::int32_t place) {
@@ -167,8 +150,8 @@ Values least_bending(const VoxelBand& band, const Vec3& spacing, const Progress&
         std::swap(before, f);
         for_each_vertex(n,
                         [&](std::size_t v) { f[v] = on_its_side(v, ahead[v] - step * slope[v]); });
-        const double turned = sum_of(n, [&](std::size_t v) {
-            return static_cast<double>(ahead[v] - f[v]) * static_cast<double>(f[v] - before[v]);
+        const auto turned = summed<double>(n, [&](double& sum, std::size_t v) {
+            sum += static_cast<double>(ahead[v] - f[v]) * static_cast<double>(f[v] - before[v]);
         });
         const double last = std::exchange(
             momentum,

@@ -18,8 +18,8 @@ namespace vesselbench {
 /// schemes", Found. Comput. Math. 2015.
 /// \param mask inside where >= 0.5
 /// \return about the distance [mm] to the surface near it, beyond the band a constant of the
-/// voxel's side \throw InvalidInput if the outline has too many voxels; Cancelled if the user
-/// cancels
+///         voxel's side
+/// \throw InvalidInput if the outline has too many voxels; Cancelled if the user cancels
 [[nodiscard]] Image separating_field(const Image& mask, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -187,7 +187,7 @@ std::shared_ptr<const Positions> vertex_normals_of(const Surface& surface, Deriv
 std::vector<double> normal_curvature(const Surface& surface, DerivedCache& cache) {
     const std::shared_ptr<const Positions> shared = vertex_normals_of(surface, cache);
     const Positions& normals = *shared;
-    // The least cosine tells the triangle, an exact angle its value: most angles are not computed.
+    // The least cosine identifies the triangle; most angles are not computed.
     std::vector<double> least_cosines(normals.size(), 2.0), largest(normals.size(), 0.0);
     Positions steepest(normals.size(), Vec3::Zero());
     visit_triangles_by_vertex(surface, [&](VertexId v, TriangleId t) {

@@ -53,8 +53,9 @@ struct DrawingArrays {
                                             std::shared_ptr<const DrawingLayout> known = nullptr);
 
 /// Moves some vertices: recomputes their copies and the normals of their triangles' corners. Centre
-/// and layout stay. \param positions #V; those of `moved` are read, and of their neighbours \return
-/// the drawn vertices that changed, ascending
+/// and layout stay.
+/// \param positions #V; those of `moved` are read, and of their neighbours
+/// \return the drawn vertices that changed, ascending
 std::vector<std::uint32_t> move_vertices(DrawingArrays& drawing, const Positions& positions,
                                          std::span<const VertexId> moved);
 

@@ -25,8 +25,9 @@ public:
     Picker& operator=(Picker&&) noexcept;
 
     /// Starts a search; an earlier one without a result is forgotten. Draws: the bound framebuffer
-    /// is kept. \param x, y pixel of the view's framebuffer, from its lower left corner \param
-    /// radius further pixels to each side that are searched, 0 to 4
+    /// is kept.
+    /// \param x, y pixel of the view's framebuffer, from its lower left corner
+    /// \param radius further pixels to each side that are searched, 0 to 4
     void request(const SceneView& view, const Layers& layers, int x, int y, int radius = 2);
 
     /// Drops the request.

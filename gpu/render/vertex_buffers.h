@@ -27,7 +27,9 @@ template <class T>
 void upload_all(const Buffer& buffer, std::span<const std::byte> all);
 
 /// Uploads elements of an array whose indices are ascending: a few contiguous parts instead of
-/// single ones. \param size of one element [bytes] \throw GpuUnavailable as above
+/// single ones.
+/// \param size of one element [bytes]
+/// \throw GpuUnavailable as above
 void upload_parts(const Buffer& buffer, std::span<const std::byte> all, std::size_t size,
                   std::span<const std::uint32_t> changed);
 

@@ -128,8 +128,8 @@ std::vector<double> radii_from_rays(const Surface& surface, double limit, const 
     tbb::parallel_for(std::size_t{0}, (radii.size() + stride - 1) / stride, [&](std::size_t i) {
         cancel.check_cancelled();
         const std::size_t v = i * stride;
-        radii[v] =
-            std::min(limit, 0.5 * lumen_width(search, surface.points()[v], -normals[v], farthest));
+        const auto width = lumen_width(search, surface.points()[v], -normals[v], farthest);
+        if (width) radii[v] = std::min(limit, 0.5 * *width);
     });
     fill_zeros(*surface.topology, radii);
     cancel.check_cancelled();

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
@@ -167,19 +164,6 @@ struct FaceSums {
                 std::max(l.largest_skewness, r.largest_skewness)};
     }
 };
-
-// Adds up on all threads, always in the same order. add(sums, i) adds element i.
-template <class Sums, class Add>
-Sums summed(std::size_t count, const Add& add) {
-    constexpr std::size_t kGrain = 8192;
-    return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::size_t>(0, count, kGrain), Sums{},
-        [&](const auto& range, Sums sums) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) add(sums, i);
-            return sums;
-        },
-        std::plus<Sums>());
-}
 
 void add_cell(const VolumeMesh& mesh, const Tetrahedron& tet, CellSums& sums, CellShape& shape) {
     const Vec3 &a = mesh.points[tet[0]], &b = mesh.points[tet[1]], &c = mesh.points[tet[2]],

@@ -167,7 +167,7 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
         const Surface made = clip_openings(tube, plan).surface;
         CHECK(is_closed_manifold(made));
         CHECK(made.patches.size() == 2);
-        CHECK_THROWS_WITH(check_flow(plan), Contains("two openings") && Contains("as asked"));
+        CHECK_THAT(why_no_flow(plan), Contains("two openings") && Contains("as asked"));
     }
 }
 
@@ -299,16 +299,16 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     const EndRecord outlet{.diameter = 2.0, .fate = EndFate::Kept, .opening = 1};
     EndRecord aorta{.place = {1, 2, 3}, .diameter = 20.0, .why = "the vessels form a loop there"};
     OpeningPlan plan{.openings = {{}, {}}, .ends = {aorta, inlet, outlet}};
-    CHECK_THROWS_WITH(check_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
+    CHECK_THAT(why_no_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
     plan.ends[0].sac = true;
-    CHECK_NOTHROW(check_flow(plan));
+    CHECK(why_no_flow(plan).empty());
     plan.ends[0] = {.diameter = 3.2};
-    CHECK_NOTHROW(check_flow(plan));
+    CHECK(why_no_flow(plan).empty());
     THEN("also if the end was removed, unless it is no wider than the cut that took it along") {
         plan.ends[0] = {.diameter = 3.6, .fate = EndFate::Removed, .why = "a stub"};
-        CHECK_THROWS_WITH(check_flow(plan), Contains("is removed (a stub)"));
+        CHECK_THAT(why_no_flow(plan), Contains("is removed (a stub)"));
         plan.openings[0].place.diameter = 3.5;
-        CHECK_NOTHROW(check_flow(plan));
+        CHECK(why_no_flow(plan).empty());
     }
 }
 
@@ -344,7 +344,7 @@ SCENARIO("The widest vessel beside open rims does not stay closed unnoticed",
             CHECK_NOTHROW(check_flow(opened, surface, *graph, {}));
         }
         THEN("it may be left closed on purpose") {
-            CHECK_NOTHROW(check_flow(plan_openings(surface, *graph, {.closed = {end.place}})));
+            CHECK(why_no_flow(plan_openings(surface, *graph, {.closed = {end.place}})).empty());
         }
     }
 }
@@ -392,7 +392,7 @@ SCENARIO("A loop is no obstacle to ends outside it", "[geometry][openings]") {
     const auto graph = centerlines_of(surface);
     const OpeningPlan plan = plan_openings(surface, *graph);
     REQUIRE(plan.openings.size() == 2);
-    CHECK_NOTHROW(check_flow(plan));
+    CHECK(why_no_flow(plan).empty());
     const ClippedSurface made = clip_openings(surface, plan);
     CHECK(made.failed.empty());
     CHECK(connectivity(*made.surface.topology).genus == std::optional(1));

@@ -256,6 +256,15 @@ SCENARIO("A dilated mask cuts neighbours off, and nothing else", "[images][extra
         CHECK(masked.threshold > 40.0);
         CHECK(masked.threshold < 100.0);
     }
+    THEN("the same mask at another place or of another size is refused") {
+        Image shifted = mask;
+        shifted.index_to_patient.topRightCorner<3, 1>() += Vec3(5, 0, 0);
+        CHECK_THROWS_WITH(extract_surface(image, shifted, {}),
+                          Contains("at a different place") && Contains("5 mm apart"));
+        shifted.index_to_patient = mask.index_to_patient;
+        shifted.size[2] = 29;
+        CHECK_THROWS_WITH(extract_surface(image, shifted, {}), Contains("50 x 30 x 29"));
+    }
     THEN("the body is the first ball") {
         const Surface ball = extracted(image, {.threshold = 70.0}, mask);
         CHECK(volume(ball) == Approx(ball_volume(6.5)).epsilon(0.015));

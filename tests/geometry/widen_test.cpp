@@ -66,7 +66,7 @@ SCENARIO("Widening does not depend on the unit or the direction", "[geometry][wi
     const Positions other = widen(
         mapped(tube, [&](const Vec3& p) -> Vec3 { return 1000.0 * (turn * p); }), 1000.0 * kWanted);
     for (std::size_t v = 0; v < one.size(); ++v)
-        CHECK((other[v] - 1000.0 * (turn * one[v])).norm() < 0.05 * 1000.0 * kWanted);
+        CHECK((other[v] - 1000.0 * (turn * one[v])).norm() < 0.02 * 1000.0 * kWanted);
 }
 
 SCENARIO("Caps and rims stay where they are", "[geometry][widen]") {

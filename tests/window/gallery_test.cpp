@@ -432,6 +432,21 @@ SCENARIO("Spots of a project that cannot be written say so", "[window][gallery][
     CHECK(stored_spots(project).size() == 1);
 }
 
+SCENARIO("A change of the spots that cannot be stored is told at the end",
+         "[window][gallery][spots]") {
+    const std::string folder = temporary_folder(), project = folder + "/gone.vbench";
+    REQUIRE(run_program(program_path(), {"new", project, noisy_tube_file(30)}).exit_code == 0);
+    SpotList spots({});
+    spots.open(project, "");
+    while (!spots.is_read()) static_cast<void>(spots.update());
+    static_cast<void>(spots.update());
+    std::filesystem::remove(project);
+    spots.add(Vec3::Zero(), Vec3::UnitX());
+    CHECK_THAT(spots.close(), Contains("gone.vbench"));
+    CHECK(spots.all().empty());
+    CHECK(spots.close().empty());
+}
+
 SCENARIO("Stored spots that cannot be read are not written over", "[window][gallery][spots]") {
     const std::string project = temporary_folder() + "/no_project.vbench";
     SpotList spots({});

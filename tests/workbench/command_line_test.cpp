@@ -251,6 +251,19 @@ SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
         CHECK_THAT(again.out, StartsWith("edit 2.3: smooth") && Contains("pending now: 3 subdivi"));
         CHECK(json_of({"log", project})["edits"][1]["note"] == "less");
     }
+    THEN("an edit's line is the same when it has run and in the log") {
+        std::istringstream lines(run({"change", project, "2", "lambda=0.3"}).out);
+        std::string line;
+        REQUIRE(std::getline(lines, line));
+        REQUIRE_THAT(line, StartsWith("edit 2.3: smooth: "));
+        const std::string effect = line.substr(std::string("edit 2.3: smooth: ").size());
+        CHECK_THAT(effect, Contains("distance up to"));
+        std::string log = run({"log", project}).out;
+        std::erase_if(log, [](char c) { return c == '\n' || c == ' '; });
+        std::string squeezed = effect;
+        std::erase(squeezed, ' ');
+        CHECK_THAT(log, Contains(squeezed));
+    }
     THEN("a note is written on an edit, and removed") {
         const Json noted = json_of({"note", project, "3", "for the print"});
         CHECK(noted["note"] == "for the print");

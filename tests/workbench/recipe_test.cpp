@@ -1,5 +1,7 @@
 #include "workbench/prepare/recipe.h"
 
+#include <stdexcept>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +51,30 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     CHECK_FALSE(recipe[1].step.has_value());
     CHECK(operations_of(recipe_from_json(list, {"image", "mask", "rp"})) ==
           std::vector<std::string>{"smooth", "fill-hole"});
+}
+
+SCENARIO("An argument $purpose is the purpose's name", "[workbench][recipe]") {
+    const Json list =
+        Json::parse(R"([{"operation": "smooth", "arguments": {"preset": "$purpose"}}])");
+    CHECK(recipe_from_json(list, {"surface", "planning"})[0].given->text("preset") == "planning");
+    CHECK(recipe_from_json(list, {"image", "cfd"})[0].given->text("preset") == "cfd");
+    CHECK_THROWS_WITH(recipe_from_json(list, {"image"}),
+                      Contains("entry 1") && Contains("preset is $purpose"));
+}
+
+SCENARIO("Surfaces are smoothed less than images, whatever they are for", "[workbench][recipe]") {
+    for (const Purpose& purpose : purposes()) {
+        INFO(purpose.name);
+        const auto first_smooth = [&](const char* input) {
+            for (const RecipeEntry& entry : default_recipe({input, purpose.name}))
+                if (entry.given.operation().name == "smooth") return entry.given;
+            throw std::logic_error("the recipe does not smooth");
+        };
+        CHECK(first_smooth("surface")->text("preset") == purpose.name);
+        CHECK(first_smooth("surface")->integer("iterations") == 5);
+        CHECK(first_smooth("image")->text("preset") == purpose.name);
+        CHECK_FALSE(first_smooth("image")->has("iterations"));
+    }
 }
 
 SCENARIO("A recipe that cannot be followed is refused before anything is done",

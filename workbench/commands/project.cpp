@@ -52,7 +52,7 @@ void print_report(const std::string& text) {
     if (!report.is_object()) return;
     std::vector<std::vector<std::string>> rows;
     for (const auto& [key, value] : report.items())
-        if (is_short(value)) rows.push_back({"  " + key, short_text(value)});
+        if (key != "headline" && is_short(value)) rows.push_back({"  " + key, short_text(value)});
     std::cout << as_columns(rows);
 }
 
@@ -171,8 +171,8 @@ void print_edit(const LogEntry& entry) {
               << (edit.edit.revision > 1 ? "." + std::to_string(edit.edit.revision) : "") << ": "
               << printable(edit.operation);
     if (!entry.result) return void(std::cout << "\n");
-    const std::string change = change_text(entry.result->change);
-    std::cout << (change.empty() ? "" : ": " + change) << "\n";
+    const std::string effect = effect_text(*entry.result);
+    std::cout << (effect.empty() ? "" : ": " + effect) << "\n";
     print_report(entry.result->report);
 }
 

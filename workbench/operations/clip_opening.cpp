@@ -213,7 +213,7 @@ Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& 
     for (int plans = 1;; ++plans) {
         Clipping made{.plan = plan_openings(surface, *graph, options, progress.part(0.5, 0.8)),
                       .surface = {}};
-        if (for_flow) check_flow(made.plan, surface, *graph, options);
+        if (for_flow) check_flow(made.plan, surface, *graph, options, progress.part(0.8, 0.81));
         name_opening(made.plan, arguments);
         ClippedSurface clipped =
             clip_openings(surface, made.plan, inlet_choice(made.plan, arguments), graph.get(),

@@ -173,8 +173,8 @@ std::vector<Parameter> source_parameters() {
          .unit = "-",
          .help =
              "image value at the vessel's boundary; default: midway between the medians of the "
-             "mask's voxels, else of the brightest ones, and of those around them; 0 for a level "
-             "set"},
+             "voxels inside and outside the wall, that of the mask, else of the brightest voxels; "
+             "0 for a level set"},
         {.name = "iso", .unit = "-", .help = "synonym of threshold, for level sets"},
         {.name = "inside",
          .type = Choice,

@@ -58,30 +58,6 @@ Image mask_in_millimetres(const ImageFile& mask, bool unit_given, double image_u
     return scaled(mask.image, image_unit / mask.unit.value_or(1.0));
 }
 
-std::string size_text(const Image& image) {
-    return std::to_string(image.size[0]) + " x " + std::to_string(image.size[1]) + " x " +
-           std::to_string(image.size[2]);
-}
-
-void check_same_place(const Image& image, const Image& mask) {
-    if (mask.size != image.size)
-        throw InvalidInput("the mask has " + size_text(mask) + " voxels, but the image has " +
-                           size_text(image) + ": give the mask made on this image");
-    double apart = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 index(corner & 1 ? image.size[0] - 1 : 0, corner & 2 ? image.size[1] - 1 : 0,
-                         corner & 4 ? image.size[2] - 1 : 0);
-        apart = std::max(apart, (image.to_patient(index) - mask.to_patient(index)).norm());
-    }
-    constexpr double kSamePlace = 0.1;  // voxels: rounded headers
-    if (apart > kSamePlace * image.spacing().minCoeff()) {
-        std::ostringstream text;
-        text << "the mask is at a different place than the image: their corners are up to " << apart
-             << " mm apart; export it with the image's orientation and spacing";
-        throw InvalidInput(text.str());
-    }
-}
-
 /// A mask of labels unchanged, or a level set converted to 1 inside and 0 outside.
 Image usable_mask(const Image& mask, Outcome& outcome) {
     Arguments& resolved = outcome.resolved;
@@ -130,7 +106,7 @@ void load_mask(const Arguments& arguments, const Image& image, Outcome& outcome,
     const ImageFile file = read_image_file(arguments.text("mask"));
     Image mask = mask_in_millimetres(file, arguments.has("units"),
                                      millimetres_in(outcome.resolved.text("units")));
-    check_same_place(image, mask);
+    require_same_place(image, mask);
     mask.index_to_patient = image.index_to_patient;
     const Image usable = usable_mask(mask, outcome);
     const auto inside = std::count_if(usable.voxels->begin(), usable.voxels->end(),

@@ -59,6 +59,21 @@ bool is_used(const Json& entry, const RecipeUse& use) {
                                [&](const std::string& word) { return word_holds(word, use); });
 }
 
+/// The entry with the purpose's name in place of arguments that are "$purpose".
+Json with_purpose(Json entry, const RecipeUse& use) {
+    const auto arguments = entry.find("arguments");
+    if (arguments == entry.end() || !arguments->is_object()) return entry;
+    for (auto& [name, value] : arguments->items()) {
+        if (value != "$purpose") continue;
+        const auto purpose = std::ranges::find_if(
+            purposes(), [&](const Purpose& p) { return std::ranges::count(use, p.name) > 0; });
+        if (purpose == purposes().end())
+            throw UsageError(name + " is $purpose, but the recipe is for no purpose");
+        value = purpose->name;
+    }
+    return entry;
+}
+
 /// The operation and the arguments of an object with these keys.
 GivenArguments given_in(JsonFields& fields) {
     const Operation& operation = find_operation(fields.required<std::string>("operation"));
@@ -100,7 +115,7 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
     for (std::size_t i = 0; i < list.size(); ++i) try {
             if (!list[i].is_object()) throw UsageError("it is not a JSON object");
             refuse_unknown_keys(list[i]);
-            RecipeEntry entry = entry_from_json(list[i]);
+            RecipeEntry entry = entry_from_json(with_purpose(list[i], use));
             if (is_used(list[i], use)) recipe.push_back(std::move(entry));
         } catch (const UsageError& error) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());

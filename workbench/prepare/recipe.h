@@ -28,13 +28,16 @@ using Recipe = std::vector<RecipeEntry>;
 /// The use of a recipe: words that an entry's "when" may contain.
 using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
 
-/// Reads a recipe, a JSON list of {"operation": name, "arguments": {parameter: value},
-/// "step": name, "optional": true|false, "unless_closed": true|false, "unless_made":
-/// {"operation": name, "arguments": {parameter: value}}, "otherwise": {parameter: value}, "when":
-/// word or list of words} where everything except "operation" is optional. An entry is used if each
-/// word of its "when" is in `use`, and each word prefixed by "no-" is not. The arguments of all
-/// entries are checked, also of those that are not used; required ones may still be absent. \throw
-/// UsageError that names the entry and the mistake
+/// Reads a recipe, a JSON list of entries. All of their keys but the first are optional:
+///
+///     "operation": name           "arguments": {parameter: value}    "step": name
+///     "optional": true|false      "otherwise": {parameter: value}    "unless_closed": true|false
+///     "when": word or [words]     "unless_made": {"operation": name, "arguments": {...}}
+///
+/// An entry is used if each word of its "when" is in `use`, and each word prefixed by "no-" is not.
+/// The argument "$purpose" is the purpose's name: presets are named like purposes. The arguments of
+/// all entries are checked, also of those that are not used; required ones may still be absent.
+/// \throw UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);
 
 /// The built-in recipe that `prepare` uses by default (DESIGN 2).

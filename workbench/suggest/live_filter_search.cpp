@@ -65,7 +65,8 @@ private:
     std::string filter_;  ///< of the last question
 };
 
-/// Finds caps, staircases and distances anew only if other arguments than the searched ones change.
+/// Finds caps, staircases and distances again only if other arguments than the searched ones
+/// change.
 void LiveFilterSearch::take_subject(const Arguments& given) {
     const Arguments fixed = without_searched(given);
     if (subject_ && subject_->given == fixed) return;

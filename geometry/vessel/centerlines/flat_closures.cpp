@@ -209,8 +209,8 @@ std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
     const double whole = search.whole_area();
     std::vector<bool> taken(triangles.size(), false);
     std::vector<bool> found(triangles.size(), false);  ///< in a disc
-    // Area of the largest planar region that was grown over a triangle in vain: on a large smooth
-    // wall, thousands of smaller ones would grow over the same patches.
+    // Area of the largest planar region that was grown over a triangle without success: on a large
+    // smooth wall, thousands of smaller ones would grow over the same patches.
     std::vector<double> tried(triangles.size(), 0.0);
     std::vector<std::vector<TriangleId>> discs;
     double flat = 0.0;

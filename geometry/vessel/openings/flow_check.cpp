@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "geometry/kernel/errors.h"
@@ -89,8 +90,12 @@ std::string advice(const std::string& argument, const std::string& effect) {
 class WayOn {
 public:
     WayOn(const Surface& surface, const CenterlineGraph& graph, const OpeningPlanOptions& options,
-          const FlowProblem& problem)
-        : surface_(surface), graph_(graph), options_(options), problem_(problem) {}
+          const FlowProblem& problem, Progress cancel)
+        : surface_(surface),
+          graph_(graph),
+          options_(options),
+          problem_(problem),
+          cancel_(std::move(cancel)) {}
 
     [[nodiscard]] std::string text(std::size_t openings) const {
         std::string text = by_opening();
@@ -108,7 +113,7 @@ private:
 
     [[nodiscard]] Judgement judgement(const OpeningPlanOptions& options) const {
         try {
-            const OpeningPlan plan = plan_openings(surface_, graph_, options);
+            const OpeningPlan plan = plan_openings(surface_, graph_, options, cancel_);
             return flow_problem(plan).text.empty() ? Judgement::Good : Judgement::Insufficient;
         } catch (const AlgorithmFailure&) {
             return Judgement::Impossible;
@@ -137,10 +142,12 @@ private:
         const std::vector<SurfaceEnd> ends = find_surface_ends(surface_, graph_);
         CutTrials trials(surface_, graph_, ends);
         for (const EndRecord& end : problem_.ends) {
+            cancel_.check_cancelled();
             const auto e = end_near(ends, end.place);
             if (end.sac || !e || !ends[*e].tip) continue;
             const auto place =
                 nearest_opening_place(surface_, graph_, *ends[*e].tip, [&](const OpeningPlace& at) {
+                    cancel_.check_cancelled();
                     return !has_failed(at) && trials.problem_of(at, *e).empty();
                 });
             if (!place) continue;
@@ -170,22 +177,23 @@ private:
     const CenterlineGraph& graph_;
     const OpeningPlanOptions& options_;
     const FlowProblem& problem_;
+    Progress cancel_;
 };
 
 }  // namespace
 
-void check_flow(const OpeningPlan& plan) {
-    const FlowProblem problem = flow_problem(plan);
-    if (!problem.text.empty())
-        throw AlgorithmFailure(problem.text + ". The ends found:" + ends_text(plan));
+std::string why_no_flow(const OpeningPlan& plan) {
+    const std::string text = flow_problem(plan).text;
+    return text.empty() ? "" : text + ". The ends found:" + ends_text(plan);
 }
 
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
-                const OpeningPlanOptions& options) {
+                const OpeningPlanOptions& options, const Progress& progress) {
     const FlowProblem problem = flow_problem(plan);
-    if (!problem.text.empty())
-        throw AlgorithmFailure(problem.text + ". The ends found:" + ends_text(plan) +
-                               WayOn(surface, graph, options, problem).text(plan.openings.size()));
+    if (problem.text.empty()) return;
+    progress.report(0.0, "looking for a way on");
+    const WayOn way_on(surface, graph, options, problem, progress.silent());
+    throw AlgorithmFailure(why_no_flow(plan) + way_on.text(plan.openings.size()));
 }
 
 std::string closing_advice(const Positions& closed) {

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <string>
+
+#include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/openings.h"
 
 namespace vesselbench {
 
-/// What a flow needs of a plan: two openings, and no end without an opening, unless it is a sac or
-/// stays closed as asked, that is wider than all of them (kAsLarge).
-/// \throw AlgorithmFailure that lists all ends with their reasons
-void check_flow(const OpeningPlan& plan);
+/// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
+/// needs two openings, and no end without an opening, unless it is a sac or stays closed as asked,
+/// that is wider than all of them (kAsLarge).
+[[nodiscard]] std::string why_no_flow(const OpeningPlan& plan);
 
-/// The same. The failure names the arguments of clip-opening that go on, which were tried.
 /// \param options that made the plan
+/// \throw AlgorithmFailure that says why_no_flow and names the arguments of clip-opening that go on;
+/// they were tried, which takes as long as several plans; Cancelled
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
-                const OpeningPlanOptions& options);
+                const OpeningPlanOptions& options, const Progress& progress = {});
 
 /// How to leave ends closed on purpose: "closed=1,2,3 ..." and the same for prepare.
 /// \param closed all of them

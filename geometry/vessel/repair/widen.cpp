@@ -87,8 +87,9 @@ private:
         if (!opposite) return 0.0;
         // Where a thread widens, slanted rays are long; where its wall is slanted, the straight
         // one.
+        const double straight = opposite->distance + skin;
         const double across =
-            std::min(opposite->distance + skin, lumen_width(wall, at, inward, 8.0 * width_));
+            std::min(straight, lumen_width(wall, at, inward, 8.0 * width_).value_or(straight));
         return across < kWideEnough * width_ ? across : 0.0;
     }
 

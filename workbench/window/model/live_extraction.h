@@ -50,7 +50,7 @@ public:
     [[nodiscard]] std::optional<double> iso(const OperationForm& form) const;
 
     /// The texts that give the form another iso-value. The side of the image on which the vessel
-    /// was decided to be goes with it: it would be decided anew.
+    /// was decided to be goes with it: it would be decided again.
     [[nodiscard]] std::vector<FieldText> iso_texts(const OperationForm& form, double iso) const;
 
 private:

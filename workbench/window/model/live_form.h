@@ -15,8 +15,8 @@ namespace vesselbench {
 
 /// What all forms have in common whose outcome the view follows live, without an edit. Used by the
 /// frame's thread.
-/// \tparam Model has the `question` that it answers, and a `state` that tells whether it is `whole`
-/// \tparam Key tells questions apart: an equal one is not asked again
+/// \tparam Model has the `question` that it answers, and a `state` that says whether it is `whole`
+/// \tparam Key distinguishes questions: an equal one is not asked again
 template <class Question, class Model, class Key>
 class LiveForm {
 public:

@@ -35,8 +35,8 @@ void SpotList::open(const std::filesystem::path& project, std::string read_only)
     reading_->begin([project](const Progress&) { return stored_spots(project); });
 }
 
-void SpotList::close() {
-    finish();
+std::string SpotList::close() {
+    std::string lost = finish();
     reading_.emplace(wake_);
     storing_.emplace(wake_);
     project_.clear();
@@ -44,6 +44,7 @@ void SpotList::close() {
     failure_.clear();
     spots_.clear();
     chosen_ = 0;
+    return lost;
 }
 
 bool SpotList::update() {
@@ -67,15 +68,17 @@ void SpotList::keep() {
     });
 }
 
-/// What was asked for last may still wait.
-void SpotList::finish() {
+/// What was asked for last may still wait. \return why it is lost; empty: it is not
+std::string SpotList::finish() {
     reading_.reset();
     storing_.reset();
-    if (!std::exchange(unsaved_, false)) return;
+    if (!std::exchange(unsaved_, false)) return "";
     try {
         store_spots(project_, spots_);
-    } catch (const std::exception&) {  // the project is gone
+    } catch (const std::exception& error) {
+        return error.what();
     }
+    return "";
 }
 
 // --- the spots

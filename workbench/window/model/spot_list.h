@@ -23,11 +23,12 @@ public:
     SpotList(const SpotList&) = delete;
     SpotList& operator=(const SpotList&) = delete;
 
-    /// The spots of a project that was opened.
+    /// The spots of a project that was opened. Closes the one before.
     /// \param read_only why nothing can be stored in it; empty: it can
     void open(const std::filesystem::path& project, std::string read_only);
 
-    void close();
+    /// \return why the last change is lost; empty: it is not
+    std::string close();
 
     /// Once a frame. \return true if anything has changed
     bool update();
@@ -57,7 +58,7 @@ public:
 
 private:
     void keep();
-    void finish();
+    std::string finish();
 
     std::function<void()> wake_;
     std::vector<Spot> spots_;

@@ -46,6 +46,7 @@ bool Workplace::update() {
         choose_step(Step::Source);
         comparison_.reset();
         view = {};
+        end_spots();
         gallery_.spots.open(document.project(), document.snapshot()->read_only_reason);
     }
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
@@ -180,14 +181,21 @@ void Workplace::open_phantom(const std::string& name) {
     document.open({.phantom = name});
 }
 
+void Workplace::end_spots() {
+    const std::string lost = gallery_.spots.close();
+    if (!lost.empty())
+        document.tell(
+            make_message(MessageKind::Error, "the last change of the spots is lost: " + lost));
+}
+
 void Workplace::close() {
     leave_form();
     stop_comparing();
     view = {};
     picture_file_.clear();
     gallery_.show(GalleryMode::Off);
-    gallery_.spots.close();
     document.close();
+    end_spots();
     slices_.clear();
     settings.refresh();
     renew_lists();

@@ -322,6 +322,7 @@ private:
     [[nodiscard]] bool update_slices();
     void end_models_gallery();
     void end_applied_form();
+    void end_spots();
     void tell_difference();
     void tell_fallback();
     [[nodiscard]] bool update_places();
