@@ -32,6 +32,8 @@ constexpr double kNoticedTiltDeg = 2.0;
 constexpr double kNoticedDoubtDeg = 2.0;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
+/// A shorter branch may be a bump of the wall [radii].
+constexpr double kLeastProtrusion = 1.0 / 3.0;
 
 std::string degrees_text(double angle) {
     return formatted(angle, "%.0f degrees");
@@ -205,6 +207,12 @@ private:
                             place_text(ends_[*facing[e]].centre);
                 continue;
             }
+            const auto blind = blind_branch(graph_, *ends_[e].tip);
+            if (blind && blind->length < kLeastProtrusion * blind->widest) {
+                doubts[e] = "it protrudes by " + formatted(blind->length) +
+                            " mm only from the vessels around";
+                continue;
+            }
             if (!options_.voxels) continue;
             const VoxelWidth width = width_at_tip(graph_, *ends_[e].tip, *options_.voxels);
             if (width.is_fading())
@@ -273,11 +281,11 @@ private:
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         if (!blind || !blind->is_short()) return false;
+        const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        if (!blind->bulges && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind)))
-            return false;
-        records_[e].sac = blind->bulges;
-        close(e, std::string(blind->bulges ? "it looks like an aneurysm" : "its branch is short") +
+        if (!sac && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind))) return false;
+        records_[e].sac = sac;
+        close(e, std::string(sac ? "it looks like an aneurysm" : "its branch is short") +
                      opening_text(e));
         return true;
     }
