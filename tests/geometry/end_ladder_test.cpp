@@ -223,6 +223,22 @@ SCENARIO("A vessel thinner than its image's voxels fades from it, and has no end
             plan_openings(surface, *centerlines_of(surface), {.voxels = voxels});
         CHECK(end_at(plan, along).fate == EndFate::Opened);
     }
+    GIVEN("a branch across them that is thin at its end only") {
+        const VesselShape branch{
+            .points = {Vec3::Zero(), Vec3(16, 0, 0), Vec3(17, 0, 0), Vec3(20, 0, 0)},
+            .radii = {1.0, 1.0, 0.6, 0.6}};
+        const std::vector<PhantomPart> parts = {
+            {.name = "vessel", .shape = vessel_along({Vec3(0, 0, -15), Vec3(0, 0, 15)}, 1.6, true)},
+            {.name = "branch", .shape = branch, .blend = 0.2}};
+        const PhantomField field(parts);
+        const Surface surface = exact_surface(field, field.bounds(), 0.3);
+        const auto graph = centerlines_of(surface);
+        const auto tip = nearest_tip(*graph, Vec3(20, 0, 0));
+        const VoxelWidth width = width_at_tip(*graph, tip.value(), voxels);
+        CHECK(width.diameter < 0.6 * width.voxels);
+        CHECK(end_at(plan_openings(surface, *graph, {.voxels = voxels}), Vec3(20, 0, 0)).fate ==
+              EndFate::Opened);
+    }
     GIVEN("a wider branch across them") {
         const Surface surface = closed_vessels(1.5, {{Vec3::Zero(), across}});
         const OpeningPlan plan =
