@@ -47,11 +47,12 @@ struct EndRecord {
     Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
     double diameter = 0.0;      ///< of the vessel there [mm]
     EndFate fate = EndFate::Closed;
-    std::string why;     ///< may be empty: opened at the chosen place
-    bool plain = false;  ///< kept, or opened at the chosen place
-    bool sac = false;    ///< it looks like an aneurysm: closed, however wide
-    bool asked = false;  ///< closed since the caller wants it so
-    bool tried = false;  ///< closed since it could not be cut
+    std::string why;       ///< may be empty: opened at the chosen place
+    bool plain = false;    ///< kept, or opened at the chosen place
+    bool sac = false;      ///< it looks like an aneurysm: closed, however wide
+    bool asked = false;    ///< closed since the caller wants it so
+    bool tried = false;    ///< closed since it could not be cut
+    bool offered = false;  ///< closed by a rule: `open` may open it, as `why` says
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 
