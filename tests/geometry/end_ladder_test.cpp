@@ -223,6 +223,22 @@ SCENARIO("A vessel thinner than its image's voxels fades from it, and has no end
             plan_openings(surface, *centerlines_of(surface), {.voxels = voxels});
         CHECK(end_at(plan, along).fate == EndFate::Opened);
     }
+    GIVEN("a branch across them that is thin at its end only") {
+        const VesselShape branch{
+            .points = {Vec3::Zero(), Vec3(16, 0, 0), Vec3(17, 0, 0), Vec3(20, 0, 0)},
+            .radii = {1.0, 1.0, 0.6, 0.6}};
+        const std::vector<PhantomPart> parts = {
+            {.name = "vessel", .shape = vessel_along({Vec3(0, 0, -15), Vec3(0, 0, 15)}, 1.6, true)},
+            {.name = "branch", .shape = branch, .blend = 0.2}};
+        const PhantomField field(parts);
+        const Surface surface = exact_surface(field, field.bounds(), 0.3);
+        const auto graph = centerlines_of(surface);
+        const auto tip = nearest_tip(*graph, Vec3(20, 0, 0));
+        const VoxelWidth width = width_at_tip(*graph, tip.value(), voxels);
+        CHECK(width.diameter < 0.6 * width.voxels);
+        CHECK(end_at(plan_openings(surface, *graph, {.voxels = voxels}), Vec3(20, 0, 0)).fate ==
+              EndFate::Opened);
+    }
     GIVEN("a wider branch across them") {
         const Surface surface = closed_vessels(1.5, {{Vec3::Zero(), across}});
         const OpeningPlan plan =
@@ -292,6 +308,80 @@ SCENARIO("A sac whose neck the image has widened is not a vessel's end", "[geome
     std::vector<double> longer = sac;  // a vessel that is narrower at its root
     longer.insert(longer.end() - 4, 4, 0.9);
     CHECK_FALSE(seen(longer));
+}
+
+SCENARIO("A short branch that is few voxels of the search grid wide is opened, a ball is not",
+         "[geometry][openings]") {
+    // A wide vessel, one of 1 mm radius that leaves it, and something small on that one's wall. The
+    // wide one makes the grid's voxels 0.29 mm wide.
+    const auto plan_with = [](const ImplicitShape& small) {
+        const ImplicitShape all = [&](const Vec3& p) {
+            const double wide = capsule(p, {0, 0, 0}, {0, 0, 30}, 3.0);
+            const double narrow = capsule(p, {0, 0, 15}, {20, 0, 15}, 1.0);
+            return std::min({wide, narrow, small(p)});
+        };
+        const Surface surface =
+            iso_surface(all, {Vec3(-3.2, -3.2, -3.1), Vec3(21.3, 3.3, 33.2)}, 0.22);
+        return plan_openings(surface, *centerlines_of(surface));
+    };
+    for (const double radius : {0.42, 0.46}) {  // 2.9 and 2.7 radii long
+        const OpeningPlan branch = plan_with([=](const Vec3& p) {
+            return capsule(p, {12, 0, 15}, {12, 1.8, 15}, radius);
+        });
+        CHECK(branch.openings.size() == 4);
+        CHECK(end_at(branch, Vec3(12, 2, 15)).fate == EndFate::Opened);
+    }
+    for (const double beyond : {0.6, 0.8}) {
+        const OpeningPlan ball =
+            plan_with([=](const Vec3& p) { return (p - Vec3(12, 1.0 + beyond, 15)).norm() - 0.8; });
+        CAPTURE(beyond, ball.ends.size(), end_at(ball, Vec3(12, 2, 15)).why);
+        CHECK(ball.openings.size() == 3);
+    }
+}
+
+SCENARIO("A sac beside whose middle the line runs is one by its sections", "[geometry][openings]") {
+    // The line's circles show a stub that does not widen.
+    const std::vector<double> radii = {0.90, 0.90, 0.90, 0.88, 0.86, 0.85, 0.84, 0.80, 0.76, 0.75,
+                                       0.75, 0.75, 0.75, 0.75, 0.75, 0.72, 0.65, 0.60, 0.50};
+    const CenterlineGraph graph = with_side_branch(radii);
+    const auto beside_vessel = [](const ImplicitShape& extra) {
+        const ImplicitShape all = [&](const Vec3& p) {
+            return std::min(capsule(p, {0, 0, -6}, {0, 0, 6}, 0.9), extra(p));
+        };
+        return iso_surface(all, {Vec3(-1.2, -1.8, -7.1), Vec3(3.6, 1.9, 7.2)}, 0.17);
+    };
+    const Surface sac =
+        beside_vessel([](const Vec3& p) { return (p - Vec3(1.9, 0.2, 0)).norm() - 1.2; });
+    const Surface stub = beside_vessel([](const Vec3& p) {
+        return capsule(p, {0, 0, 0}, {2.2, 0, 0}, 0.75);
+    });
+    CHECK(is_ball(sac, graph, 3));
+    CHECK_FALSE(is_ball(stub, graph, 3));
+    const EndRecord end = end_at(plan_openings(sac, graph), graph.nodes[3].position);
+    CHECK(end.fate == EndFate::Closed);
+    CHECK(end.sac);
+    CHECK_THAT(end.why, Contains("aneurysm; open="));
+}
+
+SCENARIO("A bump of the wall is not a vessel's end", "[geometry][openings]") {
+    const auto fate_of = [](double reach) {
+        const ImplicitShape vessel = [=](const Vec3& p) {
+            return std::min(capsule(p, {0, 0, -6}, {0, 0, 6}, 0.9),
+                            capsule(p, {0, 0, 0}, {reach - 0.75, 0, 0}, 0.75));
+        };
+        const Surface surface =
+            iso_surface(vessel, {Vec3(-1.2, -1.8, -7.1), Vec3(3.6, 1.9, 7.2)}, 0.17);
+        const CenterlineGraph graph =
+            with_side_branch(std::vector<double>(static_cast<std::size_t>(reach / 0.15), 0.75));
+        const OpeningPlan plan = plan_openings(surface, graph);
+        const EndRecord end = end_at(plan, graph.nodes[3].position);
+        CAPTURE(end.why);
+        CHECK(plan.openings.size() == (end.fate == EndFate::Opened ? 3 : 2));
+        CHECK((end.fate == EndFate::Opened || end.why.find("protrudes by") != std::string::npos));
+        return end.fate;
+    };
+    CHECK(fate_of(1.5) == EndFate::Closed);
+    CHECK(fate_of(3.3) == EndFate::Opened);
 }
 
 SCENARIO("A wrong model is a failure", "[geometry][openings]") {

@@ -296,7 +296,8 @@ SCENARIO("Large closed ends are named in a warning, small ones are counted",
     std::string warnings;
     for (const std::string& warning : outcome.warnings) warnings += warning + "\n";
     CHECK_THAT(warnings, Contains("the end at (2") && Contains("was closed: a closed end") &&
-                             Contains("1 smaller end stayed closed"));
+                             Contains("1 smaller end stayed closed: see the report; open=1") &&
+                             Contains(" opens one of them"));
 }
 
 SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {

@@ -330,22 +330,38 @@ std::string end_text(const EndRecord& end) {
     return "the end at " + place_text(end.place) + ", diameter " + formatted(end.diameter) + " mm";
 }
 
-/// What a user should know about the ends, worst first. Small closed ends are counted only.
+/// How many small ends stayed closed, and how to open those that are no sacs, if they are few.
+std::string small_ends_text(const std::vector<EndRecord>& small) {
+    constexpr std::size_t kMostNamed = 8;
+    std::vector<std::string> places;
+    for (const EndRecord& end : small)
+        if (end.offered && !end.sac) places.push_back(coordinates_argument(end.place));
+    std::string text = counted(small.size(), "smaller end") + " stayed closed: see the report";
+    if (places.empty() || places.size() > kMostNamed) return text;
+    const char* before = "; open=";
+    for (const std::string& place : places) {
+        text += before + place;
+        before = ",";
+    }
+    return text + " opens " + (places.size() == 1 ? "one" : std::to_string(places.size())) +
+           " of them";
+}
+
+/// What a user should know about the ends, worst first. Small closed ends share a warning.
 std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     double widest = 0.0;
     for (const EndRecord& end : plan.ends)
         if (end.opening) widest = std::max(widest, end.diameter);
     std::vector<std::string> warnings;
-    std::size_t small = 0;
+    std::vector<EndRecord> small;
     for (const EndRecord& end : plan.ends) {
         if (end.plain || end.why.empty() || end.asked) continue;
         if (end.fate == EndFate::Closed && end.diameter < kLargeEnd * widest)
-            ++small;
+            small.push_back(end);
         else
             warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);
     }
-    if (small > 0)
-        warnings.push_back(counted(small, "smaller end") + " stayed closed: see the report");
+    if (!small.empty()) warnings.push_back(small_ends_text(small));
     return warnings;
 }
 

@@ -27,6 +27,10 @@ constexpr double kMostGrid = 4.0e7;       ///< voxels including the empty ones a
 constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels need, for good lines
 constexpr double kSmallestComponent = 0.01;
 constexpr int kAttempts = 3;
+/// A blind end's least distance beyond its furcation [voxels]: of a thin branch, and of a wider
+/// one. Thin vessels have radii of 2 voxels, and short branches of them hardly rise.
+constexpr double kLeastRise = 2.0;
+constexpr double kUsualRise = 4.0;
 
 void check(const CenterlineParameters& p) {
     if (!(p.spacing >= 0.02 && p.spacing <= 0.5)) {
@@ -59,6 +63,7 @@ struct Anchors {
     std::vector<VoxelId> fixed;       ///< openings, then given points
     std::vector<VesselEnd> openings;  ///< of the first anchors
     std::vector<VoxelId> blind;
+    std::vector<VoxelId> low;  ///< those of `blind` that hardly rise
 };
 
 /// A hole in the wall of a much larger lumen is a defect, not a vessel's end.
@@ -132,11 +137,13 @@ void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors, const Progress& 
         const auto from_root = geodesic_distance(grid, root, cancel);
         for (const VoxelId v : grid.voxels) all[v] = std::min(all[v], from_root[v]);
     }
-    for (const VoxelId v : summits(grid, all, 4.0 * grid.spacing, cancel)) {
+    for (const auto& [v, rise] : summits(grid, all, kLeastRise * grid.spacing, cancel)) {
         const bool taken = std::count(anchors.fixed.begin(), anchors.fixed.end(), v) +
                                std::count(anchors.blind.begin(), anchors.blind.end(), v) >
                            0;
-        if (!taken && !near_opening(anchors, grid.centre(v))) anchors.blind.push_back(v);
+        if (taken || near_opening(anchors, grid.centre(v))) continue;
+        anchors.blind.push_back(v);
+        if (rise < kUsualRise * grid.spacing) anchors.low.push_back(v);
     }
 }
 
@@ -206,7 +213,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
     progress.report(0.5, "thinning the lumen");
     auto curve = thin(grid, grid.voxels, all, progress);
     progress.report(0.8, "thinning the lumen");
-    curve = prune(grid, std::move(curve), {anchors.fixed, anchors.blind},
+    curve = prune(grid, std::move(curve), {anchors.fixed, anchors.blind, anchors.low},
                   {parameters.blind_beyond_parent, parameters.blind_slenderness}, progress);
     const Skeleton skeleton = skeleton_of(grid, curve);
     attempt.loops = loop_count(skeleton);

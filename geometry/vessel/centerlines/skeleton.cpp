@@ -161,6 +161,7 @@ double significance(const LumenGrid& grid, const Skeleton& skeleton, std::size_t
         length += step_length(grid, path[i], path[i + 1]);
         if (i > exit) widest = std::max<double>(widest, grid.depth[path[i]]);
     }
+    if (widest > rule.widest) return 0.0;
     length += grid.depth[path.back()];
     const double least =
         std::max(rule.beyond_parent * grid.depth[skeleton.nodes[root]], rule.slenderness * widest);
@@ -170,7 +171,10 @@ double significance(const LumenGrid& grid, const Skeleton& skeleton, std::size_t
 std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
                            const CurveAnchors& anchors, const BlindBranchRule& rule,
                            const Progress& cancel) {
-    const auto& [fixed, blind] = anchors;
+    constexpr double kThin = 3.0;  // voxels
+    const auto& [fixed, blind, low] = anchors;
+    BlindBranchRule low_rule = rule;
+    low_rule.widest = kThin * grid.spacing;
     for (;;) {
         cancel.check_cancelled();
         const Skeleton skeleton = skeleton_of(grid, curve);
@@ -184,7 +188,8 @@ std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
                 const VoxelId v = skeleton.nodes[tip];
                 if (degree[tip] != 1 || degree[root] < 3) continue;
                 if (std::find(blind.begin(), blind.end(), v) == blind.end()) continue;
-                const double s = significance(grid, skeleton, b, tip, rule);
+                const bool is_low = std::ranges::find(low, v) != low.end();
+                const double s = significance(grid, skeleton, b, tip, is_low ? low_rule : rule);
                 if (s < least) {
                     least = s;
                     weakest = v;
@@ -200,8 +205,8 @@ std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
     return curve;
 }
 
-std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic, double height,
-                             const Progress& cancel) {
+std::vector<Summit> summits(const LumenGrid& grid, std::span<const float> geodesic, double height,
+                            const Progress& cancel) {
     constexpr std::uint32_t kTurns = 4096;  // a few milliseconds
     std::vector<VoxelId> order;
     for (const VoxelId v : grid.voxels) {
@@ -214,7 +219,7 @@ std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geode
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> rank(grid.lumen.size(), kNone);
     DisjointSets sets(order.size());
-    std::vector<VoxelId> found;
+    std::vector<Summit> found;
     const auto offsets = grid.neighbour_offsets();
     for (std::uint32_t r = 0; r < order.size(); ++r) {
         if (r % kTurns == 0) cancel.check_cancelled();
@@ -224,13 +229,13 @@ std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geode
             const std::uint32_t beside = rank[static_cast<VoxelId>(static_cast<int>(v) + o)];
             if (beside == kNone) continue;
             const VoxelId lower = order[std::max(sets.root(r), sets.root(beside))];
-            if (sets.join(r, beside) && geodesic[lower] - geodesic[v] >= height)
-                found.push_back(lower);
+            const double rise = geodesic[lower] - geodesic[v];
+            if (sets.join(r, beside) && rise >= height) found.push_back({lower, rise});
         }
     }
     for (std::uint32_t r = 0; r < order.size(); ++r)
-        if (sets.root(r) == r) found.push_back(order[r]);
-    std::sort(found.begin(), found.end());
+        if (sets.root(r) == r) found.push_back({order[r], std::numeric_limits<double>::infinity()});
+    std::ranges::sort(found, {}, &Summit::voxel);
     return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,9 +32,11 @@ struct Skeleton {
 struct BlindBranchRule {
     double beyond_parent = 1.0;  ///< times the parent's radius [-]
     double slenderness = 2.5;    ///< times the branch's own largest radius out there [-]
+    double widest = std::numeric_limits<double>::infinity();  ///< wider ones are none [mm]
 };
 
-/// Ratio of the length beyond the parent to that minimum; below 1 the branch is a bump or a sac.
+/// Ratio of the length beyond the parent to that minimum; below 1 the branch is a bump or a sac; 0
+/// if it is too wide.
 /// \param tip index of the branch's end node; the other end is a furcation
 [[nodiscard]] double significance(const LumenGrid& grid, const Skeleton& skeleton,
                                   std::size_t branch, std::size_t tip, const BlindBranchRule& rule);
@@ -42,6 +45,8 @@ struct BlindBranchRule {
 struct CurveAnchors {
     std::span<const VoxelId> fixed;  ///< kept whatever their branch
     std::vector<VoxelId>& blind;     ///< kept if their branch is significant
+    /// Of these, the ones that hardly rise (summits): their branch has to be thin, too.
+    std::span<const VoxelId> low = {};
 };
 
 /// The curve without insignificant blind branches, removed in ascending order of significance.
@@ -51,10 +56,15 @@ struct CurveAnchors {
                                          const CurveAnchors& anchors, const BlindBranchRule& rule,
                                          const Progress& cancel);
 
-/// Voxels at which the geodesic distance has a maximum that rises at least `height` [mm] above the
-/// highest pass to a higher one: candidates for the ends of blind branches, by voxel index. The
-/// highest maximum of every component is one of them. \throw Cancelled if the user cancels
-[[nodiscard]] std::vector<VoxelId> summits(const LumenGrid& grid, std::span<const float> geodesic,
-                                           double height, const Progress& cancel);
+/// A maximum of the geodesic distance.
+struct Summit {
+    VoxelId voxel = 0;
+    double rise = 0.0;  ///< above the highest pass to a higher one [mm]; infinite: there is none
+};
+
+/// The maxima that rise at least `height` [mm]: candidates for the ends of blind branches, by voxel
+/// index. \throw Cancelled if the user cancels
+[[nodiscard]] std::vector<Summit> summits(const LumenGrid& grid, std::span<const float> geodesic,
+                                          double height, const Progress& cancel);
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "geometry/vessel/openings/fading_ends.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -43,14 +44,25 @@ VoxelWidth width_at_tip(const CenterlineGraph& graph, std::size_t tip, const Vox
     const CenterlineBranch& branch = graph.branches[index];
     const double zone = furcation_zone_end(graph, index, other_node(graph, index, tip));
     const double own = branch_length(branch) - zone, radius = tip_radius(graph, tip);
+    const auto diameter_at = [&](double s) {
+        return 2.0 * radius_at(branch, place_from_node(graph, index, tip, s).abscissa);
+    };
+    const auto voxels_at = [&](double s) {
+        return voxels_across(outward_direction(graph, tip, s), voxels);
+    };
     const double to = std::min(kTo * radius, own), from = std::min(kFrom * radius, 0.5 * to);
     VoxelWidth width;
+    std::array<double, kSamples> ratios{};
     for (int i = 0; i < kSamples; ++i) {
         const double s = from + (to - from) * (i + 0.5) / kSamples;
-        const BranchPlace at = place_from_node(graph, index, tip, s);
-        width.diameter += 2.0 * radius_at(branch, at.abscissa) / kSamples;
-        width.voxels += voxels_across(outward_direction(graph, tip, s), voxels) / kSamples;
+        width.diameter += diameter_at(s) / kSamples;
+        width.voxels += voxels_at(s) / kSamples;
+        const double anywhere = own * (i + 0.5) / kSamples;
+        ratios[i] = diameter_at(anywhere) / voxels_at(anywhere);
     }
+    const auto quarter = ratios.begin() + kSamples / 4;
+    std::ranges::nth_element(ratios, quarter);
+    width.lower_quartile = *quarter;
     return width;
 }
 

@@ -32,6 +32,8 @@ constexpr double kNoticedTiltDeg = 2.0;
 constexpr double kNoticedDoubtDeg = 2.0;
 /// A point this far from a tip does not mean it [radii of the tip].
 constexpr double kFarthestTip = 4.0;
+/// A shorter branch may be a bump of the wall [radii].
+constexpr double kLeastProtrusion = 1.0 / 3.0;
 
 std::string degrees_text(double angle) {
     return formatted(angle, "%.0f degrees");
@@ -205,6 +207,12 @@ private:
                             place_text(ends_[*facing[e]].centre);
                 continue;
             }
+            const auto blind = blind_branch(graph_, *ends_[e].tip);
+            if (blind && blind->length < kLeastProtrusion * blind->widest) {
+                doubts[e] = "it protrudes by " + formatted(blind->length) +
+                            " mm only from the vessels around";
+                continue;
+            }
             if (!options_.voxels) continue;
             const VoxelWidth width = width_at_tip(graph_, *ends_[e].tip, *options_.voxels);
             if (width.is_fading())
@@ -230,16 +238,15 @@ private:
             return close(e, "it lies in the side of a vessel that passes there");
         if (!end.is_visible() && options_.leave_closed && !is_wanted(e)) {
             records_[e].asked = true;
-            return close(e, "closed ends are left as they are" + opening_text(e));
+            return close_offering(e, "closed ends are left as they are");
         }
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
             records_[e].sac = blind && blind->bulges;
-            return close(e,
-                         "a closed end: the surface's own rims are its openings" + opening_text(e));
+            return close_offering(e, "a closed end: the surface's own rims are its openings");
         }
         if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
-        if (!doubt.empty() && is_spare(e)) return close(e, doubt + opening_text(e));
+        if (!doubt.empty() && is_spare(e)) return close_offering(e, doubt);
         if (cut(e)) return;
         if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
         if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
@@ -273,17 +280,18 @@ private:
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         if (!blind || !blind->is_short()) return false;
+        const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        if (!blind->bulges && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind)))
-            return false;
-        records_[e].sac = blind->bulges;
-        close(e, std::string(blind->bulges ? "it looks like an aneurysm" : "its branch is short") +
-                     opening_text(e));
+        if (!sac && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind))) return false;
+        records_[e].sac = sac;
+        close_offering(e, sac ? "it looks like an aneurysm" : "its branch is short");
         return true;
     }
 
-    std::string opening_text(std::size_t e) const {
-        return "; open=" + coordinates_argument(ends_[e].centre) + " opens it";
+    /// The reason says how to open it nevertheless.
+    void close_offering(std::size_t e, const std::string& why) {
+        records_[e].offered = true;
+        close(e, why + "; open=" + coordinates_argument(ends_[e].centre) + " opens it");
     }
 
     bool is_stub(std::size_t e) const {

@@ -47,11 +47,12 @@ struct EndRecord {
     Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
     double diameter = 0.0;      ///< of the vessel there [mm]
     EndFate fate = EndFate::Closed;
-    std::string why;     ///< may be empty: opened at the chosen place
-    bool plain = false;  ///< kept, or opened at the chosen place
-    bool sac = false;    ///< it looks like an aneurysm: closed, however wide
-    bool asked = false;  ///< closed since the caller wants it so
-    bool tried = false;  ///< closed since it could not be cut
+    std::string why;       ///< may be empty: opened at the chosen place
+    bool plain = false;    ///< kept, or opened at the chosen place
+    bool sac = false;      ///< it looks like an aneurysm: closed, however wide
+    bool asked = false;    ///< closed since the caller wants it so
+    bool tried = false;    ///< closed since it could not be cut
+    bool offered = false;  ///< closed by a rule: `open` may open it, as `why` says
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 
@@ -107,12 +108,12 @@ inline constexpr double kEndReach = 1.5;
 /// fewer than two of these, or only cuts at an image's border, every other tip as well, except an
 /// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a flat cap is
 /// kept as it is. A closed end that fades from the image, thinner than its voxels (width_at_tip),
-/// or that faces another one across a gap (facing_ends) stays closed if two others are open and one
-/// of them is wider. Every other end is cut at the chosen place (choose_opening_place); else at the
-/// nearest place with a whole section; else its branch is removed if it is a stub, shorter than its
-/// parent is wide; else it is closed as wall. \throw AlgorithmFailure if there is no end, no branch
-/// has its tip near `tip`, the end at `tip` or one of `inlets` or `open` cannot be opened;
-/// Cancelled if the user cancels
+/// that faces another one across a gap (facing_ends), or that hardly protrudes, stays closed if two
+/// others are open and one of them is wider. Every other end is cut at the chosen place
+/// (choose_opening_place); else at the nearest place with a whole section; else its branch is
+/// removed if it is a stub, shorter than its parent is wide; else it is closed as wall. \throw
+/// AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip` or one
+/// of `inlets` or `open` cannot be opened; Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {},
                                         const Progress& progress = {});

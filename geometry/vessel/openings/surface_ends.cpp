@@ -7,7 +7,9 @@
 
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/hole_filling.h"
+#include "geometry/kernel/cross_section.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/openings.h"
 
 namespace vesselbench {
@@ -23,6 +25,9 @@ constexpr double kSacLength = 2.5;
 /// in at most this many radii beyond the vessels around it.
 constexpr double kBallToNeck = 1.15;
 constexpr double kBallLength = 1.5;
+/// Its sections' diameters rise by this factor; those of short vessels in voxels by at most 1.13.
+constexpr double kBallSections = 1.2;
+constexpr int kSections = 20;
 /// A stub is shorter than this many of its parent's diameters.
 constexpr double kStubShare = 1.0;
 
@@ -109,6 +114,27 @@ double rise_behind_neck(const CenterlineGraph& graph, std::size_t branch, std::s
     return rise;
 }
 
+/// The same by the diameters of the wall's sections: the line may run beside a ball's middle, where
+/// the inscribed circles are small.
+double section_rise(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
+    const std::size_t index = branch_of_tip(graph, tip);
+    const std::size_t root = other_node(graph, index, tip);
+    const double whole = branch_length(graph.branches[index]), from = graph.nodes[root].radius;
+    const Surface near = part_near(surface, graph.nodes[tip].position, whole + 2.0 * from);
+    double neck = std::numeric_limits<double>::infinity(), rise = 1.0;
+    for (int k = 0; k <= kSections; ++k) {
+        const double inward = std::max(0.0, whole - from) * (kSections - k) / kSections;
+        const BranchPlace place = place_from_node(graph, index, tip, inward);
+        const Plane plane{point_at(graph.branches[index], place.abscissa),
+                          outward_direction(graph, tip, inward)};
+        const auto curve = cross_section_at(near, plane);
+        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) continue;
+        neck = std::min(neck, curve->diameter());
+        rise = std::max(rise, curve->diameter() / neck);
+    }
+    return rise;
+}
+
 }  // namespace
 
 std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const CenterlineGraph& graph) {
@@ -177,6 +203,12 @@ std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_
                    (found.length < kBallLength * found.widest &&
                     rise_behind_neck(graph, index, root) > kBallToNeck);
     return found;
+}
+
+bool is_ball(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
+    const auto blind = blind_branch(graph, tip);
+    return blind && blind->length < kBallLength * blind->widest &&
+           section_rise(surface, graph, tip) > kBallSections;
 }
 
 bool is_trunk(const CenterlineGraph& graph, std::size_t tip) {

@@ -49,6 +49,10 @@ struct BlindBranch {
 [[nodiscard]] std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph,
                                                       std::size_t tip);
 
+/// True for a sac that hardly protrudes, by its sections: at most 1.5 radii of it lie beyond the
+/// vessels around, and it is wider than its neck.
+[[nodiscard]] bool is_ball(const Surface& surface, const CenterlineGraph& graph, std::size_t tip);
+
 /// True for a vessel that others leave: none of the ends is clearly wider, it is clearly wider than
 /// one of the vessels at its furcation, and it is no sac.
 [[nodiscard]] bool is_trunk(const CenterlineGraph& graph, std::size_t tip);
