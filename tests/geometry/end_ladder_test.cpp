@@ -17,6 +17,7 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/openings/rim_shape.h"
 #include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/iso_surface.h"
@@ -169,6 +170,45 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
         CHECK(made.patches.size() == 2);
         CHECK_THROWS_WITH(check_flow(plan), Contains("two openings") && Contains("as asked"));
     }
+}
+
+SCENARIO("A torn rim without a whole section is cut along itself", "[geometry][openings]") {
+    CenterlineGraph graph = line_graph();  // ends too far from the rim
+    graph.branches[0].points.resize(60);
+    graph.branches[0].radii.resize(60);
+    graph.nodes[1].position = graph.branches[0].points.back();
+    const Surface tube = ragged_tube();
+    const OpeningPlan plan = plan_openings(tube, graph);
+    REQUIRE(plan.openings.size() == 2);
+    CHECK(upper(plan).place.plane.point.z() > 27.0);
+    CHECK_THAT(end_at(plan, Vec3(0, 0, 30)).why, Contains("along its rim"));
+    CHECK(is_closed_manifold(clip_openings(tube, plan).surface));
+}
+
+SCENARIO("A trunk cut close to its furcation is an end, not a vessel's side",
+         "[geometry][openings]") {
+    constexpr double kCut = 2.5;
+    const auto branch = [](double x) {
+        return VesselShape{.points = {Vec3::Zero(), Vec3(10.0 * x, 0, 17.3)},
+                           .radii = {1.5, 1.5},
+                           .flat_ends = false};
+    };
+    const std::vector<PhantomPart> parts = {{.name = "left", .shape = branch(-1.0)},
+                                            {.name = "right", .shape = branch(1.0), .blend = 0.2}};
+    const PhantomField field(parts);
+    const Surface flat =
+        mapped(exact_surface(field, field.bounds(), 0.3),
+               [&](const Vec3& p) -> Vec3 { return Vec3(p.x(), p.y(), std::max(p.z(), kCut)); });
+    std::vector<bool> keep;
+    for (const Triangle& t : flat.triangles())
+        keep.push_back(
+            std::ranges::any_of(t, [&](VertexId v) { return flat.points()[v].z() > kCut; }));
+    const Surface open = repair(select_triangles(flat, keep)).surface;
+    REQUIRE(open.topology->boundary_loops().size() == 1);
+    REQUIRE(rim_shape(open, open.topology->boundary_loops().front()).is_graze());
+    const OpeningPlan plan = plan_openings(open, *centerlines_of(open));
+    CHECK(plan.openings.size() == 3);
+    CHECK(end_at(plan, Vec3(0, 0, kCut)).fate == EndFate::Kept);
 }
 
 SCENARIO("The widest vessel of an image is opened, though it is short", "[geometry][openings]") {

@@ -29,6 +29,9 @@ constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind
 /// Fraction of the area; with more, the surface is not a vessel: a short bifurcation has 0.35.
 constexpr double kMostFlat = 0.45;
 
+/// Area of a mouth over that of the smallest closure: only coarse walls have smaller flat places.
+constexpr double kLeastMouth = 0.5;
+
 constexpr TriangleId kNone = static_cast<TriangleId>(-1);
 
 /// The triangle across each of a triangle's edges; kNone unless there is exactly one.
@@ -218,12 +221,12 @@ private:
     std::uint32_t visit_ = 0;
 };
 
-/// Drops the mouths that became part of a closure or are smaller than all of them.
+/// Drops the mouths that became part of a closure or are much smaller than all of them.
 void keep_mouths(const Search& search, FlatDiscs& discs, const std::vector<bool>& in_closure) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& disc : discs.closures) least = std::min(least, search.area(disc));
     std::erase_if(discs.mouths, [&](const auto& mouth) {
-        return search.area(mouth) < least ||
+        return search.area(mouth) < kLeastMouth * least ||
                std::ranges::any_of(mouth, [&](TriangleId t) { return in_closure[t]; });
     });
 }

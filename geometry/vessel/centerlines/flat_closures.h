@@ -16,7 +16,8 @@ struct FlatDiscs {
     /// round, bounded by a sharp rim, and as wide as the lumen behind them.
     std::vector<std::vector<TriangleId>> closures;
     /// They close the mouths of something wider beside such vessels, as a valve's of a heart's
-    /// chamber: the same, but narrower than the lumen, and no smaller than the smallest closure.
+    /// chamber: the same, but narrower than the lumen, and not much smaller than the smallest
+    /// closure.
     std::vector<std::vector<TriangleId>> mouths;
 };
 
