@@ -52,16 +52,16 @@ Surface ragged_tube() {
 }
 
 /// A vessel of radius 1.6 mm along z whose ends an image's border cuts, and a blind one of radius
-/// 2 mm from its middle to (`reach`, 0, 0).
-Surface blind_trunk(double reach) {
-    const auto vessel = [](const Vec3& from, const Vec3& to, double radius, bool flat) {
-        return VesselShape{.points = {from, to}, .radii = {radius, radius}, .flat_ends = flat};
+/// `root` from its middle to (`reach`, 0, 0), where its radius is `tip`.
+Surface blind_trunk(double reach, double root = 2.0, double tip = 2.0) {
+    const auto vessel = [&](const Vec3& from, const Vec3& to, bool flat) {
+        return VesselShape{.points = {from, to},
+                           .radii = {flat ? 1.6 : root, flat ? 1.6 : tip},
+                           .flat_ends = flat};
     };
     const std::vector<PhantomPart> parts = {
-        {.name = "vessel", .shape = vessel(Vec3(0, 0, -15), Vec3(0, 0, 15), 1.6, true)},
-        {.name = "trunk",
-         .shape = vessel(Vec3(0, 0, 0), Vec3(reach, 0, 0), 2.0, false),
-         .blend = 0.5}};
+        {.name = "vessel", .shape = vessel(Vec3(0, 0, -15), Vec3(0, 0, 15), true)},
+        {.name = "trunk", .shape = vessel(Vec3(0, 0, 0), Vec3(reach, 0, 0), false), .blend = 0.5}};
     const PhantomField field(parts);
     const Surface closed = exact_surface(field, field.bounds(), 0.3);
     Surface made = clip_openings(closed, plan_openings(closed, *centerlines_of(closed),
@@ -212,8 +212,8 @@ SCENARIO("A trunk cut close to its furcation is an end, not a vessel's side",
 }
 
 SCENARIO("The widest vessel of an image is opened, though it is short", "[geometry][openings]") {
-    const auto end_of_trunk = [](double reach) {
-        const Surface surface = blind_trunk(reach);
+    const auto end_of_trunk = [](double reach, double root, double tip_radius) {
+        const Surface surface = blind_trunk(reach, root, tip_radius);
         const auto graph = centerlines_of(surface);
         const OpeningPlan plan = plan_openings(surface, *graph, {.border_cuts = true});
         const auto end = std::ranges::max_element(
@@ -226,8 +226,9 @@ SCENARIO("The widest vessel of an image is opened, though it is short", "[geomet
         CHECK(blind->is_short());
         return end->fate;
     };
-    CHECK(end_of_trunk(8.5) == EndFate::Opened);
-    CHECK(end_of_trunk(6.0) != EndFate::Opened);
+    CHECK(end_of_trunk(8.5, 2.0, 2.0) == EndFate::Opened);
+    CHECK(end_of_trunk(6.0, 2.0, 2.0) != EndFate::Opened);
+    CHECK(end_of_trunk(8.2, 2.2, 1.6) == EndFate::Opened);  // hardly wider at its tip
 }
 
 SCENARIO("A vessel thinner than its image's voxels fades from it, and has no end to be opened",

@@ -276,10 +276,11 @@ private:
     }
 
     /// As long as it is wide, and wider than every visible end: it is where the blood enters, and
-    /// the image, or its mask, ends there.
+    /// the image, or its mask, ends there. Its tip is rounded, so its width is the branch's.
     bool is_trunk(std::size_t e, const BlindBranch& blind) const {
+        const double width = std::max(ends_[e].diameter, 2.0 * blind.widest);
         const bool widest = std::ranges::none_of(ends_, [&](const SurfaceEnd& other) {
-            return other.is_visible() && kAsLarge * other.diameter >= ends_[e].diameter;
+            return other.is_visible() && kAsLarge * other.diameter >= width;
         });
         return widest && blind.length >= 2.0 * blind.widest;
     }
