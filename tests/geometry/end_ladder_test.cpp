@@ -17,6 +17,7 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/openings/rim_shape.h"
 #include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/iso_surface.h"
@@ -51,16 +52,16 @@ Surface ragged_tube() {
 }
 
 /// A vessel of radius 1.6 mm along z whose ends an image's border cuts, and a blind one of radius
-/// 2 mm from its middle to (`reach`, 0, 0).
-Surface blind_trunk(double reach) {
-    const auto vessel = [](const Vec3& from, const Vec3& to, double radius, bool flat) {
-        return VesselShape{.points = {from, to}, .radii = {radius, radius}, .flat_ends = flat};
+/// `root` from its middle to (`reach`, 0, 0), where its radius is `tip`.
+Surface blind_trunk(double reach, double root = 2.0, double tip = 2.0) {
+    const auto vessel = [&](const Vec3& from, const Vec3& to, bool flat) {
+        return VesselShape{.points = {from, to},
+                           .radii = {flat ? 1.6 : root, flat ? 1.6 : tip},
+                           .flat_ends = flat};
     };
     const std::vector<PhantomPart> parts = {
-        {.name = "vessel", .shape = vessel(Vec3(0, 0, -15), Vec3(0, 0, 15), 1.6, true)},
-        {.name = "trunk",
-         .shape = vessel(Vec3(0, 0, 0), Vec3(reach, 0, 0), 2.0, false),
-         .blend = 0.5}};
+        {.name = "vessel", .shape = vessel(Vec3(0, 0, -15), Vec3(0, 0, 15), true)},
+        {.name = "trunk", .shape = vessel(Vec3(0, 0, 0), Vec3(reach, 0, 0), false), .blend = 0.5}};
     const PhantomField field(parts);
     const Surface closed = exact_surface(field, field.bounds(), 0.3);
     Surface made = clip_openings(closed, plan_openings(closed, *centerlines_of(closed),
@@ -171,9 +172,48 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
     }
 }
 
+SCENARIO("A torn rim without a whole section is cut along itself", "[geometry][openings]") {
+    CenterlineGraph graph = line_graph();  // ends too far from the rim
+    graph.branches[0].points.resize(60);
+    graph.branches[0].radii.resize(60);
+    graph.nodes[1].position = graph.branches[0].points.back();
+    const Surface tube = ragged_tube();
+    const OpeningPlan plan = plan_openings(tube, graph);
+    REQUIRE(plan.openings.size() == 2);
+    CHECK(upper(plan).place.plane.point.z() > 27.0);
+    CHECK_THAT(end_at(plan, Vec3(0, 0, 30)).why, Contains("along its rim"));
+    CHECK(is_closed_manifold(clip_openings(tube, plan).surface));
+}
+
+SCENARIO("A trunk cut close to its furcation is an end, not a vessel's side",
+         "[geometry][openings]") {
+    constexpr double kCut = 2.5;
+    const auto branch = [](double x) {
+        return VesselShape{.points = {Vec3::Zero(), Vec3(10.0 * x, 0, 17.3)},
+                           .radii = {1.5, 1.5},
+                           .flat_ends = false};
+    };
+    const std::vector<PhantomPart> parts = {{.name = "left", .shape = branch(-1.0)},
+                                            {.name = "right", .shape = branch(1.0), .blend = 0.2}};
+    const PhantomField field(parts);
+    const Surface flat =
+        mapped(exact_surface(field, field.bounds(), 0.3),
+               [&](const Vec3& p) -> Vec3 { return Vec3(p.x(), p.y(), std::max(p.z(), kCut)); });
+    std::vector<bool> keep;
+    for (const Triangle& t : flat.triangles())
+        keep.push_back(
+            std::ranges::any_of(t, [&](VertexId v) { return flat.points()[v].z() > kCut; }));
+    const Surface open = repair(select_triangles(flat, keep)).surface;
+    REQUIRE(open.topology->boundary_loops().size() == 1);
+    REQUIRE(rim_shape(open, open.topology->boundary_loops().front()).is_graze());
+    const OpeningPlan plan = plan_openings(open, *centerlines_of(open));
+    CHECK(plan.openings.size() == 3);
+    CHECK(end_at(plan, Vec3(0, 0, kCut)).fate == EndFate::Kept);
+}
+
 SCENARIO("The widest vessel of an image is opened, though it is short", "[geometry][openings]") {
-    const auto end_of_trunk = [](double reach) {
-        const Surface surface = blind_trunk(reach);
+    const auto end_of_trunk = [](double reach, double root, double tip_radius) {
+        const Surface surface = blind_trunk(reach, root, tip_radius);
         const auto graph = centerlines_of(surface);
         const OpeningPlan plan = plan_openings(surface, *graph, {.border_cuts = true});
         const auto end = std::ranges::max_element(
@@ -186,8 +226,9 @@ SCENARIO("The widest vessel of an image is opened, though it is short", "[geomet
         CHECK(blind->is_short());
         return end->fate;
     };
-    CHECK(end_of_trunk(8.5) == EndFate::Opened);
-    CHECK(end_of_trunk(6.0) != EndFate::Opened);
+    CHECK(end_of_trunk(8.5, 2.0, 2.0) == EndFate::Opened);
+    CHECK(end_of_trunk(6.0, 2.0, 2.0) != EndFate::Opened);
+    CHECK(end_of_trunk(8.2, 2.2, 1.6) == EndFate::Opened);  // hardly wider at its tip
 }
 
 SCENARIO("A vessel thinner than its image's voxels fades from it, and has no end to be opened",

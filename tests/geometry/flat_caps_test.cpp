@@ -1,5 +1,6 @@
 #include "geometry/vessel/openings/flat_caps.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
@@ -72,6 +73,33 @@ SCENARIO("Flat caps of a closed surface without labels are kept as its openings"
                 CHECK(kept == (slope == 0.0 ? 2 : 1));
             }
         }
+}
+
+SCENARIO("An oblique cap of a narrowing vessel is found", "[geometry][openings]") {
+    // Along a seventh of its rim, cap and wall meet at less than 40 degrees.
+    const Surface tube = mapped(closed_tube(2.0, 30.0, 40, 90), [](const Vec3& p) -> Vec3 {
+        const double width = 1.0 - 0.26 * std::max(0.0, p.z() - 28.5);
+        const double slope = 0.6 * std::max(0.0, (p.z() - 15.0) / 15.0);
+        return Vec3(width * p.x(), width * p.y(), p.z() + slope * width * p.x());
+    });
+    CHECK(label_flat_caps(unlabelled(tube)).patches.size() == 3);
+}
+
+SCENARIO("The caps of a short piece of a vessel are found", "[geometry][openings]") {
+    CHECK(label_flat_caps(unlabelled(closed_tube(2.0, 4.0, 40, 12))).patches.size() == 3);
+}
+
+SCENARIO("The flat mouth of a chamber beside a vessel is found", "[geometry][openings]") {
+    // A vessel of radius 2 leads into a ball of radius 12, which has a mouth of radius 4.8.
+    const Surface chamber = mapped(closed_tube(2.0, 38.0, 40, 120), [](const Vec3& p) {
+        const double beside = p.z() - 27.0;
+        const double radius = std::sqrt(std::max(4.0, 144.0 - beside * beside));
+        return Vec3(0.5 * radius * p.x(), 0.5 * radius * p.y(), p.z());
+    });
+    const Surface found = label_flat_caps(unlabelled(chamber));
+    REQUIRE(found.patches.size() == 3);
+    const OpeningPlan plan = plan_openings(found, *centerlines_of(found, {}, {}));
+    CHECK(std::ranges::count(plan.openings, OpeningWay::KeepCap, &PlannedOpening::way) == 2);
 }
 
 SCENARIO("What closes no vessel is no cap", "[geometry][openings]") {

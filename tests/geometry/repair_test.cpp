@@ -1,5 +1,6 @@
 #include "geometry/vessel/repair/repair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -125,6 +126,40 @@ SCENARIO("Stray holes are closed, vessel ends stay open", "[geometry][repair]") 
         CHECK(repair(holed, {.close_holes_up_to = 10.0}).report.openings.empty());
         CHECK(repair(holed, {.close_holes_up_to = 0.0}).report.closed_holes == 0);
     }
+}
+
+SCENARIO("A vessel's end stays open though its rim is torn", "[geometry][repair]") {
+    // Every second tooth of the rim is half a radius long.
+    const Surface tube = mapped(open_tube(2.0, 24.0, 32, 120), [](const Vec3& p) -> Vec3 {
+        const int tooth =
+            static_cast<int>(std::lround(std::atan2(p.y(), p.x()) * 16.0 / std::numbers::pi));
+        const double length = p.z() > 23.9 && tooth % 2 == 0 ? 1.0 : 0.0;
+        return Vec3(p + Vec3(0.0, 0.0, length));
+    });
+    const Repaired repaired = repair(tube);
+    CHECK(repaired.report.closed_holes == 0);
+    CHECK(repaired.report.openings.size() == 2);
+    WHEN("a slit is closed that is as long as the vessel is wide") {
+        const Surface slit = mapped(tube, [](const Vec3& p) -> Vec3 {
+            return Vec3(p.x(), p.z() > 12.0 ? 0.02 * p.y() : p.y(), p.z());
+        });
+        CHECK(repair(slit).report.closed_holes == 1);
+    }
+}
+
+SCENARIO("A plane's oblique cut beside something wide stays open", "[geometry][repair]") {
+    // An ellipse of 1 : 2.2 in a bulge that is three times as wide.
+    constexpr double kHeight = 9.7;
+    const Surface flat = mapped(icosphere(10.0, 5), [&](const Vec3& p) -> Vec3 {
+        return Vec3(2.2 * p.x(), p.y(), std::min(p.z(), kHeight));
+    });
+    std::vector<bool> keep;
+    for (const Triangle& t : flat.triangles())
+        keep.push_back(
+            std::ranges::any_of(t, [&](VertexId v) { return flat.points()[v].z() < kHeight; }));
+    const Repaired repaired = repair(select_triangles(flat, keep));
+    CHECK(repaired.report.closed_holes == 0);
+    CHECK(repaired.report.openings.size() == 1);
 }
 
 SCENARIO("Bodies that touch at a vertex or an edge are separated", "[geometry][repair]") {

@@ -76,7 +76,8 @@ ordered_json report_json(const RepairReport& report) {
             {"places", places_json(report.places)}};
 }
 
-std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before) {
+std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before,
+                                     bool given_radius) {
     std::vector<std::string> warnings;
     if (const auto& vessel = report.removed_vessel)
         warnings.push_back(
@@ -91,6 +92,11 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
                            counted(report.removed_components, "unconnected piece") + " with " +
                            counted(report.removed_component_triangles, "triangle") +
                            "; keep more of them with keep_components=");
+    if (const auto& end = report.closed_end; end && !given_radius)
+        warnings.push_back("repair closed a hole at " + place_text(end->position) + ", " +
+                           formatted(2.0 * end->size) +
+                           " mm wide, as wide as the vessel behind it; close_holes_up_to=" +
+                           formatted(0.9 * end->size) + " leaves it open");
     if (report.turned_inside_out)
         warnings.push_back("the surface was inside out; its orientation was reversed");
     return warnings;
@@ -116,7 +122,8 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     Outcome outcome;
     outcome.resolved = arguments;
     ordered_json report = report_json(repaired.report);
-    outcome.warnings = warnings_of(repaired.report, surface);
+    outcome.warnings =
+        warnings_of(repaired.report, surface, parameters.close_holes_up_to.has_value());
     if (arguments.flag("caps") && !scene.image) {
         const std::size_t before = repaired.surface.patches.size();
         repaired.surface = label_flat_caps(repaired.surface);
@@ -143,7 +150,7 @@ Operation repair_operation() {
               .unit = "mm",
               .help = "close holes up to this radius; default: close holes that are not "
                       "vessel ends, because they are much narrower than the lumen behind them, or "
-                      "ragged",
+                      "slits",
               .minimum = 0.0},
              {.name = "keep_components",
               .type = Integer,

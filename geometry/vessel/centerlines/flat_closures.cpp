@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -19,10 +20,17 @@ constexpr double kFlatRim = 0.0524;   ///< tangent of 3 degrees: height over rad
 constexpr double kFlatDisc = 0.1405;  ///< tangent of 8 degrees: the same inside an uneven disc
 constexpr int kGrowths = 6;           ///< rounds after which a disc has found its size
 constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns away by more
+/// Cosine of 25 degrees: the same for a disc in one plane. At an oblique cap of a bent or narrowing
+/// vessel a seventh of the rim turns by less than 40; at a knob of a few triangles, too.
+constexpr double kPlanarRim = 0.906;
 constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be sharp
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
 constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind it, in radii
-constexpr double kMostFlat = 0.3;  ///< fraction of the area; with more, the surface is not a vessel
+/// Fraction of the area; with more, the surface is not a vessel: a short bifurcation has 0.35.
+constexpr double kMostFlat = 0.45;
+
+/// Area of a mouth over that of the smallest closure: only coarse walls have smaller flat places.
+constexpr double kLeastMouth = 0.5;
 
 constexpr TriangleId kNone = static_cast<TriangleId>(-1);
 
@@ -103,8 +111,14 @@ public:
         return region;
     }
 
-    bool closes_vessel(const std::vector<TriangleId>& region,
+    /// \param turn cosine of the angle by which the wall turns away at the rim
+    bool closes_vessel(const std::vector<TriangleId>& region, double turn,
                        const SurfaceDistance& surface) const {
+        return is_disc(region, turn) && lumen_behind(region, surface) < kWidestLumen;
+    }
+
+    /// True if it is round and bounded by a sharp rim.
+    bool is_disc(const std::vector<TriangleId>& region, double turn) const {
         const auto [centre, normal, area] = disc_of(region);
         double rim = 0.0;
         double sharp = 0.0;
@@ -117,14 +131,21 @@ public:
                 const double length =
                     (points_[triangles_[t][(k + 1) % 3]] - points_[triangles_[t][k]]).norm();
                 rim += length;
-                if (other != kNone && normals_[other].dot(normal) < kRim) sharp += length;
+                if (other != kNone && normals_[other].dot(normal) < turn) sharp += length;
             }
         }
-        if (sharp < kSharpRim * rim) return false;
-        if (4.0 * std::numbers::pi * area < kRoundness * rim * rim) return false;
+        return sharp >= kSharpRim * rim && 4.0 * std::numbers::pi * area >= kRoundness * rim * rim;
+    }
+
+    /// Distance to the wall two radii behind a disc, in radii; infinite if one radius behind it is
+    /// not inside.
+    double lumen_behind(const std::vector<TriangleId>& region,
+                        const SurfaceDistance& surface) const {
+        const auto [centre, normal, area] = disc_of(region);
         const double radius = std::sqrt(area / std::numbers::pi);
-        const double behind = surface.closest_point(centre - 2.0 * radius * normal).distance;
-        return behind < kWidestLumen * radius && surface.inside(centre - radius * normal);
+        if (!surface.inside(centre - radius * normal))
+            return std::numeric_limits<double>::infinity();
+        return surface.closest_point(centre - 2.0 * radius * normal).distance / radius;
     }
 
     /// True if the rim lies in its plane.
@@ -200,11 +221,20 @@ private:
     std::uint32_t visit_ = 0;
 };
 
+/// Drops the mouths that became part of a closure or are much smaller than all of them.
+void keep_mouths(const Search& search, FlatDiscs& discs, const std::vector<bool>& in_closure) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& disc : discs.closures) least = std::min(least, search.area(disc));
+    std::erase_if(discs.mouths, [&](const auto& mouth) {
+        return search.area(mouth) < kLeastMouth * least ||
+               std::ranges::any_of(mouth, [&](TriangleId t) { return in_closure[t]; });
+    });
+}
+
 }  // namespace
 
-std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
-                                                        std::span<const Triangle> triangles,
-                                                        const SurfaceDistance& surface) {
+FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> triangles,
+                             const SurfaceDistance& surface) {
     Search search(points, triangles);
     const double whole = search.whole_area();
     std::vector<bool> taken(triangles.size(), false);
@@ -212,7 +242,7 @@ std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
     // Area of the largest planar region that was grown over a triangle without success: on a large
     // smooth wall, thousands of smaller ones would grow over the same patches.
     std::vector<double> tried(triangles.size(), 0.0);
-    std::vector<std::vector<TriangleId>> discs;
+    FlatDiscs discs;
     double flat = 0.0;
     for (TriangleId t = 0; t < triangles.size(); ++t) {
         if (taken[t]) continue;
@@ -220,20 +250,25 @@ std::vector<std::vector<TriangleId>> find_flat_closures(const Positions& points,
         const double planar = search.area(region);
         // A disc has at least as many triangles as a hexagon, and is not tiny.
         if (region.size() < 4 || planar < 1e-5 * whole) continue;
-        if (!search.closes_vessel(region, surface)) {
+        if (!search.closes_vessel(region, kPlanarRim, surface)) {
+            if (search.is_disc(region, kPlanarRim) &&
+                std::isfinite(search.lumen_behind(region, surface)))
+                discs.mouths.push_back(region);
             if (tried[t] >= planar) continue;
             region = search.settled(std::move(region));
             const bool known = std::ranges::any_of(region, [&](TriangleId r) { return found[r]; });
-            if (known || !search.closes_vessel(region, surface) || !search.has_flat_rim(region)) {
+            if (known || !search.closes_vessel(region, kRim, surface) ||
+                !search.has_flat_rim(region)) {
                 for (const TriangleId r : region) tried[r] = std::max(tried[r], planar);
                 continue;
             }
         }
         for (const TriangleId r : region) taken[r] = found[r] = true;
         flat += search.area(region);
-        discs.push_back(std::move(region));
+        discs.closures.push_back(std::move(region));
     }
-    if (flat > kMostFlat * whole) discs.clear();
+    if (flat > kMostFlat * whole || discs.closures.empty()) return {};
+    keep_mouths(search, discs, found);
     return discs;
 }
 

@@ -10,14 +10,22 @@ namespace vesselbench {
 
 class SurfaceDistance;
 
-/// Flat discs that close the ends of vessels in a surface without labels (a capped model, a vessel
-/// cut at an image's border): planar, round, bounded by a sharp rim, and as wide as the lumen
-/// behind them.
+/// Flat discs of a surface without labels, each by its triangles' indices, ascending.
+struct FlatDiscs {
+    /// They close the ends of vessels (a capped model, a vessel cut at an image's border): planar,
+    /// round, bounded by a sharp rim, and as wide as the lumen behind them.
+    std::vector<std::vector<TriangleId>> closures;
+    /// They close the mouths of something wider beside such vessels, as a valve's of a heart's
+    /// chamber: the same, but narrower than the lumen, and not much smaller than the smallest
+    /// closure.
+    std::vector<std::vector<TriangleId>> mouths;
+};
+
 /// \param points [mm]
 /// \param triangles outward, closed
 /// \param surface the same triangles, for distances
-/// \return per disc its triangles' indices, ascending; by first triangle
-[[nodiscard]] std::vector<std::vector<TriangleId>> find_flat_closures(
-    const Positions& points, std::span<const Triangle> triangles, const SurfaceDistance& surface);
+[[nodiscard]] FlatDiscs find_flat_closures(const Positions& points,
+                                           std::span<const Triangle> triangles,
+                                           const SurfaceDistance& surface);
 
 }  // namespace vesselbench

@@ -130,7 +130,7 @@ void turn_outside(VesselWall& wall) {
 }
 
 void separate_flat_closures(VesselWall& wall) {
-    const auto discs = find_flat_closures(wall.points, wall.closed, *wall.distance);
+    const auto discs = find_flat_closures(wall.points, wall.closed, *wall.distance).closures;
     std::vector<bool> flat(wall.closed.size(), false);
     for (const auto& disc : discs) {
         std::vector<Triangle> triangles;

@@ -68,6 +68,22 @@ Surface flattened(const Surface& surface, std::size_t patch) {
     return surface.with_positions(std::move(points));
 }
 
+/// With discs as patches of kind Cut.
+Surface with_caps(const Surface& surface, const std::vector<std::vector<TriangleId>>& discs) {
+    PatchLabels labels(surface.triangle_count(), 0);
+    std::vector<Patch> patches = surface.patches;
+    for (const auto& disc : discs) {
+        const auto label = static_cast<std::uint16_t>(patches.size());
+        for (const TriangleId t : disc) labels[t] = label;
+        patches.push_back({"cut_" + std::to_string(label), PatchKind::Cut});
+    }
+    return surface.with_patches(std::move(labels), std::move(patches));
+}
+
+bool is_step(const Surface& surface, std::size_t patch) {
+    return parallel_share(surface, patch_shape(surface, patch).plane.normal) > kMostParallel;
+}
+
 }  // namespace
 
 Surface label_flat_caps(const Surface& surface) {
@@ -75,19 +91,19 @@ Surface label_flat_caps(const Surface& surface) {
         !surface.topology->boundary_loops().empty())
         return surface;
     const SurfaceDistance distance(surface);
-    const auto discs = find_flat_closures(surface.points(), surface.triangles(), distance);
-    PatchLabels labels(surface.triangle_count(), 0);
-    std::vector<Patch> patches = surface.patches;
-    for (const auto& disc : discs) {
-        if (!is_disc(surface, disc)) continue;
-        const auto label = static_cast<std::uint16_t>(patches.size());
-        for (const TriangleId t : disc) labels[t] = label;
-        patches.push_back({"cut_" + std::to_string(label), PatchKind::Cut});
-    }
-    Surface found = surface.with_patches(std::move(labels), std::move(patches));
-    for (std::size_t p = 1; p < found.patches.size(); ++p)
-        if (parallel_share(found, patch_shape(found, p).plane.normal) > kMostParallel)
-            return surface;
+    auto [caps, mouths] = find_flat_closures(surface.points(), surface.triangles(), distance);
+    const auto is_no_disc = [&](const auto& triangles) { return !is_disc(surface, triangles); };
+    std::erase_if(caps, is_no_disc);
+    std::erase_if(mouths, is_no_disc);
+    if (caps.empty()) return surface;
+    const std::size_t closures = caps.size();
+    caps.insert(caps.end(), mouths.begin(), mouths.end());
+    const Surface all = with_caps(surface, caps);
+    for (std::size_t p = 1; p <= closures; ++p)
+        if (is_step(all, p)) return surface;
+    for (std::size_t p = caps.size(); p > closures; --p)
+        if (is_step(all, p)) caps.erase(caps.begin() + static_cast<std::ptrdiff_t>(p) - 1);
+    Surface found = with_caps(surface, caps);
     for (std::size_t p = 1; p < found.patches.size(); ++p) found = flattened(found, p);
     return found;
 }

@@ -24,6 +24,12 @@ constexpr double kStrictTiltDeg = 2.0;
 constexpr double kStrictFlatness = 1e-5;
 /// Least rise of the wall at a flat rim where a centerline ends [deg]; elsewhere kLeastRiseDeg.
 constexpr double kLeastRiseAtTip = 30.0;
+/// A rim or cap this wide beside the widest other end is an end, whatever it looks like [-].
+constexpr double kAsWide = 0.8;
+/// A rim is cut off along its own plane if it is no farther from it than this [diameters].
+constexpr double kMostTorn = 0.5;
+/// That cut lies behind the rim's deepest notch by this much [diameters].
+constexpr double kBehindRim = 0.02;
 /// If a larger fraction of a branch is given up, a warning says so.
 constexpr double kNoticedShare = 0.1;
 /// A larger tilt of an opening is mentioned [deg].
@@ -88,7 +94,8 @@ private:
     }
 
     /// A rim, or an image's border, where no vessel ends: the vessel passes it. A cap that has a
-    /// name was meant by whoever gave it.
+    /// name was meant by whoever gave it, as was a surface's own rim or cap that is as wide as the
+    /// widest other end: a trunk cut close to its furcation looks as if the vessel passed.
     bool lies_in_side(std::size_t e) const {
         const SurfaceEnd& end = ends_[e];
         if (end.patch ? surface_.patches[*end.patch].kind != PatchKind::Cut : end.rim.empty())
@@ -96,9 +103,18 @@ private:
         const auto rim = end.patch ? rim_shape_of_cap(surface_, *end.patch)
                                    : std::optional(rim_shape(surface_, end.rim));
         if (!rim || !rim->is_graze()) return false;
+        if (!options_.border_cuts && rim->diameter() > kAsWide * widest_beside(e)) return false;
         if (!end.tip) return true;
         const auto blind = blind_branch(graph_, *end.tip);
         return blind && blind->length < kLeastOwnVessel * rim->diameter();
+    }
+
+    /// Diameter of the widest other end [mm]; 0: there is none.
+    double widest_beside(std::size_t e) const {
+        double widest = 0.0;
+        for (std::size_t other = 0; other < ends_.size(); ++other)
+            if (other != e) widest = std::max(widest, ends_[other].diameter);
+        return widest;
     }
 
     void plan_one(std::size_t end) {
@@ -267,10 +283,11 @@ private:
     }
 
     /// As long as it is wide, and wider than every visible end: it is where the blood enters, and
-    /// the image, or its mask, ends there.
+    /// the image, or its mask, ends there. Its tip is rounded, so its width is the branch's.
     bool is_trunk(std::size_t e, const BlindBranch& blind) const {
+        const double width = std::max(ends_[e].diameter, 2.0 * blind.widest);
         const bool widest = std::ranges::none_of(ends_, [&](const SurfaceEnd& other) {
-            return other.is_visible() && kAsLarge * other.diameter >= ends_[e].diameter;
+            return other.is_visible() && kAsLarge * other.diameter >= width;
         });
         return widest && blind.length >= 2.0 * blind.widest;
     }
@@ -399,9 +416,51 @@ private:
 
     // --- cutting ---------------------------------------------------------------------------------
 
+    /// Cuts an end across its vessel; else along its own rim, unless it is a stub that can go.
+    /// False: there is no place for a cut, and the record says why.
+    bool cut(std::size_t e) {
+        if (cut_across(e)) return true;
+        if (options_.strict || is_fixed() || (is_stub(e) && !is_as_wide(e))) return false;
+        const std::string why = records_[e].why;
+        const auto place = place_along_rim(e);
+        if (place && is_free(*place, e)) return make_cut(e, *place, "cut along its rim: " + why);
+        records_[e].why = why;
+        return false;
+    }
+
+    /// True for a rim that is about as wide as the widest other end.
+    bool is_as_wide(std::size_t e) const {
+        return !ends_[e].rim.empty() &&
+               rim_shape(surface_, ends_[e].rim).diameter() > kAsWide * widest_beside(e);
+    }
+
+    /// Just behind an open rim, in the direction of its own plane. Empty: the end has none, or one
+    /// that is hardly a vessel's end.
+    std::optional<OpeningPlace> place_along_rim(std::size_t e) const {
+        const SurfaceEnd& end = ends_[e];
+        if (end.rim.empty()) return std::nullopt;
+        const RimShape rim = rim_shape(surface_, end.rim);
+        if (rim.rise_deg <= kLeastRiseDeg || rim.flatness > kMostTorn * rim.diameter())
+            return std::nullopt;
+        double depth = 0.0;
+        for (const VertexId v : end.rim)
+            depth = std::max(depth, -rim.plane.distance(surface_.points()[v]));
+        depth += kBehindRim * rim.diameter();
+        Plane plane{rim.plane.point - depth * rim.plane.normal, rim.plane.normal};
+        const auto section = cross_section_at(surface_, plane);
+        if (!section || !section->closed) return std::nullopt;
+        plane.point = section->centroid;
+        OpeningPlace place =
+            place_on(plane, section->diameter(), tip_place(end),
+                     axis_inward(part_near(surface_, plane.point, 2.5 * rim.diameter()), plane,
+                                 rim.diameter()));
+        place.distance = depth;
+        return place;
+    }
+
     /// Cuts an end at the chosen place, else at the nearest one that can be cut. False: there is
     /// none, and the record says why.
-    bool cut(std::size_t e) {
+    bool cut_across(std::size_t e) {
         const SurfaceEnd& end = ends_[e];
         EndRecord& record = records_[e];
         if (!end.tip) {

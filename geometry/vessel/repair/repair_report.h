@@ -55,6 +55,7 @@ struct RepairReport {
     std::size_t refilled_triangles = 0;  ///< cut out around them
     std::size_t smoothed_vertices = 0;   ///< moved to separate them
     std::size_t closed_holes = 0;
+    std::optional<RepairPlace> closed_end;  ///< the widest hole closed that may be a vessel's end
     std::size_t collapsed_edges = 0;
     std::size_t flipped_edges = 0;
     std::vector<KeptOpening> openings;

@@ -17,13 +17,19 @@ namespace {
 /// Smallest width of a vessel end relative to the lumen behind it [-]; holes in a wall face the
 /// whole lumen and are below it.
 constexpr double kWideAsLumen = 0.4;
-constexpr double kLeastRound = 0.25;     ///< slits and zigzags are not ends [-]
+constexpr double kLeastRound = 0.25;     ///< slits are not ends [-]
 constexpr std::size_t kFewestEdges = 6;  ///< loops of fewer edges are always stray
 
-/// A deliberate cut: many edges, flat, round.
+/// A deliberate cut: many edges, flat, round; or lying in a plane.
 constexpr std::size_t kCutEdges = 16;
 constexpr double kCutFlat = 0.02;
 constexpr double kCutRound = 0.85;
+constexpr double kPlaneFlat = 0.002;
+constexpr double kPlaneRound = 0.6;
+
+/// A vessel torn off, or cut along its triangles, has a zigzag rim, longer than the end is wide.
+/// Each pass moves the corners halfway to their neighbours' mean.
+constexpr int kZigzagPasses = 4;
 
 /// Rings of triangles around a hole that determine the bending of its patch.
 constexpr int kRings = 3;
@@ -34,6 +40,25 @@ double cut_part(const TriangleSoup& mesh, const std::vector<VertexId>& loop) {
     return static_cast<double>(cut) / static_cast<double>(loop.size());
 }
 
+/// 4 pi area / length^2 of a loop without its zigzag.
+double roundness_of(Positions corners) {
+    const std::size_t n = corners.size();
+    Positions next(n);
+    for (int pass = 0; pass < kZigzagPasses; ++pass) {
+        for (std::size_t i = 0; i < n; ++i)
+            next[i] = 0.25 * (corners[(i + n - 1) % n] + 2.0 * corners[i] + corners[(i + 1) % n]);
+        corners.swap(next);
+    }
+    Vec3 twice_area = Vec3::Zero();
+    double length = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3& next_corner = corners[(i + 1) % n];
+        twice_area += (corners[i] - corners[0]).cross(next_corner - corners[0]);
+        length += (next_corner - corners[i]).norm();
+    }
+    return length > 0.0 ? 2.0 * std::numbers::pi * twice_area.norm() / (length * length) : 0.0;
+}
+
 OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     OpenLoop loop;
     loop.vertices = std::move(vertices);
@@ -41,16 +66,16 @@ OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     for (const VertexId v : loop.vertices) loop.centre += mesh.points[v];
     loop.centre /= static_cast<double>(n);
     Vec3 normal = Vec3::Zero();
-    double length = 0.0;
+    Positions corners;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 a = mesh.points[loop.vertices[i]] - loop.centre;
         const Vec3 b = mesh.points[loop.vertices[(i + 1) % n]] - loop.centre;
         normal += 0.5 * a.cross(b);
-        length += (b - a).norm();
+        corners.push_back(a);
     }
     const double area = normal.norm();
     loop.radius = std::sqrt(area / std::numbers::pi);
-    if (length > 0.0) loop.roundness = 4.0 * std::numbers::pi * area / (length * length);
+    loop.roundness = roundness_of(std::move(corners));
     if (area > 0.0)
         for (const VertexId v : loop.vertices)
             loop.flatness =
@@ -148,9 +173,15 @@ std::vector<OpenLoop> open_loops(const TriangleSoup& mesh) {
 
 bool is_vessel_end(const OpenLoop& loop) {
     if (loop.vertices.size() < kFewestEdges || !(loop.radius > 0.0)) return false;
-    if (loop.vertices.size() >= kCutEdges && loop.flatness < kCutFlat && loop.roundness > kCutRound)
-        return true;
-    return loop.roundness > kLeastRound && loop.radius > kWideAsLumen * loop.lumen_radius;
+    const auto is_cut = [&](double flat, double round) {
+        return loop.vertices.size() >= kCutEdges && loop.flatness < flat && loop.roundness > round;
+    };
+    if (is_cut(kCutFlat, kCutRound) || is_cut(kPlaneFlat, kPlaneRound)) return true;
+    return loop.roundness > kLeastRound && is_wide_as_lumen(loop);
+}
+
+bool is_wide_as_lumen(const OpenLoop& loop) {
+    return loop.radius > kWideAsLumen * loop.lumen_radius;
 }
 
 bool close_stray_holes(TriangleSoup& mesh, const RepairParameters& parameters,
@@ -171,6 +202,9 @@ bool close_stray_holes(TriangleSoup& mesh, const RepairParameters& parameters,
         ++report.closed_holes;
         largest_closed = std::max(largest_closed, loop.radius);
         report.places.push_back({RepairKind::Hole, loop.centre, loop.radius});
+        if (loop.vertices.size() >= kCutEdges && is_wide_as_lumen(loop) &&
+            (!report.closed_end || loop.radius > report.closed_end->size))
+            report.closed_end = report.places.back();
     }
     if (!report.closed_up_to && largest_closed > 0.0 && largest_closed < smallest_kept)
         report.closed_up_to =

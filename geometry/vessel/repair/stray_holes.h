@@ -11,7 +11,7 @@ struct OpenLoop {
     std::vector<VertexId> vertices;
     Vec3 centre = Vec3::Zero();  ///< [mm]
     double radius = 0.0;         ///< of the circle of the same area [mm]
-    double roundness = 0.0;      ///< 4 pi area / length^2 [-]; 1: a circle
+    double roundness = 0.0;      ///< 4 pi area / length^2, without its zigzag [-]; 1: a circle
     double flatness = 0.0;       ///< largest distance from the best-fit plane over the radius [-]
     double lumen_radius = 0.0;   ///< half the free width behind the rim, median [mm]
     bool from_cut = false;       ///< its rim was cut by repair itself
@@ -22,6 +22,9 @@ struct OpenLoop {
 
 /// True for a vessel's end: about as wide as the lumen behind it, or a flat, round cut.
 [[nodiscard]] bool is_vessel_end(const OpenLoop& loop);
+
+/// True for a loop about as wide as the lumen behind it, whether it is round or a slit.
+[[nodiscard]] bool is_wide_as_lumen(const OpenLoop& loop);
 
 /// Closes the stray holes, and all loops that repair cut itself. Fills `report.openings`.
 /// \return true if something was closed
