@@ -203,6 +203,7 @@ std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plan
         .bend_deg = span > 0.0 ? angle_deg(inward, line.direction(turned)) / span : 0.0,
         .doubt_deg = line.doubt_deg(kDirectionAt),
         .diameter = diameter,
+        .depth = last,
         .sections = static_cast<int>(track.size()) - 1};
     axis.tilt_deg = angle_deg(axis.direction, plane.normal);
     return axis;

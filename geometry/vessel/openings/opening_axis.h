@@ -18,6 +18,7 @@ struct OpeningAxis {
     double bend_deg = 0.0;           ///< turn of the vessel over one diameter, from the same fit
     double doubt_deg = 0.0;          ///< standard deviation of the direction
     double diameter = 0.0;           ///< of the circle with the opening's area [mm]
+    double depth = 0.0;              ///< of the innermost section used [diameters]
     int sections = 0;                ///< number of sections used: fewer if a furcation comes first
 };
 
