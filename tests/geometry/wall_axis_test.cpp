@@ -133,6 +133,16 @@ SCENARIO("A cap of a coarse smoothed surface is perpendicular", "[geometry][open
     CHECK(place.tilt_deg == 0.0);
 }
 
+SCENARIO("The axis at a cap of a smoothed surface is that of its wall before",
+         "[geometry][openings][wall_axis]") {
+    const Surface tube = closed_tube(kRadius, kLength, 9, 36);
+    const Surface smoothed = mapped(tube, [](const Vec3& p) {
+        return Vec3(p + 0.12 * kRadius * std::sin(p.z() / kRadius) * Vec3::UnitY());
+    });
+    CHECK(opening_tilt_deg(smoothed, 1) > 2.0);
+    CHECK(opening_tilt_deg(with_unsmoothed(smoothed, tube.points()), 1) < 0.1);
+}
+
 SCENARIO("The places before smoothing are those before the first one", "[geometry][wall_axis]") {
     const Surface tube = open_tube(1.0, 4.0, 8, 4);
     const Surface once = moved(tube, 0.01);

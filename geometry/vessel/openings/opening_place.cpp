@@ -11,7 +11,6 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/surface_ends.h"
-#include "geometry/vessel/openings/wall_axis.h"
 
 namespace vesselbench {
 
@@ -52,9 +51,6 @@ constexpr double kCostPerRadius = 5.0;
 /// A direction in doubt counts like a bend of so many times the doubt: deeper in, the vessel on
 /// both sides of the cut shows it.
 constexpr double kDoubtWeight = 4.0;
-/// A clean wall that shows the direction so well is believed rather than its sections: what
-/// smoothing has moved aside alike does not show in their radii [deg].
-constexpr double kKnownDoubt = 2.0;
 /// A place deeper in has to be better by more than this [deg]: less says nothing, and gives up
 /// vessel.
 constexpr double kWorthMoving = 1.0;
@@ -193,11 +189,11 @@ public:
     /// \param whole where the wall becomes a tube, inward from the place [mm]
     void refine(OpeningPlace& place, double whole) const {
         if (!place.measured) return;
-        const auto by_sections = axis_inward(near_, place.plane, place.diameter);
+        auto by_sections = axis_inward(near_, place.plane, place.diameter);
         if (!by_sections) return;
-        const auto axis = wall_axis(near_, place.plane, place.diameter,
-                                    {whole / place.diameter, by_sections->depth});
-        if (!axis || axis->doubt_deg > std::max(place.doubt_deg, kKnownDoubt)) return;
+        by_sections->doubt_deg = place.doubt_deg;  // sections beyond it count, too
+        const auto axis = axis_by_wall(near_, place.plane, *by_sections, whole);
+        if (!axis) return;
         const auto curve = section({place.plane.point, axis->direction});
         if (!curve) return;
         place.plane = {curve->centroid, axis->direction};

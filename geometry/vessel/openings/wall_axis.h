@@ -29,7 +29,7 @@ struct Stretch {
 /// \param diameter of the vessel there [mm]
 /// \param whole where the wall is a tube: neither beyond the vessel's end nor in a furcation
 /// \return empty if the wall is not that of a surface without noise: the vertices scatter by more
-/// than a thousandth of the diameter or so, or are too few
+/// than two thousandths of the diameter, or are too few
 [[nodiscard]] std::optional<WallAxis> wall_axis(const Surface& surface, const Plane& plane,
                                                 double diameter, const Stretch& whole);
 
