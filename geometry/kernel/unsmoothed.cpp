@@ -44,4 +44,9 @@ Positions unsmoothed(const Surface& surface) {
     return before;
 }
 
+Surface without_unsmoothed(Surface surface) {
+    for (const char* name : kNames) surface.attributes.erase(name);
+    return surface;
+}
+
 }  // namespace vesselbench

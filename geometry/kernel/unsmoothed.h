@@ -15,4 +15,6 @@ namespace vesselbench {
 /// The places before smoothing, #V; the surface's own positions if it has none.
 [[nodiscard]] Positions unsmoothed(const Surface& surface);
 
+[[nodiscard]] Surface without_unsmoothed(Surface surface);
+
 }  // namespace vesselbench

@@ -183,7 +183,7 @@ std::vector<Parameter> parameter_table() {
          .default_value = false,
          .help = "add vertex attributes to the surface: unsmoothed_x, unsmoothed_y and "
                  "unsmoothed_z, the places before; on coarse triangles, clip-opening measures the "
-                 "directions of vessels there"});
+                 "directions of vessels there, and drops them when it has opened all ends"});
     table.push_back(
         {.name = "device",
          .type = ParameterType::Choice,
