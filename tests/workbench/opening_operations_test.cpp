@@ -11,6 +11,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/unsmoothed.h"
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
 #include "geometry/phantoms/phantom.h"
@@ -179,6 +180,15 @@ SCENARIO("fill-hole closes the named hole or all of them", "[workbench][openings
     CHECK(is_closed_manifold(*all.scene.surface));
     check_replay("fill-hole", tube, all);
     CHECK_THROWS_AS(run("fill-hole", *all.scene.surface, {}), AlgorithmFailure);
+}
+
+SCENARIO("clip-opening needs the places before smoothing until all ends are open",
+         "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    const Surface smoothed = with_unsmoothed(tube, tube.points());
+    const Outcome one = run("clip-opening", smoothed, {{"tip", Vec3(0, 0, 30)}});
+    CHECK(one.scene.surface->attributes.size() == 3);
+    CHECK(run("clip-opening", smoothed, {}).scene.surface->attributes.empty());
 }
 
 SCENARIO("clip-opening opens every end, and replays what it decided", "[workbench][openings]") {

@@ -10,6 +10,7 @@
 #include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
+#include "geometry/kernel/unsmoothed.h"
 #include "geometry/phantoms/phantom.h"
 #include "smoothing/context/distance_weights.h"
 #include "tests/support/iso_surface.h"
@@ -275,6 +276,14 @@ SCENARIO("smooth keeps what it found as vertex attributes", "[workbench][smooth]
     CHECK(mean(weight) == Approx(outcome.report->at("mean_weight").get<double>()));
     CHECK(*kept.at("cap") == std::vector<double>(after.vertex_count(), 0.0));
     CHECK(*kept.at("mean_curvature") == mean_curvature(after).values);
+}
+
+SCENARIO("smooth keeps the places before it as vertex attributes", "[workbench][smooth]") {
+    const Scene scene = terraced_vessel();
+    const Outcome outcome =
+        smooth(scene, {{"filter", "laplace"}, {"iterations", 2}, {"keep_unsmoothed", true}});
+    CHECK(outcome.scene.surface->points() != scene.surface->points());
+    CHECK(unsmoothed(*outcome.scene.surface) == scene.surface->points());
 }
 
 SCENARIO("smooth keeps the distances to neighbours as a vertex attribute", "[workbench][smooth]") {

@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/unsmoothed.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/flow_check.h"
@@ -442,6 +443,8 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
     if (const std::string text = own_choice ? further_inlets(made.surface) : ""; !text.empty())
         outcome.warnings.push_back(text);
+    // Ends that are cut one by one need it until the last one.
+    if (!arguments.has("tip")) made.surface = without_unsmoothed(std::move(made.surface));
     outcome.scene = with_surface(scene, std::move(made.surface));
     return outcome;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/freed_memory.h"
+#include "geometry/kernel/unsmoothed.h"
 #include "geometry/kernel/wording.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/measure_json.h"
@@ -125,6 +126,9 @@ public:
             outcome.scene = with_surface(
                 outcome.scene,
                 with_kept_attributes(before_, after, outcome.resolved, std::move(error.values)));
+        if (outcome.resolved.flag("keep_unsmoothed"))
+            outcome.scene = with_surface(
+                outcome.scene, with_unsmoothed(surface_of(outcome.scene), before.points()));
         outcome.report = std::make_shared<Json>(std::move(report));
         return outcome;
     }
@@ -173,6 +177,13 @@ std::vector<Parameter> parameter_table() {
          .help = "add vertex attributes to the surface: smoothing_weight, staircase_weight, "
                  "staircase, cap, neighbour_distance, local_error, mean_curvature; export writes "
                  "them to VTP and PLY, picture --colour shows them"});
+    table.push_back(
+        {.name = "keep_unsmoothed",
+         .type = ParameterType::Flag,
+         .default_value = false,
+         .help = "add vertex attributes to the surface: unsmoothed_x, unsmoothed_y and "
+                 "unsmoothed_z, the places before; on coarse triangles, clip-opening measures the "
+                 "directions of vessels there, and drops them when it has opened all ends"});
     table.push_back(
         {.name = "device",
          .type = ParameterType::Choice,

@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/vessel/openings/wall_axis.h"
 
 namespace vesselbench {
 
@@ -43,6 +44,10 @@ constexpr double kLeastError = 1e-4;  // diameters
 /// Errors of sections this close together are alike [diameters].
 constexpr double kErrorLength = 0.2;
 constexpr double kOwnError = 0.05;  // fraction of the variance that is each section's own
+
+/// A clean wall that shows the direction so well is believed rather than its sections: what
+/// smoothing has moved aside alike does not show in their radii [deg].
+constexpr double kKnownDoubt = 2.0;
 
 struct TrackSection {
     Vec3 centroid = Vec3::Zero();
@@ -203,15 +208,33 @@ std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plan
         .bend_deg = span > 0.0 ? angle_deg(inward, line.direction(turned)) / span : 0.0,
         .doubt_deg = line.doubt_deg(kDirectionAt),
         .diameter = diameter,
+        .depth = last,
         .sections = static_cast<int>(track.size()) - 1};
     axis.tilt_deg = angle_deg(axis.direction, plane.normal);
     return axis;
 }
 
+std::optional<OpeningAxis> axis_by_wall(const Surface& surface, const Plane& plane,
+                                        const OpeningAxis& by_sections, double whole) {
+    const double diameter = by_sections.diameter;
+    const auto wall = wall_axis(surface, plane, diameter, {whole / diameter, by_sections.depth});
+    if (!wall || wall->doubt_deg > std::max(by_sections.doubt_deg, kKnownDoubt))
+        return std::nullopt;
+    OpeningAxis axis = by_sections;
+    axis.direction = wall->direction;
+    axis.tilt_deg = angle_deg(wall->direction, plane.normal);
+    axis.bend_deg = wall->bend_deg;
+    axis.doubt_deg = wall->doubt_deg;
+    return axis;
+}
+
 std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch) {
     const PatchShape shape = patch_shape(surface, patch);
-    return axis_inward(part_near(surface, shape.plane.point, 2.5 * shape.diameter()), shape.plane,
-                       shape.diameter());
+    const Surface part = part_near(surface, shape.plane.point, 2.5 * shape.diameter());
+    const auto by_sections = axis_inward(part, shape.plane, shape.diameter());
+    if (!by_sections) return std::nullopt;
+    const auto by_wall = axis_by_wall(part, shape.plane, *by_sections);
+    return by_wall ? by_wall : by_sections;
 }
 
 double opening_tilt_deg(const Surface& surface, std::size_t patch) {

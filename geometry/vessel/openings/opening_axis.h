@@ -18,6 +18,7 @@ struct OpeningAxis {
     double bend_deg = 0.0;           ///< turn of the vessel over one diameter, from the same fit
     double doubt_deg = 0.0;          ///< standard deviation of the direction
     double diameter = 0.0;           ///< of the circle with the opening's area [mm]
+    double depth = 0.0;              ///< of the innermost section used [diameters]
     int sections = 0;                ///< number of sections used: fewer if a furcation comes first
 };
 
@@ -29,12 +30,19 @@ struct OpeningAxis {
 [[nodiscard]] std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane,
                                                      double diameter, double outward = 0.0);
 
-/// The axis at a flat cap. \throw InvalidInput if the surface has no such patch
+/// The axis by the wall's vertices (wall_axis), if these show it better than the sections do.
+/// \param by_sections measured at the plane
+/// \param whole where the wall becomes a tube, inward from the plane [mm]
+[[nodiscard]] std::optional<OpeningAxis> axis_by_wall(const Surface& surface, const Plane& plane,
+                                                      const OpeningAxis& by_sections,
+                                                      double whole = 0.0);
+
+/// The axis at a flat cap, by sections or by the wall. \throw InvalidInput if the surface has no
+/// such patch
 [[nodiscard]] std::optional<OpeningAxis> axis_at_patch(const Surface& surface, std::size_t patch);
 
-/// Angle [deg] between a cap's normal and the vessel's axis just inside it (axis_inward); 90 if the
-/// axis cannot be measured.
-/// \throw InvalidInput if the surface has no such patch
+/// Angle [deg] between a cap's normal and the vessel's axis just inside it (axis_at_patch); 90 if
+/// the axis cannot be measured. \throw InvalidInput if the surface has no such patch
 [[nodiscard]] double opening_tilt_deg(const Surface& surface, std::size_t patch);
 
 /// Plane, area and flatness of a patch.

@@ -25,6 +25,9 @@ constexpr double kMargin = 0.25;
 constexpr double kBlindMargin = 0.5;
 /// A rounded end is found whole too deep by up to this much [tip radii].
 constexpr double kFoundTooDeep = 0.25;
+/// Behind a rounded end's outermost place, its sections still grow: to 0.85 of their area there, as
+/// is_whole asks, and in full 0.39 radii farther inward [tip radii].
+constexpr double kRounded = kFoundTooDeep + 0.39;
 /// The line's last stretch may turn: directions are measured at least this far inward [tip radii].
 constexpr double kSteady = 1.0;
 /// Largest fraction of a branch that is searched for the first whole section; in a vessel without
@@ -176,8 +179,33 @@ public:
     }
 
     /// The plane at s whose normal is the axis measured from there; empty without a closed section.
+    std::optional<OpeningPlace> place(double s) const {
+        auto found = place_by_sections(s);
+        if (found) refine(*found, 0.0);
+        return found;
+    }
+
+    /// Takes the wall's direction, if it shows it better than sections do.
+    /// \param whole where the wall becomes a tube, inward from the place [mm]
+    void refine(OpeningPlace& place, double whole) const {
+        if (!place.measured) return;
+        auto by_sections = axis_inward(near_, place.plane, place.diameter);
+        if (!by_sections) return;
+        by_sections->doubt_deg = place.doubt_deg;  // sections beyond it count, too
+        const auto axis = axis_by_wall(near_, place.plane, *by_sections, whole);
+        if (!axis) return;
+        const auto curve = section({place.plane.point, axis->direction});
+        if (!curve) return;
+        place.plane = {curve->centroid, axis->direction};
+        place.diameter = curve->diameter();
+        place.tilt_deg = 0.0;
+        place.bend_deg = axis->bend_deg;
+        place.doubt_deg = axis->doubt_deg;
+    }
+
+    /// The same place, measured by sections only.
     /// \param beyond how far sections are whole beyond it [mm]
-    std::optional<OpeningPlace> place(double s, double beyond = 0.0) const {
+    std::optional<OpeningPlace> place_by_sections(double s, double beyond = 0.0) const {
         OpeningPlace found{
             .tip = graph_.nodes[tip_].position, .plane = {position(s), outward(s)}, .distance = s};
         double best_tilt = 180.0;
@@ -259,6 +287,7 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const double whole = first_whole(branch, blind, tip);
     const double plain = branch.plain_length(whole);
     const double outermost = outermost_whole(branch, blind, whole);
+    const double tube_from = blind ? outermost + kRounded * branch.radius : outermost;
     const double deepest = outermost + kGivenUp * (plain - outermost);
     const double last = std::max(whole, deepest);
     const double first = std::min(whole + (blind ? kBlindMargin : kMargin) * branch.radius, last);
@@ -267,7 +296,7 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     for (int k = 0; k < kCandidates; ++k) {
         const double s =
             std::min(first + k * kCandidateStep * branch.radius, std::max(first, deepest));
-        const auto place = branch.place(s, s - first);
+        const auto place = branch.place_by_sections(s, s - first);
         if (place) {
             const double bent = place->measured ? place->bend_deg + place->tilt_deg +
                                                       kDoubtWeight * place->doubt_deg
@@ -280,8 +309,10 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     const auto best = std::ranges::find_if(
         found, [&](const auto& at) { return at.first <= least + kWorthMoving; });
     if (best == found.end()) fail(tip, "has no closed section: give the distance from its tip");
-    best->second.share = best->second.distance / branch.length;
-    return best->second;
+    OpeningPlace& place = best->second;
+    branch.refine(place, tube_from - place.distance);
+    place.share = place.distance / branch.length;
+    return place;
 }
 
 /// Places from the end inward, up to a distance from it; the first one that is accepted.

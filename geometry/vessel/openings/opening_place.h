@@ -28,9 +28,9 @@ struct OpeningPlace {
 inline constexpr double kBendDeg = 15.0;
 
 /// Chooses the plane at which a branch is opened, perpendicular to the vessel's axis just inside
-/// (axis_inward, iterated until the normal is that axis). Without a distance: the first whole
-/// section from the tip, never beyond the furcation; a straighter one behind it is preferred while
-/// at least 90 % of the branch's length remain.
+/// (axis_inward, iterated until the normal is that axis; then axis_by_wall). Without a distance:
+/// the first whole section from the tip, never beyond the furcation; a straighter one behind it is
+/// preferred while at least 90 % of the branch's length remain.
 /// \param tip node of the graph with one branch
 /// \param distance from the tip along the centerline [mm]
 /// \throw AlgorithmFailure if there is no closed section there, or the branch is too short; the
