@@ -2,35 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
 
 namespace vesselbench {
 
 std::optional<double> lumen_width(const SurfaceDistance& wall, const Vec3& at, const Vec3& inward,
                                   double farthest) {
-    constexpr int kPairs = 3;
-    constexpr double kNone = std::numeric_limits<double>::infinity();
+    constexpr int kRays = 12;             // with six, the width of a tube depends on their turn
     const double skin = 1e-6 * farthest;  // skips the wall that the ray starts on
     const double along = std::cos(std::numbers::pi / 6), across = std::sin(std::numbers::pi / 6);
-    const auto length = [&](const Vec3& direction) {
-        const auto hit = wall.first_hit(at + skin * direction, direction, farthest);
-        return hit ? hit->distance + skin : kNone;
-    };
     const Vec3 x = inward.unitOrthogonal(), y = inward.cross(x);
-    double sum = 0.0;
-    int count = 0;
-    for (int i = 0; i < kPairs; ++i) {
-        const double turn = std::numbers::pi * i / kPairs;
-        const Vec3 sideways = across * (std::cos(turn) * x + std::sin(turn) * y);
-        const double shorter =
-            std::min(length(along * inward + sideways), length(along * inward - sideways));
-        if (shorter == kNone) continue;
-        sum += shorter;
-        ++count;
+    std::vector<double> lengths;
+    for (int i = 0; i < kRays; ++i) {
+        const double turn = 2.0 * std::numbers::pi * i / kRays;
+        const Vec3 direction = along * inward + across * (std::cos(turn) * x + std::sin(turn) * y);
+        const auto hit = wall.first_hit(at + skin * direction, direction, farthest);
+        if (hit) lengths.push_back(hit->distance + skin);
     }
-    if (count == 0) return std::nullopt;
-    return sum / count;
+    if (lengths.empty()) return std::nullopt;
+    std::ranges::sort(lengths);
+    const auto ends = static_cast<std::ptrdiff_t>(lengths.size() / 4);
+    const std::span middle(lengths.begin() + ends, lengths.end() - ends);
+    return std::accumulate(middle.begin(), middle.end(), 0.0) / static_cast<double>(middle.size());
 }
 
 }  // namespace vesselbench

@@ -6,10 +6,10 @@
 
 namespace vesselbench {
 
-/// Width of the lumen at a point of the wall [mm]: the mean length of three pairs of opposite rays
-/// across it, 30 degrees off the inward normal, of each pair the shorter (the other may run down a
-/// branch). In a tube the mean is its diameter to 0.1 %, however the pairs are turned: those along
-/// the axis are too long by as much as those across are too short.
+/// Width of the lumen at a point of the wall [mm]: the mean of the middle half of twelve rays
+/// across it, 30 degrees off the inward normal. In a tube it is the diameter to 1 %, however the
+/// rays are turned: those along the axis are too long, those across are too short. Rays that end at
+/// a cap or run down a branch are outvoted.
 ///
 /// \param inward unit normal
 /// \param farthest rays that hit nothing so far away do not count [mm], > 0

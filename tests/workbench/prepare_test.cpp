@@ -122,14 +122,15 @@ SCENARIO("A mask's surface has no staircases to smooth", "[workbench][prepare]")
         return names;
     };
     THEN("prepare finds where it bends least and does not smooth it") {
-        CHECK(operations({}) == Names{"load-image", "extract-surface", "repair"});
+        CHECK(operations({}) == Names{"load-image", "extract-surface", "repair", "widen"});
         AND_THEN("--resume finds nothing missing") {
-            CHECK(operations({"--resume"}) == Names{"load-image", "extract-surface", "repair"});
+            CHECK(operations({"--resume"}) ==
+                  Names{"load-image", "extract-surface", "repair", "widen"});
         }
     }
     THEN("the surface midway between voxels is smoothed as before") {
         CHECK(operations({"--set", "extract-surface.mask_surface=midway"}) ==
-              Names{"load-image", "extract-surface", "repair", "smooth"});
+              Names{"load-image", "extract-surface", "repair", "smooth", "widen"});
     }
 }
 
