@@ -85,6 +85,19 @@ SCENARIO("An oblique cap of a narrowing vessel is found", "[geometry][openings]"
     CHECK(label_flat_caps(unlabelled(tube)).patches.size() == 3);
 }
 
+SCENARIO("The tip of a coarse rounded end is no cap", "[geometry][openings]") {
+    // The last ring is drawn in: the wall turns by 30 degrees around the flat tip.
+    const auto tip = [](int segments) {
+        return unlabelled(mapped(closed_tube(2.0, 30.0, segments, 90), [](const Vec3& p) {
+            const bool last = p.z() > 29.9;
+            const double width = last ? 0.75 : 1.0;
+            return Vec3(width * p.x(), width * p.y(), last ? 29.667 + 0.2887 : p.z());
+        }));
+    };
+    CHECK(label_flat_caps(tip(6)).patches.size() == 2);
+    CHECK(label_flat_caps(tip(24)).patches.size() == 3);
+}
+
 SCENARIO("The caps of a short piece of a vessel are found", "[geometry][openings]") {
     CHECK(label_flat_caps(unlabelled(closed_tube(2.0, 4.0, 40, 12))).patches.size() == 3);
 }

@@ -21,8 +21,9 @@ constexpr double kFlatDisc = 0.1405;  ///< tangent of 8 degrees: the same inside
 constexpr int kGrowths = 6;           ///< rounds after which a disc has found its size
 constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns away by more
 /// Cosine of 25 degrees: the same for a disc in one plane. At an oblique cap of a bent or narrowing
-/// vessel a seventh of the rim turns by less than 40; at a knob of a few triangles, too.
+/// vessel a seventh of the rim turns by less than 40. So it does at a knob of a few triangles.
 constexpr double kPlanarRim = 0.906;
+constexpr std::size_t kOnKnob = 10;   ///< triangles; fewer are a cap only if the wall turns by kRim
 constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be sharp
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
 constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind it, in radii
@@ -250,9 +251,9 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
         const double planar = search.area(region);
         // A disc has at least as many triangles as a hexagon, and is not tiny.
         if (region.size() < 4 || planar < 1e-5 * whole) continue;
-        if (!search.closes_vessel(region, kPlanarRim, surface)) {
-            if (search.is_disc(region, kPlanarRim) &&
-                std::isfinite(search.lumen_behind(region, surface)))
+        const double turn = region.size() < kOnKnob ? kRim : kPlanarRim;
+        if (!search.closes_vessel(region, turn, surface)) {
+            if (search.is_disc(region, turn) && std::isfinite(search.lumen_behind(region, surface)))
                 discs.mouths.push_back(region);
             if (tried[t] >= planar) continue;
             region = search.settled(std::move(region));
