@@ -77,6 +77,13 @@ SCENARIO("Caps and rims stay where they are", "[geometry][widen]") {
     CHECK(extent_of_thread(wide).x() == Approx(kWanted).epsilon(0.06));
 }
 
+SCENARIO("The corner at an oblique cap is no narrow place", "[geometry][widen]") {
+    const Surface tube = mapped(closed_tube(2.0, 30.0, 48, 90), [](const Vec3& p) {
+        return Vec3(p.x(), p.y(), p.z() + std::max(0.0, p.z() / 15.0 - 1.0) * 1.2 * p.x());
+    });
+    CHECK(narrow_places(tube, 0.8).empty());
+}
+
 SCENARIO("A width that is not positive is refused", "[geometry][widen]") {
     CHECK_THROWS_AS(widen(closed_tube(2.0, 30.0, 12, 10), 0.0), InvalidInput);
 }

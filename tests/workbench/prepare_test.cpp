@@ -547,6 +547,26 @@ SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
     CHECK_THAT(again({"--for", "rp"}), Contains("for simulation"));
     CHECK_THAT(again({"--for", "simulation", "--set", "remesh.edge=0.9"}),
                Contains("change project.vbench") && Contains("edge=0.9"));
+    THEN("the input is another one, or read in another unit") {
+        write_surface(closed_tube(2.5, 20.0, 32, 40), folder + "/other.stl");
+        const auto resumed = [&](const std::string& file, const std::string& units) {
+            return run({"prepare", folder + file, "--units", units, "--for", "simulation", "--out",
+                        out, "--resume"});
+        };
+        CHECK(resumed("/other.stl", "mm").exit_code == 2);
+        CHECK_THAT(resumed("/other.stl", "mm").err, Contains("not made from 'other.stl'"));
+        CHECK_THAT(resumed("/tube.stl", "cm").err, Contains("was read in mm, not in cm"));
+        CHECK(resumed("/tube.stl", "mm").exit_code == 0);
+    }
+    THEN("an edit no longer applies after an earlier one was changed") {
+        const std::string project = out + "/project.vbench", model = folder + "/model.stl";
+        REQUIRE(run({"apply", project, "brush-inflate", "at=2,0,10", "radius=2"}).exit_code == 0);
+        REQUIRE(
+            run({"change", project, "1", "units=m", "file=" + folder + "/tube.stl"}).exit_code ==
+            0);
+        const ProgramRun exported = run({"export", project, model});
+        CHECK_THAT(exported.err, Contains("no longer applies and is not in the model"));
+    }
 }
 
 SCENARIO("prepare replaces nothing but its own products", "[workbench][prepare]") {

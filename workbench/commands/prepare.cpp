@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/printable.h"
 #include "workbench/case/purposes.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
@@ -81,6 +82,11 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     Session session = Session::open(arguments.project, {.find = find_operation});
     refuse_source(session, arguments.file);
     const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
+    for (const LogEntry& entry : session.log())
+        if (entry.status == EditStatus::Stale)
+            remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
+                   printable(entry.edit.operation) +
+                   " no longer applies and is not in the model: " + entry.reason);
     PendingFiles files;
     export_scene(files, arguments.file, scene, flow);
     progress.check_cancelled();

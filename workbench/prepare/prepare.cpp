@@ -201,6 +201,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         Session session = options.resume ? resumed(project, options.purpose)
                                          : Session::create(project, {.find = find_operation});
         if (options.resume) {
+            refuse_other_input(session, input);
             recipe = rest_of(recipe, *session.snapshot(), options.purpose);
             refuse_late_settings(for_recipe.arguments, recipe, session.log());
             if (recipe.empty()) tell("every edit of the recipe has been made: writing the results");
@@ -214,6 +215,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         prepared.warnings = apply_checked(session, recipe, options.purpose, noting,
                                           progress.part(0.02, kEditsShare));
         prepared.scene = session.scene(options.purpose);
+        refuse_stale_edits(session.log());
         const std::string openings = openings_text(surface_of(prepared.scene));
         if (!openings.empty()) tell("openings: " + openings);
         try {

@@ -74,6 +74,32 @@ Session resumed(const std::filesystem::path& project, const std::string& purpose
     return session;
 }
 
+void refuse_other_input(const Session& session, const Input& input) {
+    const std::vector<LogEntry> log = session.log();
+    if (log.empty()) return;
+    // Files made for a phantom are not the user's.
+    if (!input.keep && std::filesystem::is_regular_file(input.file) &&
+        !session.is_source(input.file))
+        throw UsageError("--resume: the project was not made from '" + input.name +
+                         "', or the file has changed since: prepare it into another folder");
+    const LogEntry& loading = log.front();
+    if (input.units.empty() || !loading.result || !loading.result->resolved.has("units")) return;
+    const std::string units = loading.result->resolved.text("units");
+    if (units != input.units)
+        throw UsageError("--resume: the input was read in " + units + ", not in " + input.units +
+                         ": leave --units out, or prepare it into another folder");
+}
+
+void refuse_stale_edits(const std::vector<LogEntry>& log) {
+    const auto stale = std::ranges::find(log, EditStatus::Stale, &LogEntry::status);
+    if (stale == log.end()) return;
+    const std::string edit = std::to_string(stale->edit.edit.id);
+    throw AlgorithmFailure("edit " + edit + " " + stale->edit.operation +
+                           " no longer applies after an earlier edit was changed: " +
+                           stale->reason + "; change it (vesselbench change project.vbench " +
+                           edit + " ...), remove it, or prepare into another folder");
+}
+
 Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {
     std::vector<EditId> left = edits_made(made);
     std::vector<bool> done(recipe.size(), false);

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "workbench/prepare/input.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/session/session.h"
 
@@ -12,6 +13,14 @@ namespace vesselbench {
 /// Opens the project of an earlier preparation to go on in it.
 /// \throw IoError if it cannot be written, UsageError if it is for another purpose
 [[nodiscard]] Session resumed(const std::filesystem::path& project, const std::string& purpose);
+
+/// \throw UsageError if the project was made from another file than the input, or was read in
+/// another unit than the one given
+void refuse_other_input(const Session& session, const Input& input);
+
+/// A model without one of its edits is not what was asked for.
+/// \throw AlgorithmFailure that names the first edit that no longer applies, and why
+void refuse_stale_edits(const std::vector<LogEntry>& log);
 
 /// The entries that are still to be made. An edit counts as the entry of its operation and step
 /// unless it does a part of it only: opens one end where the recipe opens all. What the recipe made

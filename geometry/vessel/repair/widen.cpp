@@ -84,7 +84,8 @@ private:
         const double skin = 1e-6 * width_;
         if (inward.squaredNorm() == 0.0) return 0.0;
         const auto opposite = wall.first_hit(at + skin * inward, inward, width_);
-        if (!opposite) return 0.0;
+        // The corner between wall and cap is no narrow lumen.
+        if (!opposite || surface_.patch_of(opposite->triangle).kind != PatchKind::Wall) return 0.0;
         // Where a thread widens, slanted rays are long; where its wall is slanted, the straight
         // one.
         const double straight = opposite->distance + skin;
