@@ -59,6 +59,18 @@ SCENARIO("load-surface asks where two units are near", "[workbench][source]") {
     CHECK(run("load-surface", {}, {{"file", file}, {"units", "cm"}}).warnings.empty());
 }
 
+SCENARIO("load-surface warns of a unit in which it is no vessel", "[workbench][source]") {
+    const std::string file = temporary_folder() + "/tube.off";
+    write_unitless(open_tube(2.0, 30.0, 24, 20), file);
+    const auto warnings = [&](const std::string& units) {
+        return run("load-surface", {}, {{"file", file}, {"units", units}}).warnings;
+    };
+    CHECK(warnings("mm").empty());
+    REQUIRE(warnings("m").size() == 1);
+    CHECK_THAT(warnings("m")[0],
+               Contains("is read in m, as asked") && Contains("a vessel's size in mm only"));
+}
+
 SCENARIO("keep-component keeps the largest part, several, or the one at a point",
          "[workbench][source]") {
     const Scene scene =

@@ -1,7 +1,9 @@
 #include "workbench/operations/shared/surface_argument.h"
 
 #include <filesystem>
+#include <utility>
 
+#include "geometry/formats/length_unit.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 
@@ -17,6 +19,21 @@ Parameter units_parameter() {
             .choices = {"auto", "guess", "mm", "cm", "m"}};
 }
 
+namespace {
+
+/// A warning if the file's coordinates have a vessel's size in another unit only; else empty.
+std::string unlikely_unit_text(const SurfaceArgument& read, LengthUnit unit) {
+    if (read.surface.empty()) return "";
+    Positions raw = read.surface.points();
+    for (Vec3& point : raw) point /= millimetres_per(unit);
+    const UnitGuess guess = guess_length_unit(read.surface.with_positions(std::move(raw)));
+    if (guess.unit == unit || !guess.doubt.empty()) return "";
+    return read.name + " is read in " + read.units + ", as asked, but has a vessel's size in " +
+           to_string(guess.unit) + " only (" + guess.reason + ")";
+}
+
+}  // namespace
+
 SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome) {
     const std::string path = arguments.text("file"), units = arguments.text("units");
     const bool open = units == "auto" || units == "guess";
@@ -28,6 +45,10 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
                          .unit_reason = file.unit_reason,
                          .notes = std::move(file.notes)};
     outcome.resolved.set("units", read.units);
+    if (!open) {
+        const std::string text = unlikely_unit_text(read, file.unit);
+        if (!text.empty()) outcome.warnings.push_back(text);
+    }
     if (file.unit_doubt.empty()) return read;
     read.unit_doubt =
         read.name + " does not state its unit: " + file.unit_doubt + "; both can be a vessel";
