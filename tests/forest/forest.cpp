@@ -75,7 +75,7 @@ int plant(std::uint64_t seed, const fs::path& folder) {
     const Plan plan = plan_for(seed);
     Tree tree = grow(plan);
     form_ends(tree, plan);
-    const Truth truth = truth_of(tree, plan);
+    Truth truth = truth_of(tree, plan);
     std::string facts;
     if (is_image(plan.kind)) {
         const Image image = tree_image(tree, plan);
@@ -86,6 +86,10 @@ int plant(std::uint64_t seed, const fs::path& folder) {
                                                                     : tree_surface(tree, plan);
         write_surface(surface, (folder / truth.file).string());
         facts = facts_of(surface, truth, plan.kind == CaseKind::OpenSurface);
+        // Siblings at a small angle may touch once more beyond their furcation: the surface has a
+        // loop there that the tree knows nothing of.
+        if (plan.kind != CaseKind::VoxelSurface)
+            truth.genus = connectivity(*surface.topology).genus.value_or(truth.genus);
     }
     write_file(folder / "truth.json", to_json(truth).dump(1));
     std::printf(
