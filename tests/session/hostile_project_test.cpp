@@ -189,7 +189,8 @@ SCENARIO("A small project must not announce more than a large one could hold",
 SCENARIO("A project's stored places stay inside its folder", "[session][hostile]") {
     const fs::path root = test::temporary_folder(), folder = root / "project";
     fs::create_directory(folder);
-    std::ofstream(root / "outside.txt") << "secret";
+    fs::create_directory(root / "other");
+    std::ofstream(root / "other/outside.txt") << "secret";
     std::ofstream(folder / "inside.txt") << "mine";
     const Operation& load = test::find_test_operation("load-sphere");
 
@@ -197,10 +198,10 @@ SCENARIO("A project's stored places stay inside its folder", "[session][hostile]
         return source_files(load, {{"file", file.string()}}, folder).front();
     };
     CHECK(stored(folder / "inside.txt").place == "inside.txt");
-    CHECK(stored(root / "outside.txt").place.empty());
+    CHECK(stored(root / "other/outside.txt").place.empty());
 
-    SourceFile source = stored(root / "outside.txt");
-    source.place = "../outside.txt";  // as a stranger may write it
+    SourceFile source = stored(root / "other/outside.txt");
+    source.place = "../other/outside.txt";  // as a stranger may write it
     const Arguments given = {{"file", std::string("outside.txt")}};
     CHECK_THAT(error_of<IoError>(
                    [&] { (void)with_found_files(load, given, {source}, {.folder = folder}); }),
@@ -208,6 +209,14 @@ SCENARIO("A project's stored places stay inside its folder", "[session][hostile]
     for (const char* name : {"/etc/passwd", "../outside.txt", ".."})
         CHECK_THROWS_AS(require_bare_files(load, {{"file", std::string(name)}}), InvalidInput);
     CHECK_NOTHROW(require_bare_files(load, given));
+    THEN("a file beside the folder is found by its name and content") {
+        std::ofstream(root / "outside.txt") << "secret";
+        CHECK_NOTHROW(with_found_files(load, given, {source}, {.folder = folder}));
+        std::ofstream(root / "outside.txt") << "another";
+        CHECK_THAT(error_of<IoError>(
+                       [&] { (void)with_found_files(load, given, {source}, {.folder = folder}); }),
+                   Contains("has changed"));
+    }
 }
 
 SCENARIO("A folder of slices does not leave its name in the project", "[session][hostile]") {

@@ -140,6 +140,23 @@ SCENARIO("Changing an earlier edit replays the later ones", "[session]") {
     }
 }
 
+SCENARIO("Later edits decide anew where that is asked for", "[session]") {
+    Session session = sphere_session();
+    const double height =
+        session.apply("bump", {{"at", kTop}, {"reach", 4.0}}).result->resolved.real("height");
+    session.change_edit(1, {{"radius", 10.5}});
+    CHECK(session.decide_anew() == 1);
+    CHECK(session.decide_anew() == 1);  // it is still pending
+    CHECK(statuses(session) == std::vector{kDone, kPending});
+    static_cast<void>(session.scene());
+    CHECK(session.log()[1].result->resolved.real("height") > height);
+    CHECK(session.log()[1].edit.edit.revision == 3);
+    CHECK(session.decide_anew() == 0);
+    for (const auto& entry : session.replay()) CHECK(entry.differences.empty());
+    session.undo(1);
+    CHECK(session.log()[1].result->resolved.real("height") == height);
+}
+
 SCENARIO("An edit that no longer applies becomes stale, and says why", "[session]") {
     Session session = sphere_session();
     session.apply("bump", bump_at(kTop, 0.5));

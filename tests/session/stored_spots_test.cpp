@@ -38,7 +38,7 @@ SCENARIO("Spots are kept in a project beside its edits", "[session][spots]") {
         CHECK_THAT(stored_spots(project).front().name, Contains("a"));
     }
     THEN("what is not a list of spots is refused") {
-        for (const char* text : {"{}", "[1]", R"([{"name": "a"}])", "[", "",
+        for (const char* text : {"{}", "[1]", R"([{"name": "a"}])", "[",
                                  R"([{"name": 1, "point": [0,0,0], "normal": [0,0,1]}])",
                                  R"([{"name": "a", "point": [0,0], "normal": [0,0,1]}])",
                                  R"([{"name": "a", "point": [0,0,0], "normal": [0,0,0]}])"}) {

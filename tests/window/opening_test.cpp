@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/session/stored_recipes.h"
+#include "workbench/session/stored_texts.h"
 #include "workbench/window/model/document.h"
 
 using namespace vesselbench;
@@ -66,7 +66,7 @@ SCENARIO("A reopened project still has the recipe of its case", "[window][openin
     CHECK(operations(document.recipe("rp")) == own);
     WHEN("what the project keeps cannot be used any more") {
         document.close();
-        store_recipes(project, R"([{"operation": "vanished"}])");
+        store_text(project, StoredText::Recipes, R"([{"operation": "vanished"}])");
         open_and_wait(document, project);
         REQUIRE(document.is_open());
         CHECK(operations(document.recipe("cfd")).size() > 2);

@@ -76,10 +76,3 @@ SCENARIO("A form shows its command", "[window][form]") {
     CHECK(change.field("iterations").text == "7");
     CHECK(change.as_command("a.vbench", "cfd") == "vesselbench change a.vbench 3 iterations=7");
 }
-
-SCENARIO("Words of a shell are quoted only where needed", "[window][form]") {
-    CHECK(shell_quoted("a/b-c.vbench") == "a/b-c.vbench");
-    CHECK(shell_quoted("") == "''");
-    CHECK(shell_quoted("a b") == "'a b'");
-    CHECK(shell_quoted("$HOME") == "'$HOME'");
-}

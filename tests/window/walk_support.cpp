@@ -9,6 +9,7 @@
 
 #include "tests/window/window_support.h"
 #include "workbench/case/parameter_texts.h"
+#include "workbench/case/shell_text.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/view/screen_places.h"
 

@@ -93,6 +93,8 @@ SCENARIO("A dab at a point is stored as the resolved dab", "[workbench][brush]")
         const Outcome off = run(name, tube, {{"at", Vec3(8, 0, 6)}, {"radius", 1.5}});
         REQUIRE(off.warnings.size() == 1);
         CHECK_THAT(off.warnings[0], Catch::Contains("6 mm away from the surface"));
+        CHECK_THROWS_AS(run(name, tube, {{"at", Vec3(80, 0, 6)}, {"radius", 1.5}}),
+                        AlgorithmFailure);
     }
 }
 

@@ -76,13 +76,12 @@ std::vector<std::string> options_in(const std::string& error) {
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-/// Runs the command that an error names: "vesselbench change project.vbench 4 edge=0.3, then".
-ProgramRun followed(const std::string& error, const std::string& folder) {
+/// Runs the command that an error names: "vesselbench change out/project.vbench 4 edge=0.3, then".
+ProgramRun followed(const std::string& error) {
     std::smatch found;
     REQUIRE(std::regex_search(error, found, std::regex("\nvesselbench (.+), then --resume")));
     std::istringstream words(found[1]);
     std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
-    std::ranges::replace(command, std::string("project.vbench"), folder + "/project.vbench");
     return run(command);
 }
 
@@ -244,7 +243,7 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
         CHECK_THAT(again.err, Contains("the model has lost vessels:"));
     }
     THEN("the command in its text mends it") {
-        CHECK(followed(result.err, folder + "/out").exit_code == 0);
+        CHECK(followed(result.err).exit_code == 0);
         const ProgramRun again = prepared({"--resume"});
         INFO(again.err);
         CHECK(again.exit_code == 0);
@@ -319,7 +318,7 @@ SCENARIO("An opening in a vessel's side ends prepare with a command that mends i
     INFO(stopped.err);
     CHECK(stopped.exit_code == 1);
     CHECK_THAT(stopped.err, Contains("the opening 'side' at (") && Contains("vessel's side"));
-    CHECK(followed(stopped.err, out).exit_code == 0);
+    CHECK(followed(stopped.err).exit_code == 0);
     const ProgramRun resumed = prepared("--resume");
     INFO(resumed.err);
     CHECK(resumed.exit_code == 0);
@@ -546,7 +545,7 @@ SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
             .exit_code == 0);
     CHECK_THAT(again({"--for", "rp"}), Contains("for simulation"));
     CHECK_THAT(again({"--for", "simulation", "--set", "remesh.edge=0.9"}),
-               Contains("change project.vbench") && Contains("edge=0.9"));
+               Contains("change " + out + "/project.vbench") && Contains("edge=0.9"));
     THEN("the input is another one, or read in another unit") {
         write_surface(closed_tube(2.5, 20.0, 32, 40), folder + "/other.stl");
         const auto resumed = [&](const std::string& file, const std::string& units) {
@@ -560,12 +559,55 @@ SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
     }
     THEN("an edit no longer applies after an earlier one was changed") {
         const std::string project = out + "/project.vbench", model = folder + "/model.stl";
-        REQUIRE(run({"apply", project, "brush-inflate", "at=2,0,10", "radius=2"}).exit_code == 0);
+        REQUIRE(run({"apply", project, "brush-inflate", "at=2,0,10", "radius=0.5"}).exit_code == 0);
         REQUIRE(
             run({"change", project, "1", "units=m", "file=" + folder + "/tube.stl"}).exit_code ==
             0);
         const ProgramRun exported = run({"export", project, model});
         CHECK_THAT(exported.err, Contains("no longer applies and is not in the model"));
+    }
+}
+
+SCENARIO("What is neither a surface nor an image is refused with the formats",
+         "[workbench][prepare]") {
+    const std::string folder = temporary_folder();
+    write_text(folder + "/notes.txt", "a vessel");
+    const ProgramRun result =
+        run({"prepare", folder + "/notes.txt", "--for", "cfd", "--out", folder + "/out"});
+    check_bad_input(result);
+    CHECK_THAT(result.err, Contains("neither a surface") && Contains(".stl") && Contains("NIfTI"));
+}
+
+SCENARIO("The unit of a prepared case can be changed", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const std::string project = out + "/project.vbench";
+    write_surface(closed_tube(0.2, 2.0, 32, 40), folder + "/tube.stl");  // in cm
+    const std::vector<std::string> command = {
+        "prepare", folder + "/tube.stl", "--for", "cfd", "--out", out};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), command.begin(), command.end());
+        return run(more);
+    };
+    REQUIRE(with({"--units", "mm", "--set", "openfoam.flow=0.7"}).exit_code == 0);
+    // The file is found beside the folder, whatever the current one is.
+    const ProgramRun changed = run({"change", project, "1", "units=cm"});
+    INFO(changed.err);
+    REQUIRE(changed.exit_code == 0);
+    CHECK_THAT(changed.out, Contains("clip-opening") && Contains("choose anew"));
+    const ProgramRun resumed = with({"--resume"});
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    const Json report = Json::parse(text_of(out + "/report.json"));
+    CHECK(report["openings"].size() == 2);
+    CHECK(report["openings"][0]["diameter"].get<double>() == Approx(4.0).epsilon(0.05));
+    THEN("the flow is the one that was given") {
+        CHECK(report["flow"]["flow_cm3_s"] == 0.7);
+        REQUIRE(run({"export", project, folder + "/other"}).exit_code == 0);
+        CHECK(text_of(folder + "/other/0/U") == text_of(out + "/openfoam/0/U"));
+        REQUIRE(with({"--resume", "--set", "openfoam.density=1050"}).exit_code == 0);
+        const Json again = Json::parse(text_of(out + "/report.json"));
+        CHECK(again["flow"]["flow_cm3_s"] == 0.7);
+        CHECK(again["flow"]["density_kg_m3"] == 1050.0);
     }
 }
 

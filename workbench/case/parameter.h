@@ -26,6 +26,7 @@ enum class Meaning {
     Openings,  ///< names of openings, separated by commas
     Patches,   ///< kind:name of openings, separated by commas
     Planes,    ///< openings as planes
+    Unit,      ///< of the model's lengths: another one moves every place
     Dabs       ///< of a brush
 };
 

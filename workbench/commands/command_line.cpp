@@ -1,12 +1,14 @@
 #include "workbench/commands/command_line.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/shell_text.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/command_parser.h"
 #include "workbench/commands/measuring_commands.h"
@@ -123,6 +125,34 @@ std::string help_hint(const CLI::App& app) {
     return " (see 'vesselbench " + command + "--help')";
 }
 
+/// The project that the command works on; empty: none.
+std::string project_of(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty()) return "";
+    const auto value = [&](const char* option) {
+        const CLI::Option* found = chosen.front()->get_option_no_throw(option);
+        return found != nullptr && found->count() > 0 ? found->as<std::string>() : "";
+    };
+    if (chosen.front()->get_name() == "prepare")
+        return (std::filesystem::path(value("--out")) / "project.vbench").string();
+    return value("PROJECT");
+}
+
+/// Runs the command; commands that an error's text proposes can be copied as they are.
+int run_command(const CommandLine& line) {
+    const std::string project = project_of(line.app);
+    if (project.empty()) return line.command();
+    try {
+        return line.command();
+    } catch (const UsageError& error) {
+        throw UsageError(with_project(error.what(), project));
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(with_project(error.what(), project));
+    } catch (const AlgorithmFailure& error) {
+        throw AlgorithmFailure(with_project(error.what(), project));
+    }
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv, const std::stop_token& stop) {
@@ -142,7 +172,7 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop) {
         show_window(line);
         return 0;
     }
-    return line.command();
+    return run_command(line);
 }
 
 }  // namespace vesselbench

@@ -44,6 +44,7 @@ struct ChangeOptions {
     std::vector<std::string> arguments;  ///< "parameter=value"; the others stay as they were
     std::string author;                  ///< empty: the login name
     std::string note;                    ///< empty: unchanged
+    bool anew = false;                   ///< later edits choose again what they chose by themselves
     bool json = false;
 };
 

@@ -8,11 +8,13 @@
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
 #include "workbench/case/purposes.h"
+#include "workbench/case/shell_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
 
@@ -46,15 +48,18 @@ InputOptions input_options(const InputArguments& arguments) {
 
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
+    const std::filesystem::path out = arguments.out;
+    const auto tell = [project = (out / "project.vbench").string()](const std::string& text) {
+        remark(with_project(text, project));
+    };
     const PrepareSummary made = prepare({.input = input_options(arguments.input),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,
                                          .arguments = arguments.settings,
                                          .out = arguments.out,
                                          .resume = arguments.resume},
-                                        remark, progress);
+                                        tell, progress);
     if (arguments.json) return print_prepared(arguments, made);
-    const std::filesystem::path out = arguments.out;
     std::string what = purpose.result + ":";
     what.resize(std::string("report:      ").size(), ' ');
     std::cout << what << (out / purpose.result_file).string()
@@ -72,14 +77,15 @@ void make_project(const NewArguments& arguments, const Progress& progress) {
 }
 
 void export_project(const ExportArguments& arguments, const Progress& progress) {
-    std::vector<std::string> settings = arguments.settings;
-    const CfdParameters flow = take_flow_parameters(settings);
-    if (!settings.empty())
-        throw UsageError("--set '" + settings.front() +
-                         "': export accepts only openfoam.parameter=value");
     check_export_name(arguments.file);
     check_export_place(arguments.file);
     Session session = Session::open(arguments.project, {.find = find_operation});
+    std::vector<std::string> settings = arguments.settings;
+    FlowSettings flow(stored_text(arguments.project, StoredText::Flow));
+    flow.take(settings);
+    if (!settings.empty())
+        throw UsageError("--set '" + settings.front() +
+                         "': export accepts only openfoam.parameter=value");
     refuse_source(session, arguments.file);
     const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
     for (const LogEntry& entry : session.log())
@@ -88,7 +94,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     PendingFiles files;
-    export_scene(files, arguments.file, scene, flow);
+    export_scene(files, arguments.file, scene, flow.parameters());
     progress.check_cancelled();
     files.commit();
     if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");

@@ -77,11 +77,16 @@ Json pending_json(const Snapshot& now) {
     return pending;
 }
 
+/// Pending edits, and whether they run with what they chose before.
 void print_pending(const Snapshot& now) {
     const std::vector<const EditRecord*> pending = pending_edits(now);
     if (pending.empty()) return;
     std::cout << "pending now: " << edit_list(pending)
               << " (they run when their result is shown, exported or built upon)\n";
+    const bool anew = std::ranges::any_of(pending, [&](const EditRecord* edit) {
+        return now.history->newest_result_of(edit->edit) == nullptr;
+    });
+    if (anew) std::cout << "they choose anew what they had chosen by themselves\n";
 }
 
 Json state_json(const Snapshot& now) {
@@ -215,6 +220,7 @@ void change_edit(const ChangeOptions& options, const Progress& progress) {
     for (const auto& [name, value] : more->values()) given.set(name, value);
     const LogEntry entry = session.change_edit(
         options.edit, given, {.author = options.author, .note = options.note}, progress);
+    if (options.anew) session.decide_anew({.author = options.author});
     remark_warnings(entry, given);
     const std::shared_ptr<const Snapshot> now = session.snapshot();
     if (options.json) {

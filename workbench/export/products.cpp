@@ -1,9 +1,13 @@
 #include "workbench/export/products.h"
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/products/openfoam_case.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
@@ -33,14 +37,33 @@ const ExportFormat* format_of(const fs::path& file) {
 
 }  // namespace
 
-CfdParameters take_flow_parameters(std::vector<std::string>& texts) {
+FlowSettings::FlowSettings(const std::string& stored) {
+    if (stored.empty()) return;
+    try {
+        given_ = arguments_from_json(openfoam(), json_from_text(stored, "the stored flow"));
+    } catch (const UsageError& error) {
+        throw InvalidInput(std::string("the flow stored in the project: ") + error.what());
+    }
+}
+
+void FlowSettings::take(std::vector<std::string>& texts) {
     const Operation table = openfoam();
     const std::string prefix = table.name + ".";
     std::vector<std::string> own;
     for (const std::string& text : texts)
         if (text.starts_with(prefix)) own.push_back(text.substr(prefix.size()));
     std::erase_if(texts, [&](const std::string& text) { return text.starts_with(prefix); });
-    return flow_from(checked_arguments(arguments_from_texts(table, own)));
+    const GivenArguments more = arguments_from_texts(table, own);
+    for (const auto& [name, value] : more->values()) given_.set(name, value);
+    static_cast<void>(parameters());  // a text in them may be wrong
+}
+
+CfdParameters FlowSettings::parameters() const {
+    return flow_from(checked_arguments(openfoam(), given_));
+}
+
+std::string FlowSettings::stored() const {
+    return given_.values().empty() ? "" : to_json(given_).dump();
 }
 
 std::vector<std::string> product_names(const std::string& purpose) {

@@ -6,13 +6,31 @@
 
 #include "geometry/kernel/pending_files.h"
 #include "meshing/products/cfd_parameters.h"
+#include "workbench/case/operation.h"
 #include "workbench/case/scene.h"
 
 namespace vesselbench {
 
-/// Takes the "openfoam.parameter=value" texts out of a list, checked against flow_parameters().
-/// \throw UsageError as checked_arguments
-[[nodiscard]] CfdParameters take_flow_parameters(std::vector<std::string>& texts);
+/// The flow of an OpenFOAM case: what was given of flow_parameters().
+class FlowSettings {
+public:
+    FlowSettings() = default;
+    /// \param stored of a project: stored() of an earlier one, or empty
+    /// \throw InvalidInput if it is damaged
+    explicit FlowSettings(const std::string& stored);
+
+    /// Takes the "openfoam.parameter=value" texts out of a list; they replace what was given
+    /// before. \throw UsageError as checked_arguments
+    void take(std::vector<std::string>& texts);
+
+    [[nodiscard]] CfdParameters parameters() const;
+
+    /// JSON, to be kept in a project; empty if nothing was given.
+    [[nodiscard]] std::string stored() const;
+
+private:
+    Arguments given_;
+};
 
 /// Names of the files that write_products writes: the surface, and the purpose's own products.
 /// \throw UsageError as find_purpose

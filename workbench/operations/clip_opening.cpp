@@ -366,18 +366,21 @@ std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     return warnings;
 }
 
-/// Of flat ends that were kept although the vessel behind them runs another way.
-std::vector<std::string> tilt_warnings(const Resolved& resolved) {
+/// Of flat ends that were kept although the vessels behind them run another way; empty if there
+/// are none.
+std::string tilt_warning(const Resolved& resolved) {
     constexpr double kNoticedTiltDeg = 10.0;
-    std::vector<std::string> warnings;
+    std::vector<std::string> tilted;
     for (const ordered_json& opening : resolved.openings)
         if (opening["kept"] == true && opening["tilt_deg"].is_number() &&
             opening["tilt_deg"] > kNoticedTiltDeg)
-            warnings.push_back(opening["name"].get<std::string>() +
-                               ": its flat end was kept, tilted by " +
-                               formatted(opening["tilt_deg"], "%.0f") +
-                               " degrees against the vessel's axis; strict=true cuts it across");
-    return warnings;
+            tilted.push_back(opening["name"].get<std::string>() + " by " +
+                             formatted(opening["tilt_deg"], "%.0f degrees"));
+    if (tilted.empty()) return "";
+    const bool one = tilted.size() == 1;
+    return std::string(one ? "a flat end was" : "flat ends were") +
+           " kept although tilted against the vessel's axis: " + joined(tilted) +
+           "; strict=true cuts " + (one ? "it" : "them") + " across";
 }
 
 /// What to say of outlets that look like inlets; empty if there are none.
@@ -421,6 +424,15 @@ ordered_json ends_json(const OpeningPlan& plan, const Resolved& resolved) {
     return list;
 }
 
+/// What matters if blood flows through the openings.
+void add_flow_warnings(const Arguments& arguments, const Clipping& made, const Resolved& resolved,
+                       Outcome& outcome) {
+    const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
+    for (const std::string& text :
+         {tilt_warning(resolved), own_choice ? further_inlets(made.surface) : std::string()})
+        if (!text.empty()) outcome.warnings.push_back(text);
+}
+
 Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progress& progress) {
     check_arguments(arguments);
     const Surface& surface = surface_of(scene);
@@ -438,11 +450,7 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     outcome.warnings = end_warnings(made.plan);
     outcome.warnings.insert(outcome.warnings.end(), made.plan.warnings.begin(),
                             made.plan.warnings.end());
-    for (std::string& warning : tilt_warnings(resolved))
-        outcome.warnings.push_back(std::move(warning));
-    const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
-    if (const std::string text = own_choice ? further_inlets(made.surface) : ""; !text.empty())
-        outcome.warnings.push_back(text);
+    if (arguments.text("check") == "flow") add_flow_warnings(arguments, made, resolved, outcome);
     // Ends that are cut one by one need it until the last one.
     if (!arguments.has("tip")) made.surface = without_unsmoothed(std::move(made.surface));
     outcome.scene = with_surface(scene, std::move(made.surface));

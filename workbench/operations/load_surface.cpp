@@ -66,7 +66,7 @@ Operation load_surface_operation() {
                             .type = File,
                             .help = "the surface file; its suffix determines the format",
                             .required = true},
-                           units_parameter()},
+                           units_parameter(Meaning::Unit)},
             .run = &load,
             .isolated = true,
             .thesis = "3.2",

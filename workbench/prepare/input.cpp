@@ -4,10 +4,13 @@
 #include <stdlib.h>
 
 #include "geometry/formats/image_file.h"
+#include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_file.h"
+#include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/phantoms/phantom.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
@@ -120,6 +123,14 @@ void read_case(Input& input, const fs::path& folder, const Progress& progress) {
     }
 }
 
+/// What is no surface has to be an image.
+void require_known_image(const fs::path& path) {
+    if (fs::is_directory(path) || row_that_reads(image_formats(), path.string()) != nullptr) return;
+    throw InvalidInput("'" + path.filename().string() + "' is neither a surface (" +
+                       enumerated(read_suffixes(surface_formats())) + ") nor an image: give " +
+                       image_formats_text());
+}
+
 }  // namespace
 
 Input resolve_input(const InputOptions& options, const Progress& progress) {
@@ -135,6 +146,7 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
         if (fs::is_directory(path)) input.name = "DICOM slices";
         input.is_image = fs::is_directory(path) || !holds_surface(path.string());
         input.file = path;
+        if (input.is_image) require_known_image(path);
     }
     if (!options.mask.empty()) input.mask = options.mask;
     if (!options.units.empty()) input.units = options.units;

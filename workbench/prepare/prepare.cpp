@@ -17,7 +17,7 @@
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/resume.h"
-#include "workbench/session/stored_recipes.h"
+#include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
 
@@ -133,9 +133,19 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     return recipe;
 }
 
-/// So that a reopened project still has them.
+/// So that a reopened project has them.
 void keep_recipes(const fs::path& project, const Input& input) {
-    if (input.recipes) store_recipes(project, input.recipes->dump());
+    if (input.recipes) store_text(project, StoredText::Recipes, input.recipes->dump());
+}
+
+/// What a resumed preparation does first, unless edits of the recipe follow.
+void tell_rest(const Recipe& rest, const std::vector<LogEntry>& log, const Teller& tell) {
+    if (!rest.empty()) return;
+    const auto pending =
+        static_cast<std::size_t>(std::ranges::count(log, EditStatus::Pending, &LogEntry::status));
+    tell("every edit of the recipe has been made: " +
+         (pending == 0 ? "" : "running " + counted(pending, "pending edit") + ", then ") +
+         "writing the results");
 }
 
 /// Applies the recipe; a model that has lost vessels, or an opening in a vessel's side, is an
@@ -186,14 +196,16 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     const Input input = resolve_input(options.input, progress.part(0.0, 0.02));
     PrepareOptions for_recipe = options;
     PreparedCase prepared{.purpose = options.purpose, .input = input};
-    prepared.flow = take_flow_parameters(for_recipe.arguments);
-    Recipe recipe = recipe_for(for_recipe, input);
-    refuse_own_input(options, input);
-    const bool new_folder = !fs::exists(options.out);
     const fs::path project = options.out / "project.vbench";
     if (options.resume && !fs::exists(project))
         throw UsageError("--resume: there is no project.vbench in '" +
                          options.out.filename().string() + "' to go on with");
+    FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
+    flow.take(for_recipe.arguments);
+    prepared.flow = flow.parameters();
+    Recipe recipe = recipe_for(for_recipe, input);
+    refuse_own_input(options, input);
+    const bool new_folder = !fs::exists(options.out);
     make_folder(options.out);
     if (!options.resume) keep_earlier(project, tell);
     bool any_edit = options.resume;
@@ -204,10 +216,11 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             refuse_other_input(session, input);
             recipe = rest_of(recipe, *session.snapshot(), options.purpose);
             refuse_late_settings(for_recipe.arguments, recipe, session.log());
-            if (recipe.empty()) tell("every edit of the recipe has been made: writing the results");
+            tell_rest(recipe, session.log(), tell);
         } else {
             keep_recipes(project, input);
         }
+        if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
         const Teller noting = [&](const std::string& text) {
             any_edit = true;
             tell(text);

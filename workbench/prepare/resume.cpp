@@ -94,10 +94,12 @@ void refuse_stale_edits(const std::vector<LogEntry>& log) {
     const auto stale = std::ranges::find(log, EditStatus::Stale, &LogEntry::status);
     if (stale == log.end()) return;
     const std::string edit = std::to_string(stale->edit.edit.id);
-    throw AlgorithmFailure("edit " + edit + " " + stale->edit.operation +
-                           " no longer applies after an earlier edit was changed: " +
-                           stale->reason + "; change it (vesselbench change project.vbench " +
-                           edit + " ...), remove it, or prepare into another folder");
+    throw AlgorithmFailure(
+        "edit " + edit + " " + stale->edit.operation +
+        " no longer applies after an earlier edit was changed: " + stale->reason +
+        "; change it (vesselbench change project.vbench " + edit +
+        " ...), remove it, let all edits choose anew (vesselbench "
+        "change project.vbench EARLIER --anew), or prepare into another folder");
 }
 
 Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {

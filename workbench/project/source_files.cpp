@@ -55,7 +55,10 @@ std::vector<fs::path> candidates_for(const SourceFile& source, const FilePlaces&
     std::vector<fs::path> candidates;
     if (!source.place.empty() && is_inside(source.place))
         candidates.push_back(places.folder / source.place);
-    if (!places.folder.empty()) candidates.push_back(places.folder / source.name);
+    if (!places.folder.empty()) {
+        candidates.push_back(places.folder / source.name);
+        candidates.push_back(places.folder.parent_path() / source.name);
+    }
     candidates.emplace_back(source.name);
     const auto read = places.read.find(source.hash);
     if (read != places.read.end()) candidates.push_back(read->second);

@@ -39,8 +39,9 @@ void remember(ReadFiles& read, const std::vector<SourceFile>& sources, const Arg
 void require_bare_files(const Operation& operation, const Arguments& stored);
 
 /// Finds recorded files again: in their old place inside the project's folder, beside the project,
-/// in the current folder, or where this process has read them; only the same content counts.
-/// Existing paths are kept. \throw IoError that names the file if there is none
+/// beside its folder (as `prepare FILE --out FOLDER` leaves it), in the current folder, or where
+/// this process has read them; only the same content counts. Existing paths are kept. \throw
+/// IoError that names the file if there is none
 [[nodiscard]] Arguments with_found_files(const Operation& operation, const Arguments& arguments,
                                          const std::vector<SourceFile>& sources,
                                          const FilePlaces& places);

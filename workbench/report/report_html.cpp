@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
 
 namespace vesselbench {
@@ -156,23 +157,25 @@ std::string step_row(const Json& step) {
     std::string arguments;
     for (const auto& [name, value] : part_of(step, "resolved").items())
         arguments += (arguments.empty() ? "" : ", ") + xml_escaped(name) + "=" + shown(value);
-    return "<tr><td>" + shown(part_of(step, "step")) + "</td><td><b>" +
-           shown(part_of(step, "operation")) + "</b><br><span class=about>" + arguments +
-           "</span></td><td class=n>" + seconds_text(part_of(step, "duration_s")) +
-           "</td><td class=n>" + shown(part_of(change, "triangles_after")) + "</td><td class=n>" +
-           volume + "</td><td class=n>" + shown(part_of(change, "mean_deviation_mm")) + " / " +
+    return "<tr><td class=n>" + shown(part_of(step, "edit")) + "</td><td>" +
+           shown(part_of(step, "step")) + "</td><td><b>" + shown(part_of(step, "operation")) +
+           "</b><br><span class=about>" + arguments + "</span></td><td class=n>" +
+           seconds_text(part_of(step, "duration_s")) + "</td><td class=n>" +
+           shown(part_of(change, "triangles_after")) + "</td><td class=n>" + volume +
+           "</td><td class=n>" + shown(part_of(change, "mean_deviation_mm")) + " / " +
            shown(part_of(change, "largest_deviation_mm")) + "</td></tr>\n";
 }
 
 std::string steps(const Json& report) {
     std::string html =
-        "<h2>What was done</h2>\n<table><tr><th>step</th><th>operation and arguments</th>"
+        "<h2>What was done</h2>\n<table><tr><th class=n>edit</th><th>step</th><th>operation and "
+        "arguments</th>"
         "<th class=n>seconds</th><th class=n>triangles</th><th class=n>volume</th>"
         "<th class=n>mean / largest deviation [mm]</th></tr>\n";
     for (const Json& step : part_of(report, "steps")) html += step_row(step);
     return html +
            "</table>\n<p class=about>Every row is an edit of the project that can be undone, "
-           "changed and replayed.</p>\n";
+           "changed by its number, and replayed.</p>\n";
 }
 
 std::string quality(const Json& report) {
@@ -218,6 +221,13 @@ std::string openings(const Json& report) {
 }
 
 /// What became of every vessel end, worst first.
+/// As an argument, to be copied.
+std::string place_text(const Json& place) {
+    if (!place.is_array() || place.size() != 3) return shown(place);
+    const Vec3 point(place[0].get<double>(), place[1].get<double>(), place[2].get<double>());
+    return to_text(Value(rounded_place(point)));
+}
+
 std::string ends(const Json& report) {
     const Json& list = part_of(report, "ends");
     if (!list.is_array() || list.empty()) return "";
@@ -226,11 +236,13 @@ std::string ends(const Json& report) {
         "<th>became</th><th>opening</th><th>why</th></tr>\n";
     for (const Json& end : list) {
         const Json& opening = part_of(end, "opening");
-        html += row({shown(part_of(end, "place_mm")), shown(part_of(end, "diameter_mm")),
+        html += row({place_text(part_of(end, "place_mm")), shown(part_of(end, "diameter_mm")),
                      shown(part_of(end, "fate")), opening.is_null() ? "" : shown(opening),
                      shown(part_of(end, "why"))});
     }
-    return html + "</table>\n";
+    return html +
+           "</table>\n<p class=about>A place of this table chooses an end: inlet=, open= and "
+           "closed= of clip-opening take it.</p>\n";
 }
 
 /// A part of the report as a table of names and values; nothing if it is absent.

@@ -129,15 +129,47 @@ struct Session::Parts {
                              " no longer fits: the edits before it have changed; preview it again");
     }
 
+    /// True if the edit's revision reads the model in another unit than the one before.
+    bool changes_unit(const EditRecord& old, const ResultRecord& now) {
+        const HistoryResult* earlier = store.history().newest_result_of(old.edit);
+        if (earlier == nullptr) return false;
+        const Arguments& before = store.record(earlier->id)->resolved;
+        const auto& parameters = options.find(old.operation).parameters;
+        return std::ranges::any_of(parameters, [&](const Parameter& parameter) {
+            const std::string& name = parameter.name;
+            return parameter.meaning == Meaning::Unit && before.has(name) &&
+                   now.resolved.has(name) && before.text(name) != now.resolved.text(name);
+        });
+    }
+
+    std::size_t decide_anew(const EditOptions& how) {
+        std::size_t count = 0;
+        for (const HistoryEntry& entry : store.history().entries()) {
+            if (entry.status == EditStatus::Done) continue;
+            History next = store.history();
+            EditRecord edit = store.edit(entry.edit);
+            describe(edit, how);
+            edit.edit = next.change(entry.edit.id);
+            edit.time = utc_now();
+            ProjectChange change;
+            change.edit = &edit;
+            change.sources = store.project().sources(entry.edit);
+            store.commit(std::move(next), std::move(change));
+            ++count;
+        }
+        return count;
+    }
+
     LogEntry enter(Preview::Data data) {
         store.check_writable();
         check_same_input(data);
         EditRecord edit = data.edit;
         edit.time = utc_now();
         History next = store.history();
-        edit.edit = edit.edit.id == 0 ? next.apply(edit.place) : next.change(edit.edit.id);
         ProjectChange change;
         ResultRecord& record = data.run.record;
+        const bool moves_places = edit.edit.id != 0 && changes_unit(edit, record);
+        edit.edit = edit.edit.id == 0 ? next.apply(edit.place) : next.change(edit.edit.id);
         record.edit = edit.edit;
         record.input = vesselbench::enter(data.before, next, change.results);
         record.id = next.add_result(edit.edit, record.input);
@@ -145,6 +177,7 @@ struct Session::Parts {
         change.edit = &edit;
         change.sources = std::move(data.sources);
         store.commit(std::move(next), std::move(change));
+        if (moves_places) decide_anew({.author = edit.author});
         return {std::move(edit), EditStatus::Done, {}, store.record(record.id)};
     }
 
@@ -197,6 +230,11 @@ LogEntry Session::change_edit(EditId id, const Arguments& given, const EditOptio
                               Progress progress) {
     parts_->store.check_writable();
     return parts_->enter(parts_->run(parts_->plan_change(id, given, options), progress));
+}
+
+std::size_t Session::decide_anew(const EditOptions& options) {
+    parts_->store.check_writable();
+    return parts_->decide_anew(options);
 }
 
 Preview Session::preview(const std::string& operation, const Arguments& given,

@@ -80,6 +80,13 @@ public:
     /// The result of everything added to a live edit, with its figures; the live edit may continue.
     [[nodiscard]] Preview preview(LiveEdit& live, Progress progress = {});
 
+    /// Pending edits, and those that no longer apply, will run with the arguments they were given,
+    /// and choose again what they chose by themselves (an opening's plane, a radius): each gets a
+    /// new revision. A change of the model's unit does this by itself.
+    /// \return the number of these edits
+    /// \throw IoError as apply()
+    std::size_t decide_anew(const EditOptions& options = {});
+
     /// Leaves an edit out; later edits become pending.
     /// \throw UsageError if there is no such edit
     void remove_edit(EditId id);

@@ -7,7 +7,7 @@
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/point_json.h"
-#include "workbench/project/database.h"
+#include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
 
@@ -50,34 +50,16 @@ std::vector<Spot> spots_from(const std::string& text) {
     return spots;
 }
 
-std::vector<Spot> spots_in(const Database& database) {
-    Statement query = database.prepare("SELECT value FROM meta WHERE name = 'spots'");
-    return query.step() ? spots_from(query.text(0)) : std::vector<Spot>();
-}
-
-/// True if the file alone is all of the project.
-bool has_no_log(std::filesystem::path project) {
-    project += "-wal";
-    std::error_code missing;
-    const auto size = std::filesystem::file_size(project, missing);
-    return missing || size == 0;
-}
-
 }  // namespace
 
 void store_spots(const std::filesystem::path& project, const std::vector<Spot>& spots) {
-    const std::string text = json_of(spots).dump(-1, ' ', false, Json::error_handler_t::replace);
-    const Database database(project, OpenMode::Write);
-    database.prepare("INSERT OR REPLACE INTO meta VALUES('spots', ?)").bind(0, text).step();
+    store_text(project, StoredText::Spots,
+               json_of(spots).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::vector<Spot> stored_spots(const std::filesystem::path& project) {
-    try {
-        return spots_in(Database(project, OpenMode::Read));
-    } catch (const IoError&) {  // in a folder that cannot be written
-        if (!has_no_log(project)) throw;
-        return spots_in(Database(project, OpenMode::Frozen));
-    }
+    const std::string text = stored_text(project, StoredText::Spots);
+    return text.empty() ? std::vector<Spot>() : spots_from(text);
 }
 
 }  // namespace vesselbench

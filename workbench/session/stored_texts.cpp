@@ -1,24 +1,54 @@
-#include "workbench/session/stored_recipes.h"
+#include "workbench/session/stored_texts.h"
 
 #include "geometry/kernel/errors.h"
 #include "workbench/project/database.h"
 
 namespace vesselbench {
 
-void store_recipes(const std::filesystem::path& project, const std::string& recipes) {
-    const Database database(project, OpenMode::Write);
-    database.prepare("INSERT OR REPLACE INTO meta VALUES('recipes', ?)").bind(0, recipes).step();
+namespace {
+
+std::string key_of(StoredText which) {
+    switch (which) {
+        case StoredText::Recipes:
+            return "recipes";
+        case StoredText::Flow:
+            return "flow";
+        case StoredText::Spots:
+            break;
+    }
+    return "spots";
 }
 
-std::string stored_recipes(const std::filesystem::path& project) {
+std::string text_in(const Database& database, StoredText which) {
+    Statement query = database.prepare("SELECT value FROM meta WHERE name = ?");
+    query.bind(0, key_of(which));
+    return query.step() ? query.text(0) : "";
+}
+
+/// True if the file alone is all of the project.
+bool has_no_log(std::filesystem::path project) {
+    project += "-wal";
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(project, missing);
+    return missing || size == 0;
+}
+
+}  // namespace
+
+void store_text(const std::filesystem::path& project, StoredText which, const std::string& text) {
+    const Database database(project, OpenMode::Write);
+    database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)")
+        .bind(0, key_of(which))
+        .bind(1, text)
+        .step();
+}
+
+std::string stored_text(const std::filesystem::path& project, StoredText which) {
     try {
-        const Database database(project, OpenMode::Read);
-        Statement query = database.prepare("SELECT value FROM meta WHERE name = 'recipes'");
-        return query.step() ? query.text(0) : "";
-    } catch (const IoError&) {
-        return "";
-    } catch (const InvalidInput&) {
-        return "";
+        return text_in(Database(project, OpenMode::Read), which);
+    } catch (const IoError&) {  // in a folder that cannot be written
+        if (!has_no_log(project)) throw;
+        return text_in(Database(project, OpenMode::Frozen), which);
     }
 }
 

@@ -5,13 +5,20 @@
 
 namespace vesselbench {
 
-/// Keeps the recipes that a case brought along in its project file, which a session of this process
-/// may have open.
-/// \param recipes JSON
-/// \throw IoError if the project cannot be written
-void store_recipes(const std::filesystem::path& project, const std::string& recipes);
+/// What a project keeps beside its history: it is of the project, not of a state, and undo does
+/// not change it. Each is JSON.
+enum class StoredText {
+    Recipes,  ///< those that the case brought along
+    Flow,     ///< the arguments given for the flow, of those in flow_parameters()
+    Spots     ///< stored_spots.h
+};
 
-/// The recipes in a project file; empty: it has none, or cannot be read.
-[[nodiscard]] std::string stored_recipes(const std::filesystem::path& project);
+/// Keeps a text in a project file, which a session of this process may have open.
+/// \throw IoError if the project cannot be written
+void store_text(const std::filesystem::path& project, StoredText which, const std::string& text);
+
+/// A text in a project file; empty: it has none.
+/// \throw IoError, InvalidInput if it cannot be read
+[[nodiscard]] std::string stored_text(const std::filesystem::path& project, StoredText which);
 
 }  // namespace vesselbench

@@ -68,6 +68,9 @@ bool contradict(const Arguments& arguments, const std::vector<Dab>& dabs) {
            other("falloff", dab.falloff);
 }
 
+/// A place farther away from the surface is of another model, or in another unit [radii].
+constexpr double kFarthest = 10.0;
+
 Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance& places,
                Outcome& outcome) {
     const Arguments& arguments = outcome.resolved;
@@ -78,12 +81,16 @@ Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance&
                   .radius = radius,
                   .strength = arguments.optional_real("strength").value_or(kStrength),
                   .falloff = arguments.optional_real("falloff").value_or(kFalloff)};
-    if (const double off = (dab.anchor.point - at).norm(); off > radius) {
-        std::ostringstream text;
-        text << "at=" << to_text(at) << " is " << off << " mm away from the surface; brushed at "
-             << "the nearest point, " << place_text(dab.anchor.point);
-        outcome.warnings.push_back(text.str());
-    }
+    const double off = (dab.anchor.point - at).norm();
+    if (off <= radius) return dab;
+    const std::string text =
+        "at=" + to_text(Value(at)) + " is " + formatted(off, "%.4g") + " mm away from the surface";
+    const std::string nearest = "the nearest point, " + place_text(dab.anchor.point);
+    if (off > kFarthest * radius)
+        throw AlgorithmFailure(use.operation + ": " + text + ", more than " +
+                               formatted(kFarthest, "%.0f") + " radii: give a point on it, as " +
+                               nearest);
+    outcome.warnings.push_back(text + "; brushed at " + nearest);
     return dab;
 }
 

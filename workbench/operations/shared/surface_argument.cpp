@@ -9,14 +9,15 @@
 
 namespace vesselbench {
 
-Parameter units_parameter() {
+Parameter units_parameter(Meaning meaning) {
     return {.name = "units",
             .type = ParameterType::Choice,
             .default_value = std::string("auto"),
             .help =
                 "unit of the file's coordinates; auto: the unit stated in the file, or the only "
                 "one in which it has the size of a vessel; guess: the likeliest one",
-            .choices = {"auto", "guess", "mm", "cm", "m"}};
+            .choices = {"auto", "guess", "mm", "cm", "m"},
+            .meaning = meaning};
 }
 
 namespace {

@@ -5,7 +5,8 @@
 namespace vesselbench {
 
 /// The parameter `units` of operations that read a surface file.
-[[nodiscard]] Parameter units_parameter();
+/// \param meaning Unit for the case's own surface
+[[nodiscard]] Parameter units_parameter(Meaning meaning = Meaning::None);
 
 /// A surface file read according to the arguments `file` and `units`.
 struct SurfaceArgument {

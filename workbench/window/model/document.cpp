@@ -13,6 +13,7 @@
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/session/stored_texts.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
 
@@ -393,13 +394,15 @@ void Document::export_to(const std::filesystem::path& file) {
     }
     const ExportFormat* format = row_that_writes(export_formats(), file.string());
     const std::string unit = format == nullptr ? "" : ", in " + format->unit;
-    const auto write = [file, variant = variant_](Session& session, const Progress& progress) {
+    const auto write = [file, project = project_, variant = variant_](Session& session,
+                                                                      const Progress& progress) {
         if (session.is_source(file))
             throw IoError("'" + file.filename().string() +
                           "' is a source of this project: it is not replaced");
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
-        export_scene(files, file, scene, {});
+        export_scene(files, file, scene,
+                     FlowSettings(stored_text(project, StoredText::Flow)).parameters());
         progress.check_cancelled();
         files.commit();
         return Nothing{};

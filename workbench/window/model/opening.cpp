@@ -8,7 +8,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/prepare/prepare.h"
-#include "workbench/session/stored_recipes.h"
+#include "workbench/session/stored_texts.h"
 #include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
@@ -56,9 +56,9 @@ void check_recipes(const Input& input) {
 
 /// What a reopened project knows of its input: its own recipes, unless they cannot be used.
 std::optional<Input> remembered_input(const fs::path& project, std::vector<std::string>& remarks) {
-    const std::string text = stored_recipes(project);
-    if (text.empty()) return std::nullopt;
     try {
+        const std::string text = stored_text(project, StoredText::Recipes);
+        if (text.empty()) return std::nullopt;
         Input input;
         input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
         check_recipes(input);

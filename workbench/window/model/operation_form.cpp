@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/shell_text.h"
 
 namespace vesselbench {
 
 namespace {
-
-bool needs_no_quotes(char letter) {
-    static const std::string plain = "_-./=,:+@%";
-    return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-           plain.find(letter) != std::string::npos;
-}
 
 /// Conditions of conditions; more than the table has, so that a circle ends.
 constexpr int kDeepestCondition = 4;
@@ -41,13 +36,6 @@ std::string error_in(const FormField& field) {
 }
 
 }  // namespace
-
-std::string shell_quoted(const std::string& text) {
-    if (!text.empty() && std::ranges::all_of(text, needs_no_quotes)) return text;
-    std::string quoted = "'";
-    for (const char letter : text) quoted += letter == '\'' ? "'\\''" : std::string(1, letter);
-    return quoted + "'";
-}
 
 OperationForm::OperationForm(const Operation& operation) : operation_(&operation) {
     for (const Parameter& parameter : operation.parameters)

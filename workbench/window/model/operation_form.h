@@ -76,7 +76,4 @@ private:
     int changes_ = 0;
 };
 
-/// A text as one word of a shell's command.
-[[nodiscard]] std::string shell_quoted(const std::string& text);
-
 }  // namespace vesselbench
