@@ -390,3 +390,17 @@ SCENARIO("A line does not end in the corner of an oblique end", "[geometry][cent
         CHECK(tip_radius(graph, n) == Approx(2.0).epsilon(0.03));
     }
 }
+
+SCENARIO("A line follows a tapering vessel to its tip", "[geometry][centerlines]") {
+    const ImplicitShape vessel = [](const Vec3& p) {
+        const double radius = std::clamp(2.0 - 0.4 * (p.z() - 8.0), 0.5, 2.0);
+        if (p.z() > 11.75) return (p - Vec3(0, 0, 11.75)).norm() - 0.5;
+        if (p.z() < -12.0) return (p + Vec3(0, 0, 12.0)).norm() - 2.0;
+        return std::hypot(p.x(), p.y()) - radius;
+    };
+    const CenterlineGraph graph = compute_centerlines(
+        iso_surface(vessel, {Vec3(-2.6, -2.6, -14.6), Vec3(2.7, 2.6, 13.1)}, 0.2));
+    REQUIRE(graph.branches.size() == 1);
+    const double top = std::max(graph.nodes[0].position.z(), graph.nodes[1].position.z());
+    CHECK(top > 11.75);
+}

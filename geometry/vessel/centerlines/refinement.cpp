@@ -27,6 +27,8 @@ constexpr double kClosureDepth = 1.5;  ///< depths within this many radii of an 
 /// A vessel's radius is the median over this length [radii], and a sphere that large is full.
 constexpr double kVesselLength = 3.0;
 constexpr double kFullSphere = 0.85;
+/// A line that ends this far beside its vessel's middle runs into a corner [radii].
+constexpr double kAside = 0.3;
 
 enum class Hold : std::uint8_t {
     Free,
@@ -65,8 +67,9 @@ std::size_t behind_closure(const Line& line) {
     return most;
 }
 
-/// Index from `first` on of the first point whose sphere is as large as its vessel: a blind tip is
-/// the farthest voxel of its end, which may lie in the corner of a flat one.
+/// Index from `first` on of the first point whose sphere is as large as its vessel, if the line
+/// leaves the vessel's middle before: a blind tip is the farthest voxel of its end, which may lie
+/// in the corner of a flat one. A vessel that only tapers is followed to its tip.
 std::size_t behind_corner(const Line& line, std::size_t first) {
     std::vector<double> radii;
     double way = 0.0;
@@ -77,9 +80,15 @@ std::size_t behind_corner(const Line& line, std::size_t first) {
     }
     const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
     std::nth_element(radii.begin(), middle, radii.end());
-    std::size_t i = first;
-    while (i < line.points.size() / 2 && line.radii[i] < kFullSphere * *middle) ++i;
-    return i;
+    std::size_t full = first;
+    while (full < line.points.size() / 2 && line.radii[full] < kFullSphere * *middle) ++full;
+    std::size_t behind = full;
+    while (behind + 1 < line.points.size() &&
+           (line.points[behind] - line.points[full]).norm() < *middle)
+        ++behind;
+    const Vec3 axis = (line.points[full] - line.points[behind]).normalized();
+    const double aside = (line.points[first] - line.points[full]).cross(axis).norm();
+    return aside > kAside * *middle ? full : first;
 }
 
 void reverse(Line& line) {
