@@ -93,8 +93,9 @@ SCENARIO("remesh refuses edges that lose an opening", "[workbench][remesh]") {
         return Vec3(width * p.x(), width * p.y(), p.z());
     });
     CHECK_NOTHROW(run("remesh", tube, {}));
-    CHECK_THROWS_WITH(run("remesh", tube, {{"edge", 2.5}, {"min_edge", 1.0}}),
-                      Catch::Contains("too coarse for the opening") && Catch::Contains("0.2 mm wide"));
+    CHECK_THROWS_WITH(
+        run("remesh", tube, {{"edge", 2.5}, {"min_edge", 1.0}}),
+        Catch::Contains("too coarse for the opening") && Catch::Contains("0.2 mm wide"));
 }
 
 SCENARIO("remesh keeps sharp edges if asked to", "[workbench][remesh]") {

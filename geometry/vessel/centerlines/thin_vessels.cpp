@@ -9,6 +9,7 @@
 #include <optional>
 #include <ranges>
 #include <utility>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
