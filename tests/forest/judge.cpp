@@ -162,9 +162,10 @@ private:
                               std::to_string(truth_.genus));
     }
 
+    static constexpr double kBeside = 1.2;  // an opening's radii off its vessel's line
+    static constexpr double kAlong = 60.0;  // degrees off its direction
+
     void find_end(Opening& opening) {
-        constexpr double kBeside = 1.2;  // radii off the line
-        constexpr double kAlong = 60.0;  // degrees off its direction
         double best = kBeside;
         for (std::size_t e = 0; e < truth_.ends.size(); ++e) {
             const auto& branch = truth_.branches[truth_.ends[e].branch];
@@ -178,6 +179,32 @@ private:
             opening.cut_at = foot.abscissa;
         }
         if (opening.end) opening.tilt = tilt_of(opening);
+    }
+
+    /// An opening across a vessel that only leads to ends that may be removed: it is where the
+    /// vessel ends without them.
+    [[nodiscard]] bool ends_all_optional(const Opening& opening) const {
+        return std::ranges::any_of(truth_.branches, [&](const Truth::Branch& branch) {
+            const Foot foot = foot_of(opening.place, branch.line);
+            return !branch.end && (foot.distance - truth_.resolution) / foot.radius < kBeside &&
+                   foot.abscissa > 0.0 &&
+                   degrees_between(opening.normal, tangent_at(branch.line, foot.abscissa)) <
+                       kAlong &&
+                   leads_to_optional_ends(branch);
+        });
+    }
+
+    /// False for a branch that closes a loop: no other one begins where it ends.
+    [[nodiscard]] bool leads_to_optional_ends(const Truth::Branch& branch) const {
+        constexpr double kSamePlace = 1e-6;  // mm
+        if (branch.end) return truth_.ends[*branch.end].optional;
+        std::size_t further = 0;
+        for (const auto& next : truth_.branches) {
+            if ((next.line.front().at - branch.line.back().at).norm() > kSamePlace) continue;
+            if (!leads_to_optional_ends(next)) return false;
+            ++further;
+        }
+        return further > 0;
     }
 
     [[nodiscard]] double tilt_of(const Opening& opening) const {
@@ -201,6 +228,7 @@ private:
         int inlets = 0;
         for (const Opening& opening : openings_) {
             inlets += opening.inlet ? 1 : 0;
+            if (!opening.end && ends_all_optional(opening)) continue;
             if (!opening.end) {
                 fail("opening invented",
                      opening.name + " at " + place_text(opening.place) + " is at no vessel's end");

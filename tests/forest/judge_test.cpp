@@ -83,6 +83,21 @@ std::set<std::string> objections(const Truth& truth, const Surface& product, boo
 
 using Objections = std::set<std::string>;
 
+/// The truth whose branch 1 goes on as another one, too thin to be lost, from this share of it.
+Truth divided(Truth truth, double share, bool optional) {
+    Truth::Branch rest = truth.branches[1];
+    const double length = length_of(rest.line);
+    truth.branches[1].line = part_of(rest.line, 0.0, share * length);
+    truth.branches[1].end.reset();
+    rest.line = part_of(rest.line, share * length, length);
+    rest.free_from = 0.0;
+    rest.resolved = false;
+    truth.ends[*rest.end].branch = truth.branches.size();
+    truth.ends[*rest.end].optional = optional;
+    truth.branches.push_back(rest);
+    return truth;
+}
+
 }  // namespace
 
 SCENARIO("The judge of the forest accepts the truth and nothing else", "[forest][judge]") {
@@ -113,6 +128,11 @@ SCENARIO("The judge of the forest accepts the truth and nothing else", "[forest]
         shorter.truth = truth_of(shorter.tree, shorter.plan);
         CHECK(objections(tree.truth, as_product(shorter, 0), true) == Objections{"cut off"});
         CHECK(objections(tree.truth, as_product(shorter, 0), false) == Objections{"branch lost"});
+        for (const bool optional : {true, false}) {
+            CAPTURE(optional);
+            CHECK(objections(divided(tree.truth, 0.55, optional), as_product(shorter, 0), true) ==
+                  (optional ? Objections{} : Objections{"end closed", "opening invented"}));
+        }
     }
     THEN("a cap 5 degrees off is wrong, and one off by 1 degree is right") {
         for (const double angle : {5.0, 1.0}) {

@@ -74,7 +74,7 @@ Surface blind_trunk(double reach, double root = 2.0, double tip = 2.0) {
 
 /// A vessel of radius 0.9 mm along z, and a branch along x from its middle with these radii every
 /// 0.15 mm.
-CenterlineGraph with_side_branch(std::vector<double> radii) {
+CenterlineGraph with_side_branch(std::vector<double> radii, const Vec3& way = Vec3::UnitX()) {
     constexpr double kVessel = 0.9, kStep = 0.15;
     const auto half = [&](double sign, std::size_t end) {
         CenterlineBranch branch{.start_node = 0, .end_node = end, .points = {}, .radii = {}};
@@ -86,7 +86,7 @@ CenterlineGraph with_side_branch(std::vector<double> radii) {
     };
     CenterlineBranch side{.start_node = 0, .end_node = 3, .points = {}, .radii = {}};
     for (std::size_t i = 0; i < radii.size(); ++i)
-        side.points.emplace_back(kStep * static_cast<double>(i), 0, 0);
+        side.points.push_back(kStep * static_cast<double>(i) * way);
     side.radii = std::move(radii);
     return {.nodes = {{Vec3::Zero(), kVessel, {0, 1, 2}},
                       {Vec3(0, 0, 40 * kStep), kVessel, {0}},
@@ -402,6 +402,22 @@ SCENARIO("A sac beside whose middle the line runs is one by its sections", "[geo
     CHECK(end.fate == EndFate::Closed);
     CHECK(end.sac);
     CHECK_THAT(end.why, Contains("aneurysm; open="));
+}
+
+SCENARIO("A stub whose sections at its root cut along its parent is no sac",
+         "[geometry][openings]") {
+    const Vec3 way = Vec3(1, 0, 2).normalized();
+    const ImplicitShape vessels = [&](const Vec3& p) {
+        return std::min(capsule(p, {0, 0, -6}, {0, 0, 6}, 0.9),
+                        capsule(p, {0, 0, 0}, 3.975 * way, 0.75));
+    };
+    const Surface surface =
+        iso_surface(vessels, {Vec3(-1.2, -1.8, -7.1), Vec3(4.6, 1.9, 7.2)}, 0.17);
+    const CenterlineGraph graph = with_side_branch(std::vector<double>(30, 0.75), way);
+    const auto blind = blind_branch(graph, 3);
+    REQUIRE(blind);
+    CAPTURE(blind->length, blind->widest);
+    CHECK_FALSE(is_ball(surface, graph, 3));
 }
 
 SCENARIO("A bump of the wall is not a vessel's end", "[geometry][openings]") {

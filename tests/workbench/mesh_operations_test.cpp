@@ -87,6 +87,17 @@ SCENARIO("remesh for a print replays too, and gives way to an edge", "[workbench
     CHECK(asked.scene.surface->triangle_count() > usual.scene.surface->triangle_count());
 }
 
+SCENARIO("remesh refuses edges that lose an opening", "[workbench][remesh]") {
+    const Surface tube = mapped(closed_tube(2.0, 20.0, 40, 60), [](const Vec3& p) {
+        const double width = std::clamp((20.0 - p.z()) / 8.0, 0.05, 1.0);
+        return Vec3(width * p.x(), width * p.y(), p.z());
+    });
+    CHECK_NOTHROW(run("remesh", tube, {}));
+    CHECK_THROWS_WITH(
+        run("remesh", tube, {{"edge", 2.5}, {"min_edge", 1.0}}),
+        Catch::Contains("too coarse for the opening") && Catch::Contains("0.2 mm wide"));
+}
+
 SCENARIO("remesh keeps sharp edges if asked to", "[workbench][remesh]") {
     const Surface box = cube(10.0);
     const auto remeshed = [&](const Arguments& more) {

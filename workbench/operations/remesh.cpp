@@ -1,5 +1,6 @@
 #include "meshing/remeshing/remesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/opening_axis.h"
 #include "meshing/remeshing/feature_regions.h"
 #include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/sizing_field.h"
@@ -64,6 +66,22 @@ std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outco
     return nullptr;
 }
 
+/// \throw AlgorithmFailure if a cap collapsed: its vessel's end would be wall
+void require_openings(const Surface& before, const Remeshed& after) {
+    for (std::size_t p = 0; p < before.patches.size(); ++p) {
+        const auto has = [p](const Surface& surface) {
+            return std::ranges::find(*surface.patch_labels, p) != surface.patch_labels->end();
+        };
+        if (before.patches[p].kind == PatchKind::Wall || !has(before) || has(after.surface))
+            continue;
+        throw AlgorithmFailure(
+            formatted(after.report.edge, "edges of %.3g mm are too coarse for the opening ") +
+            before.patches[p].name +
+            formatted(patch_shape(before, p).diameter(), ", %.3g mm wide, which would be lost: ") +
+            "use a smaller edge or min_edge");
+    }
+}
+
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     Outcome outcome;
@@ -79,6 +97,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         remesh(features ? features->surface : surface, parameters_from(outcome.resolved),
                lines.get(), progress.part(0.3, 1.0));
     if (features) remeshed.surface = features->restored(remeshed.surface);
+    require_openings(surface, remeshed);
     const RemeshReport& figures = remeshed.report;
     const bool for_print = outcome.resolved.real("print_resolution") > 0.0;
     if (!for_print) outcome.resolved.set("edge", figures.edge);

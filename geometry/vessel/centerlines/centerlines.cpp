@@ -12,6 +12,7 @@
 #include "geometry/vessel/centerlines/lumen_grid.h"
 #include "geometry/vessel/centerlines/refinement.h"
 #include "geometry/vessel/centerlines/skeleton.h"
+#include "geometry/vessel/centerlines/thin_vessels.h"
 #include "geometry/vessel/centerlines/thinning.h"
 #include "geometry/vessel/centerlines/vessel_wall.h"
 #include "geometry/vessel/centerlines/wall_section.h"
@@ -199,6 +200,7 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
     LumenGrid grid = voxelise(wall.points, wall.closed, spacing, wall.rule, progress.part(0, 0.3));
     Attempt attempt;
     bridge_parts(grid, *wall.distance, progress);
+    add_thin_vessels(grid, wall, progress);
     attempt.components = keep_large_components(grid, kSmallestComponent);
     if (grid.voxels.empty()) return attempt;
     measure_depth(grid, progress);

@@ -36,7 +36,8 @@ struct CenterlineParameters {
 ///
 /// Topology: distance-ordered homotopic thinning of the voxelised lumen between the
 /// ends (Pudney, "Distance-ordered homotopic thinning", CVIU 72, 1998), so every loop
-/// is a loop of the lumen. Position and radius: the largest circle inscribed in the
+/// is a loop of the lumen. Vessels thinner than the grid's voxels are followed along their wall
+/// (thin_vessels.h). Position and radius: the largest circle inscribed in the
 /// wall within a slab around the perpendicular section, iterated; noise is averaged
 /// over sectors of that slab. In a furcation the true distance to the wall limits the
 /// radius. Near an end the closure (missing, or flat) is ignored, so radii do not

@@ -114,6 +114,22 @@ double rise_behind_neck(const CenterlineGraph& graph, std::size_t branch, std::s
     return rise;
 }
 
+/// True if the line of another branch at the node passes the section: it is that vessel's, too.
+bool is_shared(const CenterlineGraph& graph, std::size_t branch, std::size_t node,
+               const SectionCurve& section, const Plane& plane) {
+    for (const std::size_t other : graph.nodes[node].branches) {
+        if (other == branch) continue;
+        const Positions& line = graph.branches[other].points;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            const double from = plane.distance(line[i]), to = plane.distance(line[i + 1]);
+            if ((from < 0.0) == (to < 0.0)) continue;
+            const Vec3 at = line[i] + from / (from - to) * (line[i + 1] - line[i]);
+            if (encloses(section, plane, at)) return true;
+        }
+    }
+    return false;
+}
+
 /// The same by the diameters of the wall's sections: the line may run beside a ball's middle, where
 /// the inscribed circles are small.
 double section_rise(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
@@ -128,7 +144,9 @@ double section_rise(const Surface& surface, const CenterlineGraph& graph, std::s
         const Plane plane{point_at(graph.branches[index], place.abscissa),
                           outward_direction(graph, tip, inward)};
         const auto curve = cross_section_at(near, plane);
-        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) continue;
+        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point) ||
+            is_shared(graph, index, root, *curve, plane))
+            continue;
         neck = std::min(neck, curve->diameter());
         rise = std::max(rise, curve->diameter() / neck);
     }
