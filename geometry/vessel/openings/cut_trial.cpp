@@ -8,6 +8,8 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/rim_shape.h"
 
 namespace vesselbench {
 
@@ -18,6 +20,11 @@ constexpr double kWidestSection = 2.0;  ///< diameter over that of the inscribed
 constexpr double kLeastRoundness = 0.3;
 /// What a cut may remove beyond its tip [diameters].
 constexpr double kLongestLoss = 3.0;
+/// An open rim this wide beside a cut [-] is an end of its own, unless both were torn off one end:
+/// they face the same way within this angle [deg], and are this close [sums of their diameters].
+constexpr double kWideRim = 0.5;
+constexpr double kOneEndDeg = 60.0;
+constexpr double kOneEndReach = 0.75;
 /// Tips this close together may belong to one ragged end [diameters of the cut].
 constexpr double kSameEnd = 2.0;
 
@@ -75,6 +82,17 @@ std::string CutTrials::flood(const SectionCurve& curve) {
     return "";
 }
 
+bool CutTrials::is_own_rim(const OpeningPlace& place, std::size_t end, std::size_t other) const {
+    if (ends_[other].rim.empty()) return false;
+    const RimShape rim = rim_shape(surface_, ends_[other].rim);
+    if (rim.diameter() < kWideRim * place.diameter) return false;
+    if (ends_[end].rim.empty()) return true;
+    const RimShape cut = rim_shape(surface_, ends_[end].rim);
+    return angle_deg(rim.plane.normal, cut.plane.normal) > kOneEndDeg ||
+           (rim.plane.point - cut.plane.point).norm() >
+               kOneEndReach * (rim.diameter() + cut.diameter());
+}
+
 /// A tip that may go with another one's end: near it, and of a branch that is hardly one.
 bool CutTrials::is_ragged_tip(const OpeningPlace& place, std::size_t other) const {
     const SurfaceEnd& end = ends_[other];
@@ -89,7 +107,7 @@ std::string CutTrials::lost_problem(const OpeningPlace& place, std::size_t end) 
     taken_along_.clear();
     for (std::size_t e = 0; e < ends_.size(); ++e) {
         if (e == end || seen_[ends_[e].vertex] != trial_) continue;
-        if (!is_ragged_tip(place, e))
+        if (is_own_rim(place, end, e) || !is_ragged_tip(place, e))
             return "a cut there would remove the vessel's end at " + place_text(ends_[e].centre) +
                    ", too";
         taken_along_.push_back(e);
