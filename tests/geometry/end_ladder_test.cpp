@@ -471,6 +471,26 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     }
 }
 
+SCENARIO("A long vessel that widens behind its furcation is no sac", "[geometry][openings]") {
+    const auto end_of = [](std::size_t steps, double neck) {
+        std::vector<double> radii(steps, 1.5);
+        std::fill_n(radii.begin(), 20, neck);
+        const auto blind = blind_branch(with_side_branch(radii), 3);
+        REQUIRE(blind);
+        return *blind;
+    };
+    CHECK(end_of(35, 1.0).is_sac());
+    CHECK_FALSE(end_of(70, 1.0).bulges);
+    AND_THEN("one without a neck may be a trunk, unless it is short") {
+        const BlindBranch trunk = end_of(35, 1.4);
+        CAPTURE(trunk.length, trunk.widest);
+        CHECK(trunk.bulges);
+        CHECK_FALSE(trunk.necked);
+        CHECK_FALSE(trunk.is_sac());
+        CHECK(end_of(22, 1.4).is_sac());
+    }
+}
+
 SCENARIO("A wide open rim that would vanish is a failure, and so is a lost rim of its own",
          "[geometry][openings]") {
     const EndRecord inlet{.diameter = 4.0, .fate = EndFate::Opened, .opening = 0};

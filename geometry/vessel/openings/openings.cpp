@@ -272,7 +272,7 @@ private:
         }
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
-            records_[e].sac = blind && blind->bulges;
+            records_[e].sac = blind && blind->is_sac();
             return close_offering(e, "a closed end: the surface's own rims are its openings");
         }
         if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
@@ -318,7 +318,7 @@ private:
         if (!blind || !(blind->is_short() || knob)) return false;
         const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
         if (!sac && (visible < 2 || is_trunk(e, *blind))) return false;
-        records_[e].sac = sac;
+        records_[e].sac = sac && (!blind->bulges || blind->is_sac());
         close_offering(e, sac ? "it looks like an aneurysm" : "its branch is short");
         return true;
     }
