@@ -471,6 +471,21 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     }
 }
 
+SCENARIO("A pimple of a closed end is not opened instead of the end", "[geometry][openings]") {
+    const std::vector<PhantomPart> parts = {
+        {.name = "vessel", .shape = vessel_along({Vec3(0, 0, -15), Vec3(0, 0, 15)}, 3.0)},
+        {.name = "pimple",
+         .shape = vessel_along({Vec3(0, 0, 15), Vec3(0, 0, 22)}, 0.5),
+         .blend = 0.1}};
+    const PhantomField field(parts);
+    const Surface surface = exact_surface(field, field.bounds(), 0.2);
+    const auto graph = centerlines_of(surface);
+    REQUIRE(nearest_tip(*graph, Vec3(0, 0, 22)));
+    const OpeningPlan plan = plan_openings(surface, *graph);
+    REQUIRE(plan.openings.size() == 2);
+    for (const PlannedOpening& opening : plan.openings) CHECK(opening.place.diameter > 4.0);
+}
+
 SCENARIO("A long vessel that widens behind its furcation is no sac", "[geometry][openings]") {
     const auto end_of = [](std::size_t steps, double neck) {
         std::vector<double> radii(steps, 1.5);

@@ -35,6 +35,7 @@ private:
 
     [[nodiscard]] std::string shape_problem(const SectionCurve& curve,
                                             const OpeningPlace& place) const;
+    [[nodiscard]] std::string pimple_problem(const OpeningPlace& place, std::size_t end) const;
     [[nodiscard]] std::string flood(const SectionCurve& curve);
     [[nodiscard]] std::string lost_problem(const OpeningPlace& place, std::size_t end);
     [[nodiscard]] bool is_own_rim(const OpeningPlace& place, std::size_t end,
