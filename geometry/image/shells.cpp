@@ -16,6 +16,9 @@ namespace vesselbench {
 
 namespace {
 
+/// A smaller dropped piece is no tree of vessels [volume of what is kept].
+constexpr double kTreeShare = 0.05;
+
 struct Shells {
     std::vector<std::uint32_t> of_triangle;  ///< #T, numbered by first triangle
     std::vector<double> volumes;             ///< signed [mm^3]; negative: a hollow
@@ -53,6 +56,26 @@ ShellChoice counted(const Shells& shells, const std::vector<bool>& chosen) {
     return choice;
 }
 
+/// A piece whose branches or bends make it look wider than it is: the largest dropped one, with the
+/// diameter of the tubes that have its volume and area.
+std::optional<PieceShape> dropped_tree(std::vector<PieceShape> shapes, const Shells& shells,
+                                       const std::vector<bool>& chosen) {
+    double kept = 0.0;
+    for (std::size_t s = 0; s < chosen.size(); ++s)
+        if (chosen[s]) kept += shells.volumes[s];
+    std::optional<PieceShape> largest;
+    for (PieceShape& shape : shapes) {
+        const double volume = shells.volumes[shape.piece];
+        if (chosen[shape.piece] || volume < kTreeShare * kept ||
+            (largest && volume <= shells.volumes[largest->piece]))
+            continue;
+        const double area = std::numbers::pi * shape.length * shape.diameter;
+        shape.diameter = area > 0.0 ? 4.0 * volume / area : 0.0;
+        if (shape.is_vessel()) largest = shape;
+    }
+    return largest;
+}
+
 /// A hollow in a body is none.
 std::optional<PieceShape> dropped_vessel(const Surface& surface, const Shells& shells,
                                          const std::vector<bool>& chosen) {
@@ -60,7 +83,8 @@ std::optional<PieceShape> dropped_vessel(const Surface& surface, const Shells& s
                                                   shells.of_triangle, shells.volumes.size());
     std::erase_if(shapes,
                   [&](const PieceShape& shape) { return !(shells.volumes[shape.piece] > 0.0); });
-    return longest_dropped_vessel(shapes, chosen);
+    if (auto vessel = longest_dropped_vessel(shapes, chosen)) return vessel;
+    return dropped_tree(std::move(shapes), shells, chosen);
 }
 
 ShellChoice only(const Surface& surface, const Shells& shells, std::size_t shell) {

@@ -97,8 +97,13 @@ FacingPlaces places_of(const Surface& surface, const Candidate& candidate) {
 
 }  // namespace
 
-bool PrintCheck::printable() const {
+bool PrintCheck::is_watertight() const {
     return std::none_of(problems.begin(), problems.end(), is_obstacle);
+}
+
+bool PrintCheck::is_printable(double thinnest, double closest) const {
+    return is_watertight() && !(lumen && lumen->distance < thinnest) &&
+           !(gap && gap->distance < closest);
 }
 
 PrintCheck print_check(const Surface& surface, const Progress& progress) {

@@ -18,14 +18,19 @@ struct FacingPlaces {
 
 /// The properties of a model that matter for printing.
 struct PrintCheck {
-    std::vector<SurfaceProblem> problems;  ///< none of them an obstacle: watertight and printable
+    std::vector<SurfaceProblem> problems;  ///< none of them an obstacle: watertight
     Vec3 size = Vec3::Zero();              ///< extent along x, y, z [mm]
     double volume = 0.0;                   ///< [mm^3]
     double area = 0.0;                     ///< [mm^2]
     std::optional<FacingPlaces> lumen;     ///< smallest distance between walls across the inside
     std::optional<FacingPlaces> gap;       ///< smallest distance between walls across the outside
 
-    [[nodiscard]] bool printable() const;
+    /// A closed solid without obstacles. Whether a printer can make it depends on its thinnest
+    /// place and gap, too (is_printable).
+    [[nodiscard]] bool is_watertight() const;
+
+    /// Watertight, no place thinner and no gap narrower than these limits [mm].
+    [[nodiscard]] bool is_printable(double thinnest, double closest) const;
 };
 
 /// Checks a closed surface for printing. Distances are measured along the normals of the wall's

@@ -334,6 +334,22 @@ SCENARIO("A vessel that is broken off is noticed, however small", "[images][extr
     CHECK((extraction.dropped_vessel->centre - middle - Vec3(9, 0, 0)).norm() < 0.5);
 }
 
+SCENARIO("A broken-off vessel with branches is noticed", "[images][extraction]") {
+    const Image grid = ball_image(10.0, 40, Vec3(0.6, 0.6, 0.6));
+    const Vec3 middle = middle_of(grid);
+    const Image image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        const Vec3 off = p - middle - Vec3(8, 0, 0);
+        const bool tree = std::abs(off.x()) < 0.9 &&
+                          std::min(std::abs(off.y()), std::abs(off.z())) < 0.9 &&
+                          std::max(std::abs(off.y()), std::abs(off.z())) < 5.5;
+        return (p - middle).norm() < 6.0 || tree ? 1.0 : 0.0;
+    });
+    const Extraction extraction =
+        extract_surface(image, {}, {.method = ExtractionMethod::Threshold, .threshold = 0.5});
+    REQUIRE(extraction.dropped_vessel);
+    CHECK(extraction.dropped_vessel->diameter == Approx(1.8).margin(0.5));
+}
+
 SCENARIO("Thresholds that leave nothing or everything are refused", "[images][extraction]") {
     const Image image = ball_image(5.0, 20, Vec3(1, 1, 1));
     CHECK_THROWS_WITH(extracted(image, {.threshold = 700.0}),

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/edges.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -96,6 +97,20 @@ SCENARIO("The tip of a coarse rounded end is no cap", "[geometry][openings]") {
     };
     CHECK(label_flat_caps(tip(6)).patches.size() == 2);
     CHECK(label_flat_caps(tip(24)).patches.size() == 3);
+}
+
+SCENARIO("Caps of a vessel with open ends are kept", "[geometry][openings]") {
+    const Surface closed = capped_tube(0.3, 0.0);
+    std::vector<bool> wall;
+    for (const Triangle& t : closed.triangles())
+        wall.push_back(
+            std::ranges::any_of(t, [&](VertexId v) { return closed.points()[v].z() > 0.1; }));
+    const Surface found = label_flat_caps(select_triangles(closed, wall));
+    REQUIRE(found.patches.size() == 2);
+    const OpeningPlan plan = plan_openings(found, *centerlines_of(found, {}, {}));
+    REQUIRE(plan.openings.size() == 2);
+    CHECK(std::ranges::count(plan.openings, OpeningWay::KeepCap, &PlannedOpening::way) == 1);
+    CHECK(std::ranges::count(plan.openings, OpeningWay::CapRim, &PlannedOpening::way) == 1);
 }
 
 SCENARIO("The caps of a short piece of a vessel are found", "[geometry][openings]") {

@@ -147,6 +147,32 @@ SCENARIO("A vessel's end stays open though its rim is torn", "[geometry][repair]
     }
 }
 
+SCENARIO("A vessel torn into strips stays open, a branch torn off at its wall is named",
+         "[geometry][repair]") {
+    // Four strips, each five radii longer than the gaps between them.
+    const Surface tube = open_tube(2.0, 24.0, 32, 120);
+    const auto opened = [&](const std::function<bool(const Vec3&)>& gone) {
+        std::vector<bool> keep;
+        for (const Triangle& t : tube.triangles())
+            keep.push_back(
+                !gone((tube.points()[t[0]] + tube.points()[t[1]] + tube.points()[t[2]]) / 3.0));
+        return repair(select_triangles(tube, keep)).report;
+    };
+    const RepairReport torn = opened([](const Vec3& p) {
+        return p.z() > 14.0 && std::cos(4.0 * std::atan2(p.y(), p.x())) > 0.0;
+    });
+    CHECK(torn.openings.size() == 2);
+    CHECK(torn.closed_ends.empty());
+    const auto hole = [&](double radius) {
+        return opened([&](const Vec3& p) { return (p - Vec3(2, 0, 12)).norm() < radius; });
+    };
+    REQUIRE(hole(0.7).closed_ends.size() == 1);
+    CHECK(hole(0.7).closed_ends[0].in_wall);
+    CHECK(hole(0.7).closed_ends[0].lumen_radius == Approx(2.0).epsilon(0.05));
+    CHECK(hole(0.3).closed_holes == 1);
+    CHECK(hole(0.3).closed_ends.empty());
+}
+
 SCENARIO("A plane's oblique cut beside something wide stays open", "[geometry][repair]") {
     // An ellipse of 1 : 2.2 in a bulge that is three times as wide.
     constexpr double kHeight = 9.7;

@@ -18,11 +18,15 @@ SCENARIO("the print check measures size, thinnest place and gap", "[meshing][pri
         });
         const PrintCheck check = print_check(tube);
         THEN("it is printable, and the waist is the thinnest place") {
-            CHECK(check.printable());
+            CHECK(check.is_printable(0.8, 0.5));
             CHECK(check.size.z() == Approx(20.0));
             REQUIRE(check.lumen.has_value());
             CHECK(check.lumen->distance == Approx(2.0).epsilon(0.02));
             CHECK(check.lumen->from.z() == Approx(8.0).margin(0.5));
+        }
+        THEN("it is not for a printer that makes no walls of 2 mm") {
+            CHECK(check.is_watertight());
+            CHECK_FALSE(check.is_printable(2.2, 0.5));
         }
         THEN("a convex tube has no gap") {
             CHECK_FALSE(check.gap.has_value());
@@ -39,15 +43,16 @@ SCENARIO("the print check measures size, thinnest place and gap", "[meshing][pri
         });
         const PrintCheck check = print_check(hairpin);
         THEN("the gap between the legs is found, not the fold in the bend") {
-            CHECK(check.printable());
+            CHECK(check.is_printable(0.8, 0.5));
+            CHECK_FALSE(check.is_printable(0.8, 2.2));
             REQUIRE(check.gap.has_value());
             CHECK(check.gap->distance == Approx(2.0).epsilon(0.02));
             CHECK(check.gap->from.z() < 0.0);
         }
     }
     GIVEN("an open tube") {
-        THEN("it is not printable") {
-            CHECK_FALSE(print_check(test::open_tube(1.0, 5.0, 12, 6)).printable());
+        THEN("it is not watertight") {
+            CHECK_FALSE(print_check(test::open_tube(1.0, 5.0, 12, 6)).is_watertight());
         }
     }
 }

@@ -121,6 +121,17 @@ SCENARIO("remesh keeps sharp edges if asked to", "[workbench][remesh]") {
     }
 }
 
+SCENARIO("print-check calls a model printable only within the printer's limits",
+         "[workbench][print]") {
+    const Surface tube = fine_tube(0.3, 10.0, 24);
+    const Outcome thin = run("print-check", tube, {});
+    CHECK(thin.report->at("watertight") == true);
+    CHECK(thin.report->at("printable") == false);
+    CHECK_THAT(std::string(thin.report->at("headline")),
+               Catch::StartsWith("not printable, thinnest place 0.60 mm, below 0.8 mm"));
+    CHECK(run("print-check", tube, {{"thinnest", 0.5}}).report->at("printable") == true);
+}
+
 SCENARIO("print-check warns of bends too strong for casting", "[workbench][print]") {
     const double leg = 10.0, bend = 2.5, length = 2.0 * leg + bend * std::numbers::pi;
     const Surface hairpin = mapped(fine_tube(1.0, length, 24), [&](const Vec3& p) {

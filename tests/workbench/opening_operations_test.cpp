@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/unsmoothed.h"
@@ -308,6 +309,18 @@ SCENARIO("Large closed ends are named in a warning, small ones are counted",
     CHECK_THAT(warnings, Contains("the end at (2") && Contains("was closed: a closed end") &&
                              Contains("1 smaller end stayed closed: see the report; open=1") &&
                              Contains(" opens one of them"));
+}
+
+SCENARIO("An open rim that is closed is named, however small", "[workbench][openings]") {
+    const Surface tube = open_tube(2.0, 30.0, 40, 90);
+    std::vector<bool> keep;
+    for (const Triangle& t : tube.triangles())
+        keep.push_back(std::ranges::none_of(
+            t, [&](VertexId v) { return (tube.points()[v] - Vec3(2, 0, 15)).norm() < 0.35; }));
+    const Outcome outcome = run("clip-opening", select_triangles(tube, keep), {});
+    REQUIRE(outcome.report->at("openings").size() == 2);
+    REQUIRE(outcome.warnings.size() == 1);
+    CHECK_THAT(outcome.warnings[0], Contains("the open rim at (") && Contains("was closed"));
 }
 
 SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {

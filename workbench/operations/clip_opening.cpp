@@ -33,8 +33,6 @@ using nlohmann::ordered_json;
 
 /// After so many ends could not be cut as planned, the rest of them is given up.
 constexpr int kMostPlans = 12;
-/// Closed ends at least this wide, in diameters of the widest opening, are named in the warnings.
-constexpr double kLargeEnd = 0.5;
 
 void check_arguments(const Arguments& arguments) {
     if ((arguments.has("name") || arguments.has("kind")) && !arguments.has("tip") &&
@@ -328,7 +326,8 @@ Resolved describe(const Surface& before, const Surface& surface, OpeningPlan pla
 }
 
 std::string end_text(const EndRecord& end) {
-    return "the end at " + place_text(end.place) + ", diameter " + formatted(end.diameter) + " mm";
+    return (end.rim ? "the open rim at " : "the end at ") + place_text(end.place) + ", diameter " +
+           formatted(end.diameter) + " mm";
 }
 
 /// How many small ends stayed closed, and how to open those that are no sacs, if they are few.
@@ -348,16 +347,15 @@ std::string small_ends_text(const std::vector<EndRecord>& small) {
            " of them";
 }
 
-/// What a user should know about the ends, worst first. Small closed ends share a warning.
+/// What a user should know about the ends, worst first. Small closed ends share a warning, except
+/// the open rims among them.
 std::vector<std::string> end_warnings(const OpeningPlan& plan) {
-    double widest = 0.0;
-    for (const EndRecord& end : plan.ends)
-        if (end.opening) widest = std::max(widest, end.diameter);
+    const double widest = widest_opening(plan);
     std::vector<std::string> warnings;
     std::vector<EndRecord> small;
     for (const EndRecord& end : plan.ends) {
         if (end.plain || end.why.empty() || end.asked) continue;
-        if (end.fate == EndFate::Closed && end.diameter < kLargeEnd * widest)
+        if (end.fate == EndFate::Closed && !end.rim && end.diameter < kLargeEnd * widest)
             small.push_back(end);
         else
             warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);

@@ -36,12 +36,17 @@ Json problems_json(const PrintCheck& check) {
     return problems;
 }
 
-std::string headline_of(const PrintCheck& check, bool thin) {
-    std::string text = !check.printable() ? "not printable"
-                       : thin             ? "printable with care"
-                                          : "printable";
-    if (check.lumen) text += formatted(check.lumen->distance, ", thinnest place %.2f mm");
-    if (check.gap) text += formatted(check.gap->distance, ", smallest gap %.2f mm");
+std::string headline_of(const PrintCheck& check, double thinnest, double closest) {
+    std::string text = !check.is_watertight()                   ? "not watertight"
+                       : !check.is_printable(thinnest, closest) ? "not printable"
+                                                                : "printable";
+    const auto add = [&](const auto& places, const char* what, double limit) {
+        if (!places) return;
+        text += what + formatted(places->distance, "%.2f mm");
+        if (places->distance < limit) text += ", below " + formatted(limit) + " mm";
+    };
+    add(check.lumen, ", thinnest place ", thinnest);
+    add(check.gap, ", smallest gap ", closest);
     return text;
 }
 
@@ -86,14 +91,13 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
     outcome.resolved = arguments;
     for (const SurfaceProblem& problem : check.problems)
         outcome.warnings.push_back(to_string(problem));
-    warn_if_below(check.lumen, arguments.real("thinnest"), "the thinnest place of the model",
-                  outcome);
-    warn_if_below(check.gap, arguments.real("closest"), "the smallest gap between two branches",
-                  outcome);
+    const double thinnest = arguments.real("thinnest"), closest = arguments.real("closest");
+    warn_if_below(check.lumen, thinnest, "the thinnest place of the model", outcome);
+    warn_if_below(check.gap, closest, "the smallest gap between two branches", outcome);
     warn_if_bent(bend, arguments.real("bend"), outcome);
-    const bool thin = outcome.warnings.size() > check.problems.size();
-    Json report = {{"headline", headline_of(check, thin)},
-                   {"printable", check.printable()},
+    Json report = {{"headline", headline_of(check, thinnest, closest)},
+                   {"printable", check.is_printable(thinnest, closest)},
+                   {"watertight", check.is_watertight()},
                    {"unit", "mm"},
                    {"size_mm", point_json(check.size)}};
     report.update(extent_json(check.volume, check.area));
@@ -117,13 +121,13 @@ Operation print_check_operation() {
             .parameters = {{.name = "thinnest",
                             .unit = "mm",
                             .default_value = 0.8,
-                            .help = "warn where opposite walls of the model are closer",
+                            .help = "not printable, with a warning, where walls are closer",
                             .minimum = 0.0,
                             .maximum = 100.0},
                            {.name = "closest",
                             .unit = "mm",
                             .default_value = 0.5,
-                            .help = "warn where two branches are closer: they may fuse in print",
+                            .help = "the same for two branches: they may fuse in print",
                             .minimum = 0.0,
                             .maximum = 100.0},
                            {.name = "bend",

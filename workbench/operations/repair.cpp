@@ -1,6 +1,7 @@
 #include "geometry/vessel/repair/repair.h"
 
-#include <map>
+#include <algorithm>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,9 @@ using nlohmann::ordered_json;
 
 /// At most this many places of each kind of repair are listed; all are counted.
 constexpr std::size_t kMostPlaces = 50;
+
+/// At most this many closed holes have a warning of their own.
+constexpr std::size_t kMostNamed = 5;
 
 /// A removed piece of more than this fraction of the triangles [-] causes a warning.
 constexpr double kWorthAWarning = 0.01;
@@ -76,6 +80,26 @@ ordered_json report_json(const RepairReport& report) {
             {"places", places_json(report.places)}};
 }
 
+void add_closed_ends(std::vector<ClosedEnd> ends, std::vector<std::string>& warnings) {
+    std::ranges::stable_sort(ends, std::greater{}, &ClosedEnd::radius);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (i == kMostNamed) {
+            warnings.push_back("repair closed " + counted(ends.size() - i, "smaller hole") +
+                               " that may be ends of vessels: see the report");
+            return;
+        }
+        const ClosedEnd& end = ends[i];
+        const std::string what = end.in_wall ? "in the wall of a vessel " +
+                                                   formatted(2.0 * end.lumen_radius) +
+                                                   " mm wide, where a branch may have been torn off"
+                                             : "as wide as the vessel behind it";
+        warnings.push_back("repair closed a hole at " + place_text(end.centre) + ", " +
+                           formatted(2.0 * end.radius) + " mm wide, " + what +
+                           "; close_holes_up_to=" + formatted(0.9 * end.radius) +
+                           " leaves it open");
+    }
+}
+
 std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before,
                                      bool given_radius) {
     std::vector<std::string> warnings;
@@ -92,11 +116,7 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
                            counted(report.removed_components, "unconnected piece") + " with " +
                            counted(report.removed_component_triangles, "triangle") +
                            "; keep more of them with keep_components=");
-    if (const auto& end = report.closed_end; end && !given_radius)
-        warnings.push_back("repair closed a hole at " + place_text(end->position) + ", " +
-                           formatted(2.0 * end->size) +
-                           " mm wide, as wide as the vessel behind it; close_holes_up_to=" +
-                           formatted(0.9 * end->size) + " leaves it open");
+    if (!given_radius) add_closed_ends(report.closed_ends, warnings);
     if (report.turned_inside_out)
         warnings.push_back("the surface was inside out; its orientation was reversed");
     return warnings;
@@ -173,7 +193,7 @@ Operation repair_operation() {
              {.name = "caps",
               .type = Flag,
               .default_value = true,
-              .help = "of a closed surface from a file, find the flat caps that close its vessels: "
+              .help = "of a surface from a file, find the flat caps that close its vessels: "
                       "clip-opening keeps them as openings"}},
         .run = &run,
         .isolated = true,

@@ -8,6 +8,8 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/rim_shape.h"
 
 namespace vesselbench {
 
@@ -18,6 +20,15 @@ constexpr double kWidestSection = 2.0;  ///< diameter over that of the inscribed
 constexpr double kLeastRoundness = 0.3;
 /// What a cut may remove beyond its tip [diameters].
 constexpr double kLongestLoss = 3.0;
+/// What is narrower by this factor up to its tip, and ends within the vessel's own diameter, is a
+/// pimple of the vessel [-].
+constexpr double kPimple = 3.0;
+constexpr int kPimpleSteps = 200;
+/// An open rim this wide beside a cut [-] is an end of its own, unless both were torn off one end:
+/// they face the same way within this angle [deg], and are this close [sums of their diameters].
+constexpr double kWideRim = 0.5;
+constexpr double kOneEndDeg = 60.0;
+constexpr double kOneEndReach = 0.75;
 /// Tips this close together may belong to one ragged end [diameters of the cut].
 constexpr double kSameEnd = 2.0;
 
@@ -42,6 +53,29 @@ std::string CutTrials::shape_problem(const SectionCurve& curve, const OpeningPla
     if (roundness < kLeastRoundness ||
         (radius > 0.0 && curve.diameter() > 2.0 * kWidestSection * radius))
         return "a cut there would run along the vessel";
+    return "";
+}
+
+/// A speck of noise on a vessel's closed end is no vessel: the line runs through it to its tip.
+std::string CutTrials::pimple_problem(const OpeningPlace& place, std::size_t end) const {
+    if (!ends_[end].tip || ends_[end].is_visible()) return "";
+    const std::size_t tip = *ends_[end].tip, index = branch_of_tip(graph_, tip);
+    const CenterlineBranch& branch = graph_.branches[index];
+    const double whole = branch_length(branch);
+    const double own = whole - furcation_zone_end(graph_, index, other_node(graph_, index, tip));
+    const double step = own / kPimpleSteps;
+    std::vector<double> radii;
+    for (int k = 0; k <= kPimpleSteps; ++k)
+        radii.push_back(radius_at(branch, place_from_node(graph_, index, tip, k * step).abscissa));
+    double widest = 0.0;  // so far
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        widest = std::max(widest, radii[i]);
+        if (static_cast<double>(i) * step < place.distance) continue;
+        for (std::size_t j = i + 1; j < radii.size(); ++j)
+            if (radii[j] > kPimple * widest && static_cast<double>(j - i) * step < 2.0 * radii[j])
+                return "a cut there would open a pimple of a vessel " + formatted(2.0 * radii[j]) +
+                       " mm wide";
+    }
     return "";
 }
 
@@ -75,6 +109,17 @@ std::string CutTrials::flood(const SectionCurve& curve) {
     return "";
 }
 
+bool CutTrials::is_own_rim(const OpeningPlace& place, std::size_t end, std::size_t other) const {
+    if (ends_[other].rim.empty()) return false;
+    const RimShape rim = rim_shape(surface_, ends_[other].rim);
+    if (rim.diameter() < kWideRim * place.diameter) return false;
+    if (ends_[end].rim.empty()) return true;
+    const RimShape cut = rim_shape(surface_, ends_[end].rim);
+    return angle_deg(rim.plane.normal, cut.plane.normal) > kOneEndDeg ||
+           (rim.plane.point - cut.plane.point).norm() >
+               kOneEndReach * (rim.diameter() + cut.diameter());
+}
+
 /// A tip that may go with another one's end: near it, and of a branch that is hardly one.
 bool CutTrials::is_ragged_tip(const OpeningPlace& place, std::size_t other) const {
     const SurfaceEnd& end = ends_[other];
@@ -89,7 +134,7 @@ std::string CutTrials::lost_problem(const OpeningPlace& place, std::size_t end) 
     taken_along_.clear();
     for (std::size_t e = 0; e < ends_.size(); ++e) {
         if (e == end || seen_[ends_[e].vertex] != trial_) continue;
-        if (!is_ragged_tip(place, e))
+        if (is_own_rim(place, end, e) || !is_ragged_tip(place, e))
             return "a cut there would remove the vessel's end at " + place_text(ends_[e].centre) +
                    ", too";
         taken_along_.push_back(e);
@@ -115,6 +160,7 @@ std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
         }
     }
     std::string problem = shape_problem(*curve, place);
+    if (problem.empty()) problem = pimple_problem(place, end);
     if (problem.empty()) problem = flood(*curve);
     if (problem.empty()) problem = lost_problem(place, end);
     return problem;

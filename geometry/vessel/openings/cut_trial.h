@@ -17,8 +17,8 @@ public:
               const std::vector<SurfaceEnd>& ends);
 
     /// Why an end cannot be cut at a place; empty if it can. A cut must not remove another end,
-    /// except the short tips that a ragged end has; nor vessels beside its own branch; nor open a
-    /// vessel's side.
+    /// except the short tips and narrow rims that a ragged end has; nor vessels beside its own
+    /// branch; nor open a vessel's side.
     [[nodiscard]] std::string problem_of(const OpeningPlace& place, std::size_t end);
 
     /// The ends whose tips the cut of the last problem_of removes, too.
@@ -35,8 +35,11 @@ private:
 
     [[nodiscard]] std::string shape_problem(const SectionCurve& curve,
                                             const OpeningPlace& place) const;
+    [[nodiscard]] std::string pimple_problem(const OpeningPlace& place, std::size_t end) const;
     [[nodiscard]] std::string flood(const SectionCurve& curve);
     [[nodiscard]] std::string lost_problem(const OpeningPlace& place, std::size_t end);
+    [[nodiscard]] bool is_own_rim(const OpeningPlace& place, std::size_t end,
+                                  std::size_t other) const;
     [[nodiscard]] bool is_ragged_tip(const OpeningPlace& place, std::size_t other) const;
 
     const Surface& surface_;

@@ -87,9 +87,7 @@ bool is_step(const Surface& surface, std::size_t patch) {
 }  // namespace
 
 Surface label_flat_caps(const Surface& surface) {
-    if (surface.empty() || surface.patches.size() > 1 ||
-        !surface.topology->boundary_loops().empty())
-        return surface;
+    if (surface.empty() || surface.patches.size() > 1) return surface;
     const SurfaceDistance distance(surface);
     auto [caps, mouths] = find_flat_closures(surface.points(), surface.triangles(), distance);
     const auto is_no_disc = [&](const auto& triangles) { return !is_disc(surface, triangles); };

@@ -55,6 +55,11 @@ bool is_wider_than_all_openings(const OpeningPlan& plan, const EndRecord& end) {
     });
 }
 
+/// An open rim that would vanish: the surface ends there, and blood flowed through it.
+bool is_large_rim(const OpeningPlan& plan, const EndRecord& end) {
+    return end.rim && !end.shared && end.diameter >= kLargeEnd * widest_opening(plan);
+}
+
 /// Empty text: there is none.
 FlowProblem flow_problem(const OpeningPlan& plan) {
     FlowProblem problem{.text = "", .ends = unwanted(plan)};
@@ -64,13 +69,15 @@ FlowProblem flow_problem(const OpeningPlan& plan) {
         return problem;
     }
     std::erase_if(problem.ends, [&](const EndRecord& end) {
-        return end.sac || !is_wider_than_all_openings(plan, end);
+        return !is_large_rim(plan, end) && (end.sac || !is_wider_than_all_openings(plan, end));
     });
     if (problem.ends.empty()) return problem;
     const EndRecord& end = problem.ends.front();
-    problem.text = "the largest end, at " + place_text(end.place) + " with a diameter of " +
-                   formatted(end.diameter) + " mm, is " + to_string(end.fate) + " (" + end.why +
-                   "): blood would enter elsewhere";
+    const bool largest = is_wider_than_all_openings(plan, end);
+    problem.text = std::string(largest ? "the largest end" : "a wide open rim") + ", at " +
+                   place_text(end.place) + " with a diameter of " + formatted(end.diameter) +
+                   " mm, is " + to_string(end.fate) + " (" + end.why + "): blood would " +
+                   (largest ? "enter" : "leave") + " elsewhere";
     return problem;
 }
 
@@ -181,6 +188,13 @@ private:
 };
 
 }  // namespace
+
+double widest_opening(const OpeningPlan& plan) {
+    double widest = 0.0;
+    for (const EndRecord& end : plan.ends)
+        if (end.opening) widest = std::max(widest, end.diameter);
+    return widest;
+}
 
 std::string why_no_flow(const OpeningPlan& plan) {
     const std::string text = flow_problem(plan).text;

@@ -7,9 +7,12 @@
 
 namespace vesselbench {
 
+/// Diameter of the widest end with an opening [mm]; 0: there is none.
+[[nodiscard]] double widest_opening(const OpeningPlan& plan);
+
 /// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
 /// needs two openings, and no end without an opening, unless it is a sac or stays closed as asked,
-/// that is wider than all of them (kAsLarge).
+/// that is wider than all of them (kAsLarge), or an open rim that is large (kLargeEnd).
 [[nodiscard]] std::string why_no_flow(const OpeningPlan& plan);
 
 /// \param options that made the plan

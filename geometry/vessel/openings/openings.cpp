@@ -70,7 +70,7 @@ public:
           trials_(surface, graph, ends_) {
         for (std::size_t e = 0; e < ends_.size(); ++e) {
             progress_.check_cancelled();
-            records_[e] = {.place = ends_[e].centre, .diameter = ends_[e].diameter};
+            records_[e] = record_of(ends_[e]);
             in_side_.push_back(lies_in_side(e));
         }
     }
@@ -87,6 +87,15 @@ public:
     }
 
 private:
+    /// A torn rim is longer than it is wide; a hole in a vessel's side is narrower than the vessel.
+    EndRecord record_of(const SurfaceEnd& end) const {
+        if (end.rim.empty()) return {.place = end.centre, .diameter = end.diameter};
+        const double width = rim_shape(surface_, end.rim).diameter();
+        return {.place = end.centre,
+                .diameter = end.tip ? std::min(end.diameter, width) : width,
+                .rim = true};
+    }
+
     std::size_t end_of_tip(std::size_t tip) const {
         for (std::size_t e = 0; e < ends_.size(); ++e)
             if (ends_[e].tip && *ends_[e].tip == tip) return e;
@@ -186,6 +195,11 @@ private:
         return is_inlet(e) || std::ranges::count(wanted_, e) > 0;
     }
 
+    /// A side at an image's border is no end; a rim of a surface may be one if the caller says so.
+    bool stays_side(std::size_t e) const {
+        return in_side_[e] && (options_.border_cuts || !is_wanted(e));
+    }
+
     void leave_closed() {
         for (const Vec3& point : options_.closed) {
             const auto end = end_near(ends_, point);
@@ -250,7 +264,7 @@ private:
     /// \param doubt why the end may be none; may be empty
     void plan_end(std::size_t e, bool blind_too, const std::string& doubt) {
         const SurfaceEnd& end = ends_[e];
-        if (in_side_[e] && !options_.strict)
+        if (stays_side(e) && !options_.strict)
             return close(e, "it lies in the side of a vessel that passes there");
         if (!end.is_visible() && options_.leave_closed && !is_wanted(e)) {
             records_[e].asked = true;
@@ -258,13 +272,16 @@ private:
         }
         if (!end.is_visible() && !blind_too && !is_wider_than_all(e)) {
             const auto blind = blind_branch(graph_, *end.tip);
-            records_[e].sac = blind && blind->bulges;
+            records_[e].sac = blind && blind->is_sac();
             return close_offering(e, "a closed end: the surface's own rims are its openings");
         }
         if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
         if (!doubt.empty() && is_spare(e)) return close_offering(e, doubt);
         if (cut(e)) return;
-        if (options_.strict && end.is_visible()) throw AlgorithmFailure(records_[e].why);
+        if (options_.strict)
+            throw AlgorithmFailure(
+                "the end at " + place_text(end.centre) + " cannot be cut: " + records_[e].why +
+                "; closed=" + coordinates_argument(end.centre) + " leaves it closed on purpose");
         if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
         records_[e].tried = true;
         close(e, records_[e].why);
@@ -292,15 +309,16 @@ private:
         return widest && blind.length >= 2.0 * blind.widest;
     }
 
-    /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border
-    /// already provides inflow and outflow, a short blind stub is not an opening either.
+    /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border, or
+    /// flat caps, already provide inflow and outflow, a short blind stub is not an opening either.
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
-        if (!blind || !blind->is_short()) return false;
-        const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        if (!sac && (visible < 2 || !options_.border_cuts || is_trunk(e, *blind))) return false;
-        records_[e].sac = sac;
+        const bool knob = blind && blind->is_stub() && visible >= 2 && !options_.border_cuts;
+        if (!blind || !(blind->is_short() || knob)) return false;
+        const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
+        if (!sac && (visible < 2 || is_trunk(e, *blind))) return false;
+        records_[e].sac = sac && (!blind->bulges || blind->is_sac());
         close_offering(e, sac ? "it looks like an aneurysm" : "its branch is short");
         return true;
     }
@@ -346,7 +364,7 @@ private:
 
     /// Keeps a good cap or rim as it is.
     bool keep(std::size_t e) {
-        if (is_fixed() || in_side_[e]) return false;
+        if (is_fixed() || stays_side(e)) return false;
         const auto place = ends_[e].patch ? kept_cap(e) : kept_rim(e);
         if (!place || has_failed(e, place->plane.point)) return false;
         const bool cap = ends_[e].patch.has_value();
@@ -420,7 +438,7 @@ private:
     /// False: there is no place for a cut, and the record says why.
     bool cut(std::size_t e) {
         if (cut_across(e)) return true;
-        if (options_.strict || is_fixed() || (is_stub(e) && !is_as_wide(e))) return false;
+        if (options_.strict || is_fixed() || (is_stub(e) && !is_large_rim(e))) return false;
         const std::string why = records_[e].why;
         const auto place = place_along_rim(e);
         if (place && is_free(*place, e)) return make_cut(e, *place, "cut along its rim: " + why);
@@ -428,10 +446,10 @@ private:
         return false;
     }
 
-    /// True for a rim that is about as wide as the widest other end.
-    bool is_as_wide(std::size_t e) const {
+    /// True for a rim that may not vanish (kLargeEnd).
+    bool is_large_rim(std::size_t e) const {
         return !ends_[e].rim.empty() &&
-               rim_shape(surface_, ends_[e].rim).diameter() > kAsWide * widest_beside(e);
+               rim_shape(surface_, ends_[e].rim).diameter() > kLargeEnd * widest_beside(e);
     }
 
     /// Just behind an open rim, in the direction of its own plane. Empty: the end has none, or one
@@ -512,6 +530,7 @@ private:
         for (const std::size_t other : trials_.taken_along())
             if (!decided_[other]) {
                 records_[other].fate = EndFate::Removed;
+                records_[other].shared = true;
                 records_[other].why =
                     "part of the end at " + place_text(ends_[e].centre) + ", which was cut off";
                 decided_[other] = true;
@@ -538,7 +557,7 @@ private:
         records_[e].fate = EndFate::Closed;
         records_[e].why = why;
         const SurfaceEnd& end = ends_[e];
-        if (!options_.strict && end.is_visible())
+        if (end.is_visible())
             plan_.closings.push_back(
                 {end.centre, end.patch ? ClosingWay::WallCap : ClosingWay::FillRim});
     }

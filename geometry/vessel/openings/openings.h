@@ -48,6 +48,8 @@ struct EndRecord {
     double diameter = 0.0;      ///< of the vessel there [mm]
     EndFate fate = EndFate::Closed;
     std::string why;       ///< may be empty: opened at the chosen place
+    bool rim = false;      ///< an open border of the surface
+    bool shared = false;   ///< removed with the cut of another end, of which it is a part
     bool plain = false;    ///< kept, or opened at the chosen place
     bool sac = false;      ///< it looks like an aneurysm: closed, however wide
     bool asked = false;    ///< closed since the caller wants it so
@@ -94,6 +96,9 @@ struct OpeningPlanOptions {
 
 /// Ends at least this wide beside the largest opening count as large [-].
 inline constexpr double kAsLarge = 1.1;
+
+/// Ends at least this wide, in diameters of the widest opening, do not vanish unnoticed [-].
+inline constexpr double kLargeEnd = 0.5;
 
 /// A border or a cap belongs to a tip within this many of its diameters [-].
 inline constexpr double kEndReach = 1.5;

@@ -21,6 +21,11 @@ constexpr double kFarthestEnd = 4.0;
 /// A sac: wider than its neck or its neighbours by this factor, and at most this many radii long.
 constexpr double kSacToNeck = 1.4;
 constexpr double kSacLength = 2.5;
+/// What is longer beyond the vessels around is a vessel, however it widens behind its furcation
+/// [radii].
+constexpr double kLongestSac = 4.0;
+/// What is this long and has no neck may be a trunk as well [radii].
+constexpr double kLeastTrunk = 1.5;
 /// A ball on a narrower neck that the image has widened: it rises behind its neck by this factor,
 /// in at most this many radii beyond the vessels around it.
 constexpr double kBallToNeck = 1.15;
@@ -191,6 +196,10 @@ bool BlindBranch::is_short() const {
     return length < kSacLength * widest;
 }
 
+bool BlindBranch::is_sac() const {
+    return bulges && (necked || length < kLeastTrunk * widest);
+}
+
 bool BlindBranch::is_stub() const {
     return length < kStubShare * 2.0 * parent;
 }
@@ -217,9 +226,10 @@ std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_
         found.parent = std::max(found.parent, radius);
         found.narrowest = std::min(found.narrowest, radius);
     }
-    found.bulges = found.necked || found.widest > kSacToNeck * found.parent ||
-                   (found.length < kBallLength * found.widest &&
-                    rise_behind_neck(graph, index, root) > kBallToNeck);
+    const bool wide = found.necked || found.widest > kSacToNeck * found.parent;
+    found.bulges = found.length < kLongestSac * found.widest &&
+                   (wide || (found.length < kBallLength * found.widest &&
+                             rise_behind_neck(graph, index, root) > kBallToNeck));
     return found;
 }
 

@@ -41,6 +41,10 @@ struct BlindBranch {
     /// Not longer than a sac may be.
     [[nodiscard]] bool is_short() const;
 
+    /// It bulges, and is no trunk that was cut off before its furcation: it has a neck, or is
+    /// shorter than three quarters of its width.
+    [[nodiscard]] bool is_sac() const;
+
     /// So short that removing it changes little: shorter than its parent is wide.
     [[nodiscard]] bool is_stub() const;
 };

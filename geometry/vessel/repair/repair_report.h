@@ -30,6 +30,14 @@ struct RepairPlace {
     double size = 0.0;             ///< radius of the place [mm]; 0: a point
 };
 
+/// A closed hole that may have been a vessel's end.
+struct ClosedEnd {
+    Vec3 centre = Vec3::Zero();  ///< [mm]
+    double radius = 0.0;         ///< of the circle of the same area [mm]
+    double lumen_radius = 0.0;   ///< of the vessel behind it [mm]
+    bool in_wall = false;        ///< a branch torn off at the wall; else as wide as the vessel
+};
+
 /// An open end that was left open.
 struct KeptOpening {
     Vec3 centre = Vec3::Zero();  ///< [mm]
@@ -55,7 +63,7 @@ struct RepairReport {
     std::size_t refilled_triangles = 0;  ///< cut out around them
     std::size_t smoothed_vertices = 0;   ///< moved to separate them
     std::size_t closed_holes = 0;
-    std::optional<RepairPlace> closed_end;  ///< the widest hole closed that may be a vessel's end
+    std::vector<ClosedEnd> closed_ends;
     std::size_t collapsed_edges = 0;
     std::size_t flipped_edges = 0;
     std::vector<KeptOpening> openings;

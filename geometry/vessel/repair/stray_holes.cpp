@@ -31,6 +31,14 @@ constexpr double kPlaneRound = 0.6;
 /// Each pass moves the corners halfway to their neighbours' mean.
 constexpr int kZigzagPasses = 4;
 
+/// A rim that runs round a vessel has the area of its section, however torn it is, and the wall
+/// beside it is not parallel to it.
+constexpr double kRoundVessel = 0.7;  ///< radius over that of the lumen [-]
+constexpr double kMostFacing = 0.5;   ///< OpenLoop::facing
+constexpr double kMostElongated = 3.0;
+/// A closed hole of many edges this wide beside the lumen [-] may be a branch torn off at the wall.
+constexpr double kTornOff = 0.15;
+
 /// Rings of triangles around a hole that determine the bending of its patch.
 constexpr int kRings = 3;
 
@@ -59,6 +67,21 @@ double roundness_of(Positions corners) {
     return length > 0.0 ? 2.0 * std::numbers::pi * twice_area.norm() / (length * length) : 0.0;
 }
 
+/// \return OpenLoop::elongation
+double elongation_of(const Positions& corners, const Vec3& normal) {
+    const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x).normalized();
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (const Vec3& corner : corners) {
+        const double a = corner.dot(x), b = corner.dot(y);
+        xx += a * a;
+        xy += a * b;
+        yy += b * b;
+    }
+    const double apart = std::hypot(xx - yy, 2.0 * xy), least = xx + yy - apart;
+    return least > 0.0 ? std::sqrt((xx + yy + apart) / least)
+                       : std::numeric_limits<double>::infinity();
+}
+
 OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     OpenLoop loop;
     loop.vertices = std::move(vertices);
@@ -75,6 +98,7 @@ OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     }
     const double area = normal.norm();
     loop.radius = std::sqrt(area / std::numbers::pi);
+    loop.elongation = elongation_of(corners, normal);
     loop.roundness = roundness_of(std::move(corners));
     if (area > 0.0)
         for (const VertexId v : loop.vertices)
@@ -102,6 +126,22 @@ double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
     const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
     std::nth_element(widths.begin(), middle, widths.end());
     return 0.5 * *middle;
+}
+
+/// \return OpenLoop::facing
+double facing_of(const TriangleSoup& mesh, const std::vector<VertexId>& loop,
+                 const std::vector<TriangleId>& rim_triangles) {
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        normal += (mesh.points[loop[i]] - mesh.points[loop[0]])
+                      .cross(mesh.points[loop[(i + 1) % loop.size()]] - mesh.points[loop[0]]);
+    double along = 0.0, whole = 0.0;
+    for (const TriangleId t : rim_triangles) {
+        const Vec3 wall = area_normal(mesh.points, mesh.triangles[t]);
+        along += std::abs(wall.dot(normal));
+        whole += wall.norm() * normal.norm();
+    }
+    return whole > 0.0 ? along / whole : 1.0;
 }
 
 /// The most frequent patch label of the rim triangles.
@@ -142,6 +182,21 @@ void close_loop(TriangleSoup& mesh, const Topology& topology, const std::vector<
     for (const Triangle& t : patch.triangles) mesh.add_triangle(t, label);
 }
 
+bool runs_round_vessel(const OpenLoop& loop) {
+    return loop.lumen_radius > 0.0 && loop.radius > kRoundVessel * loop.lumen_radius &&
+           loop.facing < kMostFacing && loop.elongation < kMostElongated;
+}
+
+/// Empty for a loop that is hardly an end, such as that of missing triangles.
+std::optional<ClosedEnd> closed_end(const OpenLoop& loop) {
+    ClosedEnd end{loop.centre, loop.radius, loop.lumen_radius};
+    if (runs_round_vessel(loop)) return end;
+    if (loop.vertices.size() < kCutEdges) return std::nullopt;
+    end.in_wall = !is_wide_as_lumen(loop);
+    if (end.in_wall && (loop.radius < kTornOff * loop.lumen_radius)) return std::nullopt;
+    return end;
+}
+
 bool stays_open(const OpenLoop& loop, const RepairParameters& parameters) {
     if (loop.from_cut || loop.vertices.size() <= 3) return false;
     if (parameters.close_holes_up_to) return loop.radius > *parameters.close_holes_up_to;
@@ -167,6 +222,7 @@ std::vector<OpenLoop> open_loops(const TriangleSoup& mesh) {
         std::sort(beside.begin(), beside.end());
         beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
         loop.lumen_radius = lumen_radius(mesh, distance, beside);
+        loop.facing = facing_of(mesh, loop.vertices, beside);
     }
     return loops;
 }
@@ -177,6 +233,7 @@ bool is_vessel_end(const OpenLoop& loop) {
         return loop.vertices.size() >= kCutEdges && loop.flatness < flat && loop.roundness > round;
     };
     if (is_cut(kCutFlat, kCutRound) || is_cut(kPlaneFlat, kPlaneRound)) return true;
+    if (runs_round_vessel(loop)) return true;
     return loop.roundness > kLeastRound && is_wide_as_lumen(loop);
 }
 
@@ -202,9 +259,7 @@ bool close_stray_holes(TriangleSoup& mesh, const RepairParameters& parameters,
         ++report.closed_holes;
         largest_closed = std::max(largest_closed, loop.radius);
         report.places.push_back({RepairKind::Hole, loop.centre, loop.radius});
-        if (loop.vertices.size() >= kCutEdges && is_wide_as_lumen(loop) &&
-            (!report.closed_end || loop.radius > report.closed_end->size))
-            report.closed_end = report.places.back();
+        if (const auto end = closed_end(loop)) report.closed_ends.push_back(*end);
     }
     if (!report.closed_up_to && largest_closed > 0.0 && largest_closed < smallest_kept)
         report.closed_up_to =

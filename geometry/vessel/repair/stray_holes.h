@@ -14,13 +14,16 @@ struct OpenLoop {
     double roundness = 0.0;      ///< 4 pi area / length^2, without its zigzag [-]; 1: a circle
     double flatness = 0.0;       ///< largest distance from the best-fit plane over the radius [-]
     double lumen_radius = 0.0;   ///< half the free width behind the rim, median [mm]
+    double elongation = 1.0;     ///< length over width of its projection, by second moments [-]
+    double facing = 1.0;         ///< mean |cosine| of its normal and the wall's; 0: round a vessel
     bool from_cut = false;       ///< its rim was cut by repair itself
 };
 
 /// The loops of a manifold surface. Loops cut by repair get no lumen radius.
 [[nodiscard]] std::vector<OpenLoop> open_loops(const TriangleSoup& mesh);
 
-/// True for a vessel's end: about as wide as the lumen behind it, or a flat, round cut.
+/// True for a vessel's end: about as wide as the lumen behind it, or a flat, round cut, or torn,
+/// but running round the vessel.
 [[nodiscard]] bool is_vessel_end(const OpenLoop& loop);
 
 /// True for a loop about as wide as the lumen behind it, whether it is round or a slit.
