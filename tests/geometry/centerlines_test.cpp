@@ -371,36 +371,3 @@ SCENARIO("Centerlines are cancelled while the lumen is thinned and the lines are
         CHECK_THROWS_AS(compute_centerlines(tube, {}, stop.progress()), Cancelled);
     }
 }
-
-SCENARIO("A line does not end in the corner of an oblique end", "[geometry][centerlines]") {
-    // Slightly domed: no flat closure, which would be an end without a search.
-    const ImplicitShape vessel = [](const Vec3& p) {
-        const double from_axis = std::hypot(p.x(), p.y());
-        const double dome = 0.4 * (1.0 - from_axis * from_axis / 4.0);
-        return std::max({from_axis - 2.0, p.z() - 12.0 - dome - 0.6 * p.x(), -12.0 - p.z() - dome});
-    };
-    const Surface surface =
-        iso_surface(vessel, {Vec3(-2.6, -2.6, -14.1), Vec3(2.7, 2.6, 14.2)}, 0.3);
-    const CenterlineGraph graph = compute_centerlines(surface);
-    REQUIRE(graph.nodes.size() == 2);
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
-        const Vec3& tip = graph.nodes[n].position;
-        CAPTURE(tip.transpose());
-        CHECK(std::hypot(tip.x(), tip.y()) < 1.0);
-        CHECK(tip_radius(graph, n) == Approx(2.0).epsilon(0.03));
-    }
-}
-
-SCENARIO("A line follows a tapering vessel to its tip", "[geometry][centerlines]") {
-    const ImplicitShape vessel = [](const Vec3& p) {
-        const double radius = std::clamp(2.0 - 0.4 * (p.z() - 8.0), 0.5, 2.0);
-        if (p.z() > 11.75) return (p - Vec3(0, 0, 11.75)).norm() - 0.5;
-        if (p.z() < -12.0) return (p + Vec3(0, 0, 12.0)).norm() - 2.0;
-        return std::hypot(p.x(), p.y()) - radius;
-    };
-    const CenterlineGraph graph = compute_centerlines(
-        iso_surface(vessel, {Vec3(-2.6, -2.6, -14.6), Vec3(2.7, 2.6, 13.1)}, 0.2));
-    REQUIRE(graph.branches.size() == 1);
-    const double top = std::max(graph.nodes[0].position.z(), graph.nodes[1].position.z());
-    CHECK(top > 11.75);
-}

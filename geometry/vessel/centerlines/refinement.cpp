@@ -24,12 +24,6 @@ constexpr double kMostNoise = 1.08;  ///< largest ratio of the section's radius 
 
 constexpr double kClosureDepth = 1.5;  ///< depths within this many radii of an end are unreliable
 
-/// A vessel's radius is the median over this length [radii], and a sphere that large is full.
-constexpr double kVesselLength = 3.0;
-constexpr double kFullSphere = 0.85;
-/// A line that ends this far beside its vessel's middle runs into a corner [radii].
-constexpr double kAside = 0.3;
-
 enum class Hold : std::uint8_t {
     Free,
     Fixed,    ///< an opening's centre
@@ -67,30 +61,6 @@ std::size_t behind_closure(const Line& line) {
     return most;
 }
 
-/// Index from `first` on of the first point whose sphere is as large as its vessel, if the line
-/// leaves the vessel's middle before: a blind tip is the farthest voxel of its end, which may lie
-/// in the corner of a flat one. A vessel that only tapers is followed to its tip.
-std::size_t behind_corner(const Line& line, std::size_t first) {
-    std::vector<double> radii;
-    double way = 0.0;
-    for (std::size_t i = first; i < line.points.size(); ++i) {
-        if (i > first) way += (line.points[i] - line.points[i - 1]).norm();
-        if (way > kVesselLength * line.radii[i]) break;
-        radii.push_back(line.radii[i]);
-    }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    std::size_t full = first;
-    while (full < line.points.size() / 2 && line.radii[full] < kFullSphere * *middle) ++full;
-    std::size_t behind = full;
-    while (behind + 1 < line.points.size() &&
-           (line.points[behind] - line.points[full]).norm() < *middle)
-        ++behind;
-    const Vec3 axis = (line.points[full] - line.points[behind]).normalized();
-    const double aside = (line.points[first] - line.points[full]).cross(axis).norm();
-    return aside > kAside * *middle ? full : first;
-}
-
 void reverse(Line& line) {
     std::reverse(line.points.begin(), line.points.end());
     std::reverse(line.radii.begin(), line.radii.end());
@@ -100,8 +70,7 @@ void reverse(Line& line) {
 /// Repairs the start of a piece that begins at a tip: an opening gets a straight line to its centre
 /// and the vessel's radius, a blind end is cut back to its last full sphere.
 void mend_tip(Line& piece, NodeKind kind) {
-    std::size_t k = behind_closure(piece);
-    if (kind == NodeKind::Blind) k = behind_corner(piece, k);
+    const std::size_t k = behind_closure(piece);
     if (kind == NodeKind::Opening) {
         for (std::size_t i = 1; i < k; ++i) {
             const double f = static_cast<double>(i) / static_cast<double>(k);
