@@ -52,7 +52,7 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "least [mm] 0.5, noise 0<",
                              "10 numbers",
                              "<h2>Vessel ends</h2>",
-                             "<td>1, 2, 31.5</td><td class=n>3.75</td><td class=n>closed</td>",
+                             "<td>1,2,31.5</td><td class=n>3.75</td><td class=n>closed</td>",
                              "it looks like an &lt;aneurysm&gt;",
                              "Distance from the source",
                              "27.5",
