@@ -80,15 +80,15 @@ ordered_json report_json(const RepairReport& report) {
             {"places", places_json(report.places)}};
 }
 
-void add_closed_ends(std::vector<ClosedEnd> ends, std::vector<std::string>& warnings) {
-    std::ranges::stable_sort(ends, std::greater{}, &ClosedEnd::radius);
+void add_closed_ends(std::vector<ClosedHole> ends, std::vector<std::string>& warnings) {
+    std::ranges::stable_sort(ends, std::greater{}, &ClosedHole::radius);
     for (std::size_t i = 0; i < ends.size(); ++i) {
         if (i == kMostNamed) {
             warnings.push_back("repair closed " + counted(ends.size() - i, "smaller hole") +
                                " that may be ends of vessels: see the report");
             return;
         }
-        const ClosedEnd& end = ends[i];
+        const ClosedHole& end = ends[i];
         const std::string what = end.in_wall ? "in the wall of a vessel " +
                                                    formatted(2.0 * end.lumen_radius) +
                                                    " mm wide, where a branch may have been torn off"

@@ -31,7 +31,7 @@ struct RepairPlace {
 };
 
 /// A closed hole that may have been a vessel's end.
-struct ClosedEnd {
+struct ClosedHole {
     Vec3 centre = Vec3::Zero();  ///< [mm]
     double radius = 0.0;         ///< of the circle of the same area [mm]
     double lumen_radius = 0.0;   ///< of the vessel behind it [mm]
@@ -63,7 +63,7 @@ struct RepairReport {
     std::size_t refilled_triangles = 0;  ///< cut out around them
     std::size_t smoothed_vertices = 0;   ///< moved to separate them
     std::size_t closed_holes = 0;
-    std::vector<ClosedEnd> closed_ends;
+    std::vector<ClosedHole> closed_ends;
     std::size_t collapsed_edges = 0;
     std::size_t flipped_edges = 0;
     std::vector<KeptOpening> openings;

@@ -188,8 +188,8 @@ bool runs_round_vessel(const OpenLoop& loop) {
 }
 
 /// Empty for a loop that is hardly an end, such as that of missing triangles.
-std::optional<ClosedEnd> closed_end(const OpenLoop& loop) {
-    ClosedEnd end{loop.centre, loop.radius, loop.lumen_radius};
+std::optional<ClosedHole> closed_end(const OpenLoop& loop) {
+    ClosedHole end{loop.centre, loop.radius, loop.lumen_radius};
     if (runs_round_vessel(loop)) return end;
     if (loop.vertices.size() < kCutEdges) return std::nullopt;
     end.in_wall = !is_wide_as_lumen(loop);
