@@ -309,15 +309,26 @@ private:
         return widest && blind.length >= 2.0 * blind.widest;
     }
 
-    /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border, or
-    /// flat caps, already provide inflow and outflow, a short blind stub is not an opening either.
+    /// True if a blind branch too long for a sac or a knob is among the ends.
+    bool has_rounded_end() const {
+        return std::ranges::any_of(ends_, [&](const SurfaceEnd& end) {
+            if (end.is_visible() || !end.tip) return false;
+            const auto blind = blind_branch(graph_, *end.tip);
+            return blind && !blind->is_short() && !blind->bulges;
+        });
+    }
+
+    /// An aneurysm stays closed, as does a branch too short to be opened. If an image's border
+    /// already provides inflow and outflow, a short blind stub is not an opening either; if flat
+    /// caps do, and are all of the vessel's other ends, a knob is none.
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
-        const bool knob = blind && blind->is_stub() && visible >= 2 && !options_.border_cuts;
-        if (!blind || !(blind->is_short() || knob)) return false;
+        if (!blind || !blind->is_short()) return false;
         const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
-        if (!sac && (visible < 2 || is_trunk(e, *blind))) return false;
+        const bool needless =
+            visible >= 2 && (options_.border_cuts || (blind->is_knob() && !has_rounded_end()));
+        if (!sac && (!needless || is_trunk(e, *blind))) return false;
         records_[e].sac = sac && (!blind->bulges || blind->is_sac());
         close_offering(e, sac ? "it looks like an aneurysm" : "its branch is short");
         return true;

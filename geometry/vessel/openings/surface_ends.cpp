@@ -204,6 +204,10 @@ bool BlindBranch::is_stub() const {
     return length < kStubShare * 2.0 * parent;
 }
 
+bool BlindBranch::is_knob() const {
+    return is_stub() && length < 2.0 * widest;
+}
+
 std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_t tip) {
     const std::size_t index = branch_of_tip(graph, tip);
     const std::size_t root = other_node(graph, index, tip);

@@ -47,6 +47,9 @@ struct BlindBranch {
 
     /// So short that removing it changes little: shorter than its parent is wide.
     [[nodiscard]] bool is_stub() const;
+
+    /// A stub that is hardly more than a bump: shorter than it is wide.
+    [[nodiscard]] bool is_knob() const;
 };
 
 /// Empty for a vessel without a furcation.
