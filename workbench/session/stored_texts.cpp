@@ -20,8 +20,9 @@ std::string key_of(StoredText which) {
 }
 
 std::string text_in(const Database& database, StoredText which) {
+    const std::string key = key_of(which);  // a bound text must live until the step
     Statement query = database.prepare("SELECT value FROM meta WHERE name = ?");
-    query.bind(0, key_of(which));
+    query.bind(0, key);
     return query.step() ? query.text(0) : "";
 }
 
