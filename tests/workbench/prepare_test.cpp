@@ -389,6 +389,10 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     CHECK(report["print"].is_object());
     for (const Json& step : report["steps"]) CHECK(step["operation"] != "extrude-opening");
     CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));
+    THEN("an export without a variant's name is of the only one") {
+        REQUIRE(run({"export", out + "/project.vbench", out + "/again.stl"}).exit_code == 0);
+        CHECK(text_of(out + "/again.stl") == text_of(out + "/print.stl"));
+    }
 }
 
 SCENARIO("Without OpenGL the report says why it has no pictures", "[workbench][prepare]") {

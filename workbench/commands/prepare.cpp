@@ -14,6 +14,7 @@
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/session/edit_place.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -87,7 +88,9 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         throw UsageError("--set '" + settings.front() +
                          "': export accepts only openfoam.parameter=value");
     refuse_source(session, arguments.file);
-    const Scene scene = session.scene(arguments.variant, progress.part(0.0, 0.7));
+    const std::string variant =
+        arguments.variant.empty() ? usual_variant(*session.snapshot()->history) : arguments.variant;
+    const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
     for (const LogEntry& entry : session.log())
         if (entry.status == EditStatus::Stale)
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
@@ -98,7 +101,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     progress.check_cancelled();
     files.commit();
     if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");
-    Json json = {{"file", arguments.file}, {"variant", arguments.variant}};
+    Json json = {{"file", arguments.file}, {"variant", variant}};
     if (scene.surface) json["triangles"] = scene.surface->triangle_count();
     if (scene.volume_mesh) json["tetrahedra"] = scene.volume_mesh->tetrahedra.size();
     std::cout << json.dump(2) << "\n";

@@ -14,6 +14,7 @@
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/compaction.h"
+#include "workbench/session/edit_place.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -200,9 +201,11 @@ const EditRecord& edit_of(const Snapshot& now, EditId id) {
 void apply_operation(const ApplyOptions& options, const Progress& progress) {
     const Operation& operation = find_operation(options.operation);
     const GivenArguments given = arguments_from_texts(operation, options.arguments);
-    EditOptions edit{.variant = options.variant, .author = options.author, .note = options.note};
+    EditOptions edit{.author = options.author, .note = options.note};
     if (!options.step.empty()) edit.step = step_from(options.step);
     Session session = Session::open(options.project, {.find = find_operation});
+    edit.variant =
+        options.variant.empty() ? usual_variant(*session.snapshot()->history) : options.variant;
     const LogEntry entry = session.apply(given, edit, progress);
     remark_warnings(entry, given);
     if (options.json)

@@ -34,9 +34,10 @@ void add_apply(CommandLine& line) {
                     "Its arguments; see 'vesselbench operations OPERATION'")
         ->type_name("");
     command
-        .add_option("--variant", options->variant,
-                    "Variant for edits of steps 6-8: cfd, rp or a name")
-        ->capture_default_str()
+        .add_option(
+            "--variant", options->variant,
+            "Variant for edits of steps 6-8: cfd, rp or a name (default: the project's only\n"
+            "one, else cfd)")
         ->type_name("NAME");
     command
         .add_option("--step", options->step,
@@ -151,8 +152,9 @@ void add_export(CommandLine& line) {
         ->required()
         ->type_name("");
     command.footer(export_footer());
-    command.add_option("--variant", options->variant, "Variant to write")
-        ->capture_default_str()
+    command
+        .add_option("--variant", options->variant,
+                    "Variant to write (default: the project's only one, else cfd)")
         ->type_name("NAME");
     command
         .add_option("--set", options->settings,

@@ -97,9 +97,8 @@ void refuse_stale_edits(const std::vector<LogEntry>& log) {
     throw AlgorithmFailure(
         "edit " + edit + " " + stale->edit.operation +
         " no longer applies after an earlier edit was changed: " + stale->reason +
-        "; change it (vesselbench change project.vbench " + edit +
-        " ...), remove it, let all edits choose anew (vesselbench "
-        "change project.vbench EARLIER --anew), or prepare into another folder");
+        "; change its arguments, remove it, or\n" + "vesselbench change project.vbench " + edit +
+        " --anew, then --resume: it chooses again what it chose by itself");
 }
 
 Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {

@@ -47,4 +47,9 @@ std::vector<HistoryEntry> entries_before(const History& history, EditId id) {
                      "; see its edits with log");
 }
 
+std::string usual_variant(const History& history) {
+    const std::vector<std::string> variants = history.variants();
+    return variants.size() == 1 ? variants.front() : kDefaultVariant;
+}
+
 }  // namespace vesselbench

@@ -19,4 +19,8 @@ namespace vesselbench {
 /// \throw UsageError if the current state does not contain it
 [[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history, EditId id);
 
+/// The variant meant where none is named: the only one of the current state; kDefaultVariant if
+/// there is none, or several.
+[[nodiscard]] std::string usual_variant(const History& history);
+
 }  // namespace vesselbench

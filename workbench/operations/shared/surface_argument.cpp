@@ -27,10 +27,15 @@ std::string unlikely_unit_text(const SurfaceArgument& read, LengthUnit unit) {
     if (read.surface.empty()) return "";
     Positions raw = read.surface.points();
     for (Vec3& point : raw) point /= millimetres_per(unit);
-    const UnitGuess guess = guess_length_unit(read.surface.with_positions(std::move(raw)));
-    if (guess.unit == unit || !guess.doubt.empty()) return "";
-    return read.name + " is read in " + read.units + ", as asked, but has a vessel's size in " +
-           to_string(guess.unit) + " only (" + guess.reason + ")";
+    const Surface in_file = read.surface.with_positions(std::move(raw));
+    const UnitGuess guess = guess_length_unit(in_file);
+    if (guess.unit == unit) return "";
+    const std::string text = read.name + " is read in " + read.units + ", as asked, but ";
+    if (guess.doubt.empty())
+        return text + "has a vessel's size in " + to_string(guess.unit) + " only (" + guess.reason +
+               ")";
+    const bool possible = guess_length_unit(in_file, unit).unit == unit;
+    return possible ? "" : text + guess.doubt;
 }
 
 }  // namespace
