@@ -50,9 +50,8 @@ InputOptions input_options(const InputArguments& arguments) {
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
-    const auto tell = [project = (out / "project.vbench").string()](const std::string& text) {
-        remark(with_project(text, project));
-    };
+    const std::string project = (out / "project.vbench").string();
+    const auto tell = [&](const std::string& text) { remark(with_project(text, project)); };
     const PrepareSummary made = prepare({.input = input_options(arguments.input),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,
@@ -64,8 +63,8 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     std::string what = purpose.result + ":";
     what.resize(std::string("report:      ").size(), ' ');
     std::cout << what << (out / purpose.result_file).string()
-              << "\nreport:      " << (out / "report.html").string()
-              << "\nproject:     " << (out / "project.vbench").string() << "\n";
+              << "\nreport:      " << (out / "report.html").string() << "\nproject:     " << project
+              << "\n";
 }
 
 void make_project(const NewArguments& arguments, const Progress& progress) {
@@ -88,8 +87,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         throw UsageError("--set '" + settings.front() +
                          "': export accepts only openfoam.parameter=value");
     refuse_source(session, arguments.file);
-    const std::string variant =
-        arguments.variant.empty() ? usual_variant(*session.snapshot()->history) : arguments.variant;
+    const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
     for (const LogEntry& entry : session.log())
         if (entry.status == EditStatus::Stale)

@@ -204,8 +204,7 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     EditOptions edit{.author = options.author, .note = options.note};
     if (!options.step.empty()) edit.step = step_from(options.step);
     Session session = Session::open(options.project, {.find = find_operation});
-    edit.variant =
-        options.variant.empty() ? usual_variant(*session.snapshot()->history) : options.variant;
+    edit.variant = variant_meant(options.variant, *session.snapshot()->history);
     const LogEntry entry = session.apply(given, edit, progress);
     remark_warnings(entry, given);
     if (options.json)

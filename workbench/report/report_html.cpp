@@ -220,7 +220,6 @@ std::string openings(const Json& report) {
            "end that was kept although it was tilted is named under the vessel ends.</p>\n";
 }
 
-/// What became of every vessel end, worst first.
 /// As an argument, to be copied.
 std::string place_text(const Json& place) {
     if (!place.is_array() || place.size() != 3) return shown(place);
@@ -228,6 +227,7 @@ std::string place_text(const Json& place) {
     return to_text(Value(rounded_place(point)));
 }
 
+/// What became of every vessel end, worst first.
 std::string ends(const Json& report) {
     const Json& list = part_of(report, "ends");
     if (!list.is_array() || list.empty()) return "";

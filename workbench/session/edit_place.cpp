@@ -47,7 +47,8 @@ std::vector<HistoryEntry> entries_before(const History& history, EditId id) {
                      "; see its edits with log");
 }
 
-std::string usual_variant(const History& history) {
+std::string variant_meant(const std::string& asked, const History& history) {
+    if (!asked.empty()) return asked;
     const std::vector<std::string> variants = history.variants();
     return variants.size() == 1 ? variants.front() : kDefaultVariant;
 }

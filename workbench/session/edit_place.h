@@ -19,8 +19,8 @@ namespace vesselbench {
 /// \throw UsageError if the current state does not contain it
 [[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history, EditId id);
 
-/// The variant meant where none is named: the only one of the current state; kDefaultVariant if
-/// there is none, or several.
-[[nodiscard]] std::string usual_variant(const History& history);
+/// The variant that is meant: the one asked for; if that is empty, the only one of the current
+/// state, or kDefaultVariant if there is none, or several.
+[[nodiscard]] std::string variant_meant(const std::string& asked, const History& history);
 
 }  // namespace vesselbench

@@ -28,20 +28,20 @@ public:
           cancel_(cancel),
           offsets_(grid.neighbour_offsets()),
           lengths_(grid.neighbour_lengths()),
-          label_(grid.lumen.size(), 0) {}
+          parts_(lumen_parts(grid, cancel)) {}
 
     void build() {
-        find_parts();
-        if (parts_.size() < 2) return;
-        DisjointSets joined(parts_.size());
-        std::vector<std::uint32_t> order(parts_.size());
+        const auto& members = parts_.members;
+        if (members.size() < 2) return;
+        DisjointSets joined(members.size());
+        std::vector<std::uint32_t> order(members.size());
         std::iota(order.begin(), order.end(), std::uint32_t{0});
         std::ranges::stable_sort(order, std::greater{},
-                                 [&](std::uint32_t p) { return parts_[p].size(); });
+                                 [&](std::uint32_t p) { return members[p].size(); });
         const std::size_t most = std::min(order.size(), kMostParts);
         for (std::size_t i = 1; i < most && visited_ < kMostVisited; ++i) {
             const std::uint32_t part = order[i];
-            if (parts_[part].size() < kSmallestPart) break;
+            if (members[part].size() < kSmallestPart) break;
             if (joined.root(part) == joined.root(order.front())) continue;
             if (const auto other = bridge_from(part, joined)) joined.join(part, *other);
         }
@@ -53,25 +53,6 @@ private:
 
     [[nodiscard]] VoxelId neighbour(VoxelId v, std::size_t n) const {
         return static_cast<VoxelId>(static_cast<int>(v) + offsets_[n]);
-    }
-
-    /// Parts are voxels that are neighbours, labelled from 1.
-    void find_parts() {
-        for (const VoxelId seed : grid_.voxels) {
-            if (label_[seed] != 0) continue;
-            std::vector<VoxelId> part = {seed};
-            const auto name = static_cast<std::uint32_t>(parts_.size() + 1);
-            label_[seed] = name;
-            for (std::size_t next = 0; next < part.size(); ++next)
-                for (std::size_t n = 0; n < offsets_.size(); ++n) {
-                    const VoxelId w = neighbour(part[next], n);
-                    if (grid_.lumen[w] == 0 || label_[w] != 0) continue;
-                    label_[w] = name;
-                    part.push_back(w);
-                }
-            parts_.push_back(std::move(part));
-            cancel_.check_cancelled();
-        }
     }
 
     [[nodiscard]] bool is_open(VoxelId v, std::size_t n) const {
@@ -93,7 +74,7 @@ private:
     /// The nearest other part, which is then joined by voxels; empty if none is within reach.
     std::optional<Part> bridge_from(Part part, DisjointSets& joined) {
         std::unordered_map<VoxelId, VoxelId> from;  // of visited voxels, those they were reached by
-        std::vector<VoxelId> shell = parts_[part];
+        std::vector<VoxelId> shell = parts_.members[part];
         const std::size_t most = visited_ + kMostVisitedEach;
         for (int step = 0; step < kLongestBridge && !shell.empty(); ++step) {
             std::vector<VoxelId> next;
@@ -101,7 +82,7 @@ private:
                 for (std::size_t n = 0; n < offsets_.size(); ++n) {
                     const VoxelId w = neighbour(v, n);
                     const bool lumen = grid_.lumen[w] != 0;
-                    if (lumen && joined.root(label_[w] - 1) == joined.root(part)) continue;
+                    if (lumen && joined.root(parts_.of_voxel[w]) == joined.root(part)) continue;
                     if (from.contains(w) || !is_open(v, n)) continue;
                     if (lumen && step == 0) continue;  // a neighbour: they are one part
                     if (lumen) return take(v, w, part, from);
@@ -122,10 +103,10 @@ private:
               const std::unordered_map<VoxelId, VoxelId>& from) {
         for (VoxelId v = last; grid_.lumen[v] == 0; v = from.at(v)) {
             grid_.lumen[v] = 1;
-            label_[v] = part + 1;
+            parts_.of_voxel[v] = part;
             grid_.voxels.push_back(v);
         }
-        return label_[other] - 1;
+        return parts_.of_voxel[other];
     }
 
     LumenGrid& grid_;
@@ -133,8 +114,7 @@ private:
     const Progress& cancel_;
     std::array<int, 26> offsets_;
     std::array<float, 26> lengths_;
-    std::vector<std::uint32_t> label_;  ///< #voxels; 0: no part
-    std::vector<std::vector<VoxelId>> parts_;
+    LumenParts parts_;  ///< their members are those before bridges were built
     std::size_t visited_ = 0;
 };
 

@@ -331,36 +331,39 @@ void measure_depth(LumenGrid& grid, const Progress& cancel) {
         grid.depth[v] = std::sqrt(grid.depth[v]) * spacing + clearance;
 }
 
-std::size_t keep_large_components(LumenGrid& grid, double fraction) {
+LumenParts lumen_parts(const LumenGrid& grid, const Progress& cancel) {
     const auto offsets = grid.neighbour_offsets();
-    std::vector<std::uint32_t> label(grid.lumen.size(), 0);
-    std::vector<std::size_t> sizes;
-    std::vector<VoxelId> stack;
+    LumenParts parts;
+    parts.of_voxel.assign(grid.lumen.size(), LumenParts::kNone);
     for (const VoxelId seed : grid.voxels) {
-        if (label[seed]) continue;
-        sizes.push_back(0);
-        const auto name = static_cast<std::uint32_t>(sizes.size());
-        label[seed] = name;
-        stack.assign(1, seed);
-        while (!stack.empty()) {
-            const VoxelId v = stack.back();
-            stack.pop_back();
-            ++sizes.back();
-            for (const int o : offsets) {
-                const auto w = static_cast<VoxelId>(static_cast<int>(v) + o);
-                if (!grid.lumen[w] || label[w]) continue;
-                label[w] = name;
-                stack.push_back(w);
+        if (parts.of_voxel[seed] != LumenParts::kNone) continue;
+        const auto name = static_cast<std::uint32_t>(parts.members.size());
+        std::vector<VoxelId> part = {seed};
+        parts.of_voxel[seed] = name;
+        for (std::size_t next = 0; next < part.size(); ++next)
+            for (const int offset : offsets) {
+                const auto w = static_cast<VoxelId>(static_cast<int>(part[next]) + offset);
+                if (grid.lumen[w] == 0 || parts.of_voxel[w] != LumenParts::kNone) continue;
+                parts.of_voxel[w] = name;
+                part.push_back(w);
             }
-        }
+        parts.members.push_back(std::move(part));
+        cancel.check_cancelled();
     }
-    if (sizes.empty()) return 0;
-    const double least =
-        fraction * static_cast<double>(*std::max_element(sizes.begin(), sizes.end()));
+    return parts;
+}
+
+std::size_t keep_large_components(LumenGrid& grid, double fraction) {
+    const LumenParts parts = lumen_parts(grid);
+    std::size_t largest = 0;
+    for (const auto& part : parts.members) largest = std::max(largest, part.size());
+    const double least = fraction * static_cast<double>(largest);
     std::size_t kept = 0;
-    for (const std::size_t s : sizes) kept += static_cast<double>(s) >= least ? 1 : 0;
-    for (const VoxelId v : grid.voxels) {
-        if (static_cast<double>(sizes[label[v] - 1]) < least) grid.lumen[v] = 0;
+    for (const auto& part : parts.members) {
+        const bool is_large = static_cast<double>(part.size()) >= least;
+        kept += is_large ? 1 : 0;
+        if (!is_large)
+            for (const VoxelId v : part) grid.lumen[v] = 0;
     }
     list_voxels(grid);
     return kept;

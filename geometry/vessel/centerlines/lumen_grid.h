@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,17 @@ enum class InsideRule : std::uint8_t {
 /// functions", Theory of Computing 8, 2012.
 /// \throw Cancelled if the user cancels
 void measure_depth(LumenGrid& grid, const Progress& cancel);
+
+/// The connected parts of the lumen (26-neighbours), in the order of their first voxels.
+struct LumenParts {
+    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+    std::vector<std::uint32_t> of_voxel;        ///< #voxels; kNone outside the lumen
+    std::vector<std::vector<VoxelId>> members;  ///< of each part, from its first voxel outwards
+};
+
+/// \throw Cancelled if the user cancels
+[[nodiscard]] LumenParts lumen_parts(const LumenGrid& grid, const Progress& cancel = {});
 
 /// Keeps the voxels whose component has at least `fraction` of the largest one's voxels
 /// (26-neighbours).

@@ -16,6 +16,7 @@
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/one_rings.h"
 #include "geometry/kernel/shortest_paths.h"
+#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 namespace {
@@ -45,22 +46,20 @@ public:
           offsets_(grid.neighbour_offsets()),
           rings_(one_rings(wall.closed, wall.points.size())),
           normals_(wall.points.size(), Vec3::Zero()),
-          part_(grid.lumen.size(), kNone),
+          parts_(lumen_parts(grid, cancel)),
+          joined_(parts_.members.size()),
           shown_by_(wall.points.size(), kNone),
           border_(wall.points.size(), kNone),
           way_(wall.points.size(), std::numeric_limits<double>::infinity()),
-          before_(wall.points.size(), kNone),
-          parts_(0) {
+          before_(wall.points.size(), kNone) {
         for (const Triangle& t : wall.closed) {
-            const Vec3 n = (wall.points[t[1]] - wall.points[t[0]])
-                               .cross(wall.points[t[2]] - wall.points[t[0]]);
+            const Vec3 n = area_normal(wall.points, t);
             for (const VertexId v : t) normals_[v] += n;
         }
         for (Vec3& n : normals_) n.normalize();
     }
 
     void add() {
-        find_parts();
         find_shown();
         std::vector<std::uint8_t> seen(wall_.points.size(), 0);
         for (VertexId v = 0; v < wall_.points.size(); ++v) {
@@ -90,28 +89,6 @@ private:
                !wall_.distance->first_hit(from, to - from, length - kSkin * grid_.spacing);
     }
 
-    /// Parts are voxels that are neighbours.
-    void find_parts() {
-        std::uint32_t count = 0;
-        for (const VoxelId seed : grid_.voxels) {
-            if (part_[seed] != kNone) continue;
-            std::vector<VoxelId> stack = {seed};
-            part_[seed] = count;
-            while (!stack.empty()) {
-                const VoxelId v = stack.back();
-                stack.pop_back();
-                for (std::size_t n = 0; n < offsets_.size(); ++n) {
-                    const VoxelId w = neighbour(v, n);
-                    if (grid_.lumen[w] == 0 || part_[w] != kNone) continue;
-                    part_[w] = count;
-                    stack.push_back(w);
-                }
-            }
-            ++count;
-        }
-        parts_ = DisjointSets(count);
-    }
-
     /// The wall's vertices with a voxel of the lumen on their inner side.
     void find_shown() {
         tbb::parallel_for(VertexId{0}, static_cast<VertexId>(wall_.points.size()), [&](VertexId v) {
@@ -138,7 +115,7 @@ private:
             const auto shown = shown_beside(seed);
             if (border_[seed] != kNone || !shown) continue;
             const auto name = static_cast<std::uint32_t>(parts.size());
-            parts.push_back(part_[shown_by_[*shown]]);
+            parts.push_back(parts_.of_voxel[shown_by_[*shown]]);
             std::vector<VertexId> stack = {seed};
             border_[seed] = name;
             while (!stack.empty()) {
@@ -200,12 +177,12 @@ private:
         int tries = 0;
         for (const Meeting& at : meetings) {
             const std::uint32_t from = borders[border_[at.a]], to = borders[border_[at.b]];
-            if (parts_.root(from) == parts_.root(to)) continue;
+            if (joined_.root(from) == joined_.root(to)) continue;
             if (tries++ == kMostTries) return;
             std::vector<VertexId> way = way_to(at.a);
             const std::vector<VertexId> back = way_to(at.b);
             way.insert(way.end(), back.rbegin(), back.rend());
-            if (add_path(way, from, to)) parts_.join(from, to);
+            if (add_path(way, from, to)) joined_.join(from, to);
         }
     }
 
@@ -283,7 +260,7 @@ private:
     /// Beside, or one of, the voxels of a part.
     [[nodiscard]] bool touches(VoxelId v, std::uint32_t part) {
         const auto belongs = [&](VoxelId w) {
-            return grid_.lumen[w] != 0 && parts_.root(part_[w]) == parts_.root(part);
+            return grid_.lumen[w] != 0 && joined_.root(parts_.of_voxel[w]) == joined_.root(part);
         };
         if (belongs(v)) return true;
         for (std::size_t n = 0; n < offsets_.size(); ++n)
@@ -322,7 +299,7 @@ private:
             const VoxelId v = path[i].voxel;
             if (grid_.lumen[v] != 0) continue;
             grid_.lumen[v] = 1;
-            part_[v] = from;
+            parts_.of_voxel[v] = from;
             grid_.voxels.push_back(v);
         }
         return true;
@@ -333,13 +310,13 @@ private:
     const Progress& cancel_;
     std::array<int, 26> offsets_;
     OneRings rings_;
-    Positions normals_;                  ///< outward, #V
-    std::vector<std::uint32_t> part_;    ///< #voxels
+    Positions normals_;  ///< outward, #V
+    LumenParts parts_;
+    DisjointSets joined_;
     std::vector<VoxelId> shown_by_;      ///< #V
     std::vector<std::uint32_t> border_;  ///< of the stretch from which a vertex is reached, #V
     std::vector<double> way_;            ///< from there [mm], #V
     std::vector<VertexId> before_;       ///< on that way, #V
-    DisjointSets parts_;
 };
 
 }  // namespace

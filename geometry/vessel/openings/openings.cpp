@@ -282,7 +282,7 @@ private:
             throw AlgorithmFailure(
                 "the end at " + place_text(end.centre) + " cannot be cut: " + records_[e].why +
                 "; closed=" + coordinates_argument(end.centre) + " leaves it closed on purpose");
-        if (!options_.strict && !is_fixed() && is_stub(e)) return remove(e);
+        if (!is_fixed() && is_stub(e)) return remove(e);
         records_[e].tried = true;
         close(e, records_[e].why);
     }
@@ -323,9 +323,9 @@ private:
     /// caps do, and are all of the vessel's other ends, a knob is none.
     bool looks_closed(std::size_t e) {
         const auto blind = blind_branch(graph_, *ends_[e].tip);
-        const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
         if (!blind || !blind->is_short()) return false;
         const bool sac = blind->bulges || is_ball(surface_, graph_, *ends_[e].tip);
+        const auto visible = std::ranges::count_if(ends_, &SurfaceEnd::is_visible);
         const bool needless =
             visible >= 2 && (options_.border_cuts || (blind->is_knob() && !has_rounded_end()));
         if (!sac && (!needless || is_trunk(e, *blind))) return false;

@@ -88,7 +88,7 @@ OpenLoop shape_of(const TriangleSoup& mesh, std::vector<VertexId> vertices) {
     const std::size_t n = loop.vertices.size();
     for (const VertexId v : loop.vertices) loop.centre += mesh.points[v];
     loop.centre /= static_cast<double>(n);
-    Vec3 normal = Vec3::Zero();
+    Vec3& normal = loop.normal;
     Positions corners;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 a = mesh.points[loop.vertices[i]] - loop.centre;
@@ -129,12 +129,8 @@ double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
 }
 
 /// \return OpenLoop::facing
-double facing_of(const TriangleSoup& mesh, const std::vector<VertexId>& loop,
+double facing_of(const TriangleSoup& mesh, const Vec3& normal,
                  const std::vector<TriangleId>& rim_triangles) {
-    Vec3 normal = Vec3::Zero();
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        normal += (mesh.points[loop[i]] - mesh.points[loop[0]])
-                      .cross(mesh.points[loop[(i + 1) % loop.size()]] - mesh.points[loop[0]]);
     double along = 0.0, whole = 0.0;
     for (const TriangleId t : rim_triangles) {
         const Vec3 wall = area_normal(mesh.points, mesh.triangles[t]);
@@ -222,7 +218,7 @@ std::vector<OpenLoop> open_loops(const TriangleSoup& mesh) {
         std::sort(beside.begin(), beside.end());
         beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
         loop.lumen_radius = lumen_radius(mesh, distance, beside);
-        loop.facing = facing_of(mesh, loop.vertices, beside);
+        loop.facing = facing_of(mesh, loop.normal, beside);
     }
     return loops;
 }

@@ -10,6 +10,7 @@ namespace vesselbench {
 struct OpenLoop {
     std::vector<VertexId> vertices;
     Vec3 centre = Vec3::Zero();  ///< [mm]
+    Vec3 normal = Vec3::Zero();  ///< of the enclosed area, as long as it is large [mm^2]
     double radius = 0.0;         ///< of the circle of the same area [mm]
     double roundness = 0.0;      ///< 4 pi area / length^2, without its zigzag [-]; 1: a circle
     double flatness = 0.0;       ///< largest distance from the best-fit plane over the radius [-]
