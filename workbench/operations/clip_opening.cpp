@@ -13,6 +13,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/flow_check.h"
+#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
@@ -179,8 +180,9 @@ std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& 
         wrong.push_back({opening->place.tip, opening->place.plane.point,
                          "the opening at " + place_text(at) + " would lie in a vessel's side"});
     }
-    const std::vector<LostVessel> lost = lost_vessels(graph, made.surface);
-    if (lost.empty() || !lost_vessels(graph, before).empty()) return wrong;  // lines lie outside
+    const CenterlineGraph vessels = without_frays(before, graph).graph;
+    const std::vector<LostVessel> lost = lost_vessels(vessels, made.surface);
+    if (lost.empty() || !lost_vessels(vessels, before).empty()) return wrong;  // lines lie outside
     for (const LostVessel& vessel : lost) wrong.push_back(cut_that_lost(made.plan, vessel));
     return wrong;
 }

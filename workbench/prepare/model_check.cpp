@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
@@ -113,6 +114,11 @@ std::optional<Cutter> cutter_of(const Session& session, const std::string& varia
     return found;
 }
 
+/// The centerlines without the threads of frayed trunks, which nobody misses.
+CenterlineGraph vessel_lines(const Surface& surface, const Progress& progress) {
+    return without_frays(surface, *centerlines_of(surface, {}, progress)).graph;
+}
+
 }  // namespace
 
 std::optional<BeforeOpenings> before_openings(Session& session, const std::string& variant) {
@@ -137,8 +143,8 @@ VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
                                       failure.what()};
     };
     try {
-        const auto lines = centerlines_of(before.surface, {}, progress);
-        return {.lost = lost_vessels(*lines, after, before.asked), .warning = ""};
+        const CenterlineGraph lines = vessel_lines(before.surface, progress);
+        return {.lost = lost_vessels(lines, after, before.asked), .warning = ""};
     } catch (const AlgorithmFailure& failure) {
         return without_lines(failure);
     } catch (const InvalidInput& failure) {
@@ -156,9 +162,9 @@ std::string check_vessels(Session& session, const std::string& variant, const Pr
     for (const LostVessel& vessel : check.lost)
         text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
                 ", diameter " + formatted(vessel.diameter) + " mm";
-    const auto lines = centerlines_of(before->surface, {}, progress);
-    throw AlgorithmFailure("the model has lost vessels:" + text +
-                           remedy_for(session, variant, *before, *lines));
+    throw AlgorithmFailure(
+        "the model has lost vessels:" + text +
+        remedy_for(session, variant, *before, vessel_lines(before->surface, progress)));
 }
 
 void check_openings(Session& session, const std::string& variant) {

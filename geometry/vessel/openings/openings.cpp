@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/cut_trial.h"
+#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/surface_ends.h"
 
@@ -57,10 +58,13 @@ OpeningPlace place_on(const Plane& plane, double diameter, const Vec3& tip,
 
 class Planner {
 public:
-    Planner(const Surface& surface, const CenterlineGraph& graph, const OpeningPlanOptions& options,
+    /// \param frayed tips of the graph
+    Planner(const Surface& surface, const CenterlineGraph& graph,
+            const std::vector<FrayedTrunk>& frayed, const OpeningPlanOptions& options,
             const Progress& progress)
         : surface_(surface),
           graph_(graph),
+          frayed_(frayed),
           options_(options),
           progress_(progress),
           ends_(find_surface_ends(surface, graph)),
@@ -231,7 +235,7 @@ private:
         if (options_.strict) return doubts;
         const auto facing = facing_ends(ends_, graph_);
         for (std::size_t e = 0; e < ends_.size(); ++e) {
-            if (ends_[e].is_visible() || is_wanted(e)) continue;
+            if (ends_[e].is_visible() || is_wanted(e) || frays(e)) continue;
             if (facing[e]) {
                 doubts[e] = "the vessel is broken there: it faces the end at " +
                             place_text(ends_[*facing[e]].centre);
@@ -275,7 +279,7 @@ private:
             records_[e].sac = blind && blind->is_sac();
             return close_offering(e, "a closed end: the surface's own rims are its openings");
         }
-        if (!end.is_visible() && !is_wanted(e) && looks_closed(e)) return;
+        if (!end.is_visible() && !is_wanted(e) && !frays(e) && looks_closed(e)) return;
         if (!doubt.empty() && is_spare(e)) return close_offering(e, doubt);
         if (cut(e)) return;
         if (options_.strict)
@@ -296,7 +300,7 @@ private:
                 return false;
         const auto blind = blind_branch(graph_, *ends_[e].tip);
         return !options_.strict && blind && !blind->bulges &&
-               (!blind->is_short() || is_trunk(e, *blind));
+               (frays(e) || !blind->is_short() || is_trunk(e, *blind));
     }
 
     /// As long as it is wide, and wider than every visible end: it is where the blood enters, and
@@ -407,6 +411,21 @@ private:
         return end.tip ? graph_.nodes[*end.tip].position : end.centre;
     }
 
+    /// The threads in which an end frays; null: it does not.
+    const FrayedTrunk* frays(std::size_t e) const {
+        const auto& tip = ends_[e].tip;
+        const auto found = std::ranges::find_if(
+            frayed_, [&](const FrayedTrunk& trunk) { return tip && trunk.tip == *tip; });
+        return found == frayed_.end() ? nullptr : &*found;
+    }
+
+    std::string fray_text(std::size_t e) const {
+        double widest = 0.0;
+        for (const ThinEnd& thread : frays(e)->ends) widest = std::max(widest, thread.diameter);
+        return "the vessel frays there into " + std::to_string(frays(e)->ends.size()) +
+               " threads of at most " + formatted(widest) + " mm, which were cut off";
+    }
+
     /// False for the plate that an image's border leaves where it grazes a bulge.
     bool rises(std::size_t patch) const {
         const auto rim = rim_shape_of_cap(surface_, patch);
@@ -500,7 +519,8 @@ private:
         try {
             const OpeningPlace place =
                 choose_opening_place(surface_, graph_, *end.tip, distance(*end.tip));
-            if (is_free(place, e)) return make_cut(e, place, end_problem(e), true);
+            if (is_free(place, e))
+                return make_cut(e, place, frays(e) ? fray_text(e) : end_problem(e), !frays(e));
         } catch (const AlgorithmFailure& failure) {
             record.why = failure.what();
         }
@@ -613,11 +633,27 @@ private:
             plan_.openings.push_back(*made_[e]);
         }
         plan_.ends = records_;
+        add_threads();
         const auto rank = [](const EndRecord& end) {
             return std::tuple(end.plain, end.fate, -end.diameter);
         };
         std::ranges::stable_sort(plan_.ends, {}, rank);
         return std::move(plan_);
+    }
+
+    /// The report has every end found.
+    void add_threads() {
+        for (std::size_t e = 0; e < ends_.size(); ++e) {
+            if (!frays(e)) continue;
+            for (const ThinEnd& thread : frays(e)->ends)
+                plan_.ends.push_back(
+                    {.place = thread.place,
+                     .diameter = thread.diameter,
+                     .fate = made_[e] ? EndFate::Removed : EndFate::Closed,
+                     .why = "a thread of the vessel that frays at " + place_text(ends_[e].centre),
+                     .shared = true,
+                     .plain = true});
+        }
     }
 
     /// An end's own vessel, beyond the others, is at least this long [diameters of the end].
@@ -632,6 +668,7 @@ private:
 
     const Surface& surface_;
     const CenterlineGraph& graph_;
+    const std::vector<FrayedTrunk>& frayed_;
     OpeningPlanOptions options_;
     const Progress& progress_;
     std::vector<SurfaceEnd> ends_;
@@ -673,7 +710,9 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                           const OpeningPlanOptions& options, const Progress& progress) {
-    return Planner(surface, graph, options, progress).run();
+    if (options.tip) return Planner(surface, graph, {}, options, progress).run();
+    const LinesWithoutFrays lines = without_frays(surface, graph);
+    return Planner(surface, lines.graph, lines.trunks, options, progress).run();
 }
 
 }  // namespace vesselbench

@@ -114,7 +114,8 @@ inline constexpr double kEndReach = 1.5;
 /// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a flat cap is
 /// kept as it is. A closed end that fades from the image, thinner than its voxels (width_at_tip),
 /// that faces another one across a gap (facing_ends), or that hardly protrudes, stays closed if two
-/// others are open and one of them is wider. Every other end is cut at the chosen place
+/// others are open and one of them is wider. A trunk that frays is one end (without_frays), unless
+/// `tip` is given. Every other end is cut at the chosen place
 /// (choose_opening_place); else at the nearest place with a whole section; else its branch is
 /// removed if it is a stub, shorter than its parent is wide; else it is closed as wall. \throw
 /// AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip` or one
