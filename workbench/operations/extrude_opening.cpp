@@ -67,6 +67,16 @@ std::optional<Vec3> vessel_direction(const Surface& surface, std::size_t patch,
     return std::nullopt;
 }
 
+/// \param wanted length that the arguments ask for [mm]
+std::string short_text(const std::string& name, const Extrusion& made, double wanted) {
+    std::ostringstream text;
+    text << "the extrusion of '" << name << "' is " << made.length << " mm instead of " << wanted
+         << " mm long: "
+         << (made.shortened ? "another part of the surface is in the way"
+                            : "so it was chosen when it was made first");
+    return text.str();
+}
+
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Surface surface = surface_of(scene);
     const auto names = chosen_openings(surface, arguments);
@@ -100,14 +110,8 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         if (!stored.empty()) parameters.length = stored[i];
         parameters.may_shorten = stored.empty();
         const Extrusion made = extrude_opening(surface, patch, parameters);
-        if (made.shortened || made.length < kNoticedShort * wanted) {
-            std::ostringstream text;
-            text << "the extrusion of '" << names[i] << "' is " << made.length << " mm instead of "
-                 << wanted << " mm long: "
-                 << (made.shortened ? "another part of the surface is in the way"
-                                    : "so it was chosen when it was made first");
-            outcome.warnings.push_back(text.str());
-        }
+        if (made.shortened || made.length < kNoticedShort * wanted)
+            outcome.warnings.push_back(short_text(names[i], made, wanted));
         surface = made.surface;
         lengths.push_back(made.length);
         list += (list.empty() ? "" : ",") + names[i];
