@@ -45,7 +45,10 @@ bool content_fits(const Format& format, const std::string& path) {
 }
 
 std::string lower_suffix(const std::string& path) {
-    return lower_case(fs::path(path).extension().string());
+    const fs::path name = fs::path(path).filename();
+    const std::string last = lower_case(name.extension().string());
+    const std::string inner = lower_case(name.stem().extension().string());
+    return last == ".gz" ? inner + last : last;
 }
 
 }  // namespace vesselbench

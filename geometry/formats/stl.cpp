@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/point_welder.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -121,10 +122,20 @@ private:
     bool in_solid_ = false;
 };
 
-bool looks_like_text(const std::string& bytes) {
+bool is_text(const std::string& bytes) {
+    return std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) == nullptr;
+}
+
+/// What a file begins with, behind blanks: at most so much of a line.
+std::string beginning_of(const std::string& bytes, std::size_t length) {
     const auto at = bytes.find_first_not_of(" \t\r\n");
-    return at != std::string::npos && bytes.compare(at, 5, "solid") == 0 &&
-           std::memchr(bytes.data(), 0, std::min<std::size_t>(bytes.size(), 512)) == nullptr;
+    if (at == std::string::npos) return "";
+    const std::string_view text = std::string_view(bytes).substr(at, length);
+    return std::string(text.substr(0, text.find_first_of("\r\n")));
+}
+
+bool looks_like_text(const std::string& bytes) {
+    return beginning_of(bytes, 5) == "solid" && is_text(bytes);
 }
 
 }  // namespace
@@ -135,6 +146,9 @@ RawSurface read_stl(const std::string& path) {
         bytes.size() >= kHeader && bytes.size() >= kHeader + kRecord * stated_count(bytes);
     const bool exact = fits && bytes.size() == kHeader + kRecord * stated_count(bytes);
     if (!exact && looks_like_text(bytes)) return TextReader(bytes, file).read();
+    if (!fits && !bytes.empty() && is_text(bytes))
+        throw InvalidInput(file + " is no STL file: it is a text that begins with '" +
+                           printable(beginning_of(bytes, 20)) + "', not with 'solid'");
     if (bytes.size() < kHeader)
         throw InvalidInput(file + " is too short for an STL file (" + std::to_string(bytes.size()) +
                            " bytes)");

@@ -180,6 +180,7 @@ Field threshold_field(ImageSource& source, const ExtractionParameters& parameter
 Field masked_field(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
                    const Progress& progress) {
     const Image inside = mask_of_labels(*source.mask, parameters.labels);
+    result.labels = parameters.labels.empty() ? labels_of(*source.mask) : parameters.labels;
     progress.check_cancelled();
     if (!parameters.threshold) {
         result.threshold = masked_threshold(source.image, inside, progress);

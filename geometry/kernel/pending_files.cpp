@@ -22,8 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 [[noreturn]] void cannot_write(const fs::path& path, int cause) {
     std::string text = "'" + bare_name(path) + "' cannot be written";
+    std::error_code ignored;
+    if (cause == ENOENT && !fs::exists(folder_of(path), ignored))
+        throw IoError(text + ": its folder '" + bare_name(folder_of(path)) + "' does not exist");
     if (cause != 0) text += std::string(": ") + std::strerror(cause);
     if (cause == ENOSPC || cause == EFBIG) text += "; free some space or choose another folder";
     throw IoError(text);
@@ -37,10 +44,6 @@ void flush_to_disk(const fs::path& path, const fs::path& shown) {
     const int cause = errno;
     ::close(file);
     if (!kept && (cause == ENOSPC || cause == EIO || cause == EDQUOT)) cannot_write(shown, cause);
-}
-
-fs::path folder_of(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : ".";
 }
 
 void rename_over(const fs::path& from, const fs::path& to) {

@@ -482,6 +482,14 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     CHECK(why_no_flow(plan).empty());
     plan.ends[0] = {.diameter = 3.2};
     CHECK(why_no_flow(plan).empty());
+    THEN("of very many ends, the widest are listed") {
+        plan.ends[0] = aorta;
+        for (int i = 1; i <= 30; ++i) plan.ends.push_back({.diameter = 0.01 * i});
+        const std::string text = why_no_flow(plan);
+        CHECK(std::ranges::count(text, '\n') == 21);
+        CHECK_THAT(text, Contains("diameter 0.3 mm") && !Contains("diameter 0.01 mm") &&
+                             Contains("\n  and 13 more, which are no wider"));
+    }
     THEN("also if the end was removed, unless it is no wider than the cut that took it along") {
         plan.ends[0] = {.diameter = 3.6, .fate = EndFate::Removed, .why = "a stub"};
         CHECK_THAT(why_no_flow(plan), Contains("is removed (a stub)"));

@@ -47,6 +47,13 @@ SCENARIO("Every row of the tables can be chosen by a suffix of its own", "[geome
     check_rows(image_formats(), FormatKind::Image);
 }
 
+SCENARIO("A suffix of two parts is named as a whole", "[geometry][formats]") {
+    CHECK(lower_suffix("out/Head.NII.GZ") == ".nii.gz");
+    CHECK(lower_suffix("head.gz") == ".gz");
+    CHECK(lower_suffix("v1.2/head") == "");
+    CHECK(lower_suffix("head.1.stl") == ".stl");
+}
+
 SCENARIO("A format that shares a suffix with another kind is known by its content",
          "[geometry][formats]") {
     for (const SurfaceFormat& surface : surface_formats())

@@ -289,6 +289,9 @@ SCENARIO("Files that are no surface are refused clearly", "[geometry][io]") {
         CHECK_THROWS_AS(read_surface(path), InvalidInput);
     }
     CHECK_THROWS_AS(read_surface("no_such_file.stl"), IoError);
+    CHECK_THROWS_WITH(
+        read_surface(written("notes.stl", "Dear colleague,\nthe surface is attached.\n")),
+        Catch::Contains("it is a text that begins with 'Dear colleague,', not with 'solid'"));
     CHECK_THROWS_AS(read_surface(written("a.docx", "x")), InvalidInput);
     for (const std::string& suffix : read_suffixes(surface_formats())) {
         CAPTURE(suffix);

@@ -9,6 +9,7 @@
 #include "tests/session/small_operations.h"
 #include "tests/session/sphere_session.h"
 #include "tests/support/shapes.h"
+#include "workbench/session/moved_places.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -155,6 +156,39 @@ SCENARIO("Later edits decide anew where that is asked for", "[session]") {
     for (const auto& entry : session.replay()) CHECK(entry.differences.empty());
     session.undo(1);
     CHECK(session.log()[1].result->resolved.real("height") == height);
+}
+
+SCENARIO("Places follow a model into another unit, sizes keep their numbers", "[session]") {
+    using enum ParameterType;
+    const Operation operation{
+        .name = "cut",
+        .parameters = {{.name = "at", .type = Point, .unit = "mm", .meaning = Meaning::Tip},
+                       {.name = "open", .type = List, .unit = "mm", .meaning = Meaning::Tip},
+                       {.name = "planes", .type = List, .unit = "mm", .meaning = Meaning::Planes},
+                       {.name = "closings", .type = List, .unit = "mm", .meaning = Meaning::Planes},
+                       {.name = "dabs", .type = List, .unit = "mm", .meaning = Meaning::Dabs},
+                       {.name = "distance", .unit = "mm"},
+                       {.name = "share", .unit = "-"},
+                       {.name = "units", .type = Text, .meaning = Meaning::Unit}}};
+    using Numbers = std::vector<double>;
+    const Arguments given = {{"at", Vec3(1, 2, 3)},
+                             {"open", Numbers{1, 2, 3, 4, 5, 6}},
+                             {"planes", Numbers{1, 2, 3, 4, 5, 6, 0, 0.6, 0.8, 1}},
+                             {"closings", Numbers{1, 2, 3, 2}},
+                             {"dabs", Numbers{1, 2, 3, 0, 0, 1, 4, 5, 0.5, 1}},
+                             {"distance", 7.0},
+                             {"share", 0.3}};
+    const Arguments scaled = with_scaled_places(operation, given, 10.0);
+    CHECK(scaled.point("at") == Vec3(10, 20, 30));
+    CHECK(scaled.list("open") == Numbers{10, 20, 30, 40, 50, 60});
+    CHECK(scaled.list("planes") == Numbers{10, 20, 30, 40, 50, 60, 0, 0.6, 0.8, 1});
+    CHECK(scaled.list("closings") == Numbers{10, 20, 30, 2});
+    CHECK(scaled.list("dabs") == Numbers{10, 20, 30, 0, 0, 1, 40, 50, 0.5, 1});
+    CHECK(scaled.real("distance") == 7.0);
+    CHECK(given_sizes(operation, given) == std::vector<std::string>{"distance"});
+    const Arguments in_mm = {{"units", std::string("mm")}}, in_m = {{"units", std::string("m")}};
+    CHECK(unit_factor(operation, in_mm, in_m) == 1000.0);
+    CHECK_FALSE(unit_factor(operation, in_m, in_m));
 }
 
 SCENARIO("An edit that no longer applies becomes stale, and says why", "[session]") {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "geometry/formats/surface_file.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
@@ -82,7 +83,11 @@ SCENARIO("A stale edit says why, and its remedies are buttons", "[window][histor
     open_and_wait(*shell, input);
     Document& document = shell->app().place().document;
     apply(*shell, "brush-smooth", {{"dabs", std::vector<double>{4, 0, 15, 1, 0, 0, 4, 2, 0.5, 1}}});
-    document.change(1, {{"file", input}, {"units", std::string("cm")}});
+    const std::string far = temporary_folder() + "/far.stl";
+    write_surface(
+        mapped(fine_tube(4.0, 30.0, 48), [](const Vec3& p) { return Vec3(p + Vec3(50, 0, 0)); }),
+        far);
+    document.change(1, {{"file", far}, {"units", std::string("mm")}});
     REQUIRE(wait_until_idle(*shell));
     document.run_pending();
     REQUIRE(wait_until_idle(*shell));

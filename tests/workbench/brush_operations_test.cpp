@@ -256,5 +256,12 @@ SCENARIO("In a project a stroke is undone, replayed, and stale if its place is g
           *surface_of(brushed).attributes.at("painted_weight"));
     session.change_edit(loaded, {{"file", file}, {"units", std::string("cm")}});
     static_cast<void>(session.scene());
+    CHECK(session.log()[1].status == EditStatus::Done);  // it is scaled with the model
+    const std::string far = temporary_folder() + "/far.vtp";
+    write_surface(mapped(closed_tube(2.0, 12.0, 48, 60),
+                         [](const Vec3& p) { return Vec3(p + Vec3(50, 0, 0)); }),
+                  far);
+    session.change_edit(loaded, {{"file", far}});
+    static_cast<void>(session.scene());
     CHECK(session.log()[1].status == EditStatus::Stale);
 }

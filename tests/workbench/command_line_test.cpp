@@ -282,8 +282,26 @@ SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
         CHECK(undone["last"] == 3);
         CHECK_THAT(run({"remove", project, "3"}).out,
                    StartsWith("removed edit 3 subdivide\nthe case now holds 2 edits"));
-        CHECK(json_of({"undo", project, "2"})["state"] == 3);
+        const Json back = json_of({"undo", project, "2"});
+        CHECK(back["state"] == 3);
+        REQUIRE(back["undone"].size() == 2);
+        CHECK(back["undone"][0]["change"] == "remove");
+        CHECK(back["undone"][1]["operation"] == "smooth");
+        CHECK(back["undone"][1]["revision"] == 2);
         CHECK(json_of({"redo", project})["state"] == 4);
+    }
+    THEN("undo and redo say what they undo and redo") {
+        CHECK_THAT(run({"undo", project}).out,
+                   StartsWith("undone: the change of edit 2 smooth\nthe case now holds"));
+        CHECK_THAT(run({"undo", project, "2"}).out,
+                   StartsWith("undone: edit 3 subdivide, edit 2 smooth\n"));
+        CHECK_THAT(run({"redo", project, "3"}).out,
+                   StartsWith("redone: edit 2 smooth, edit 3 subdivide\n"));
+    }
+    THEN("replay says what has not run") {
+        const ProgramRun replayed = run({"replay", project});
+        CHECK(replayed.exit_code == 0);
+        CHECK_THAT(replayed.out, Contains("pending: it has not run") && !Contains("intact"));
     }
     THEN("what is pending runs when it is exported") {
         const Json written = json_of({"export", project, folder + "/out.stl"});

@@ -154,6 +154,29 @@ SCENARIO("extract-surface warns about labels in an intensity image", "[workbench
     CHECK_THAT(warnings(0.25)[0], Contains("0.25") && Contains("method=threshold"));
 }
 
+SCENARIO("extract-surface says that it takes several labels together", "[workbench][images]") {
+    const Image grid = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
+    const Vec3 middle = middle_of(grid);
+    Scene scene;
+    scene.image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        return (p - middle).norm() > 8.0 ? 0.0 : p.x() < middle.x() ? 3.0 : 7.0;
+    });
+    const Outcome all = run("extract-surface", scene, {{"method", "labels"}});
+    REQUIRE(all.warnings.size() == 1);
+    CHECK_THAT(all.warnings[0], Contains("labels 3, 7") && Contains("labels=3,7"));
+    CHECK(all.report->at("headline") == "labels 3, 7");
+    const Outcome one = run("extract-surface", scene, {{"labels", std::vector<double>{7.0}}});
+    CHECK(one.warnings.empty());
+    CHECK(one.report->at("headline") == "label 7");
+    THEN("also those of a mask") {
+        scene.mask = scene.image;
+        const Outcome masked = run("extract-surface", scene, {{"threshold", 1.0}});
+        CHECK(masked.resolved.text("method") == "masked");
+        REQUIRE_FALSE(masked.warnings.empty());
+        CHECK_THAT(masked.warnings.back(), Contains("labels 3, 7"));
+    }
+}
+
 SCENARIO("crop cuts image, mask and surface alike", "[workbench][images]") {
     const Image ball = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
     Scene scene;

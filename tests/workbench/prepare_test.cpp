@@ -223,10 +223,11 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     std::ofstream(folder + "/recipe.json") << R"([
         {"operation": "repair"},
         {"operation": "clip-opening"},
-        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 2.5}}])";
+        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 2.5}},
+        {"operation": "tetrahedralize"}])";
     const auto prepared = [&](const std::vector<std::string>& more) {
         std::vector<std::string> command = {
-            "prepare",  folder + "/side.stl",    "--units", "mm",           "--for", "planning",
+            "prepare",  folder + "/side.stl",    "--units", "mm",           "--for", "cfd",
             "--recipe", folder + "/recipe.json", "--out",   folder + "/out"};
         command.insert(command.end(), more.begin(), more.end());
         return run(command);
@@ -237,6 +238,21 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 1.3") &&
                                Contains("lost by edit 4, remesh:"));
     CHECK(names_in(folder + "/out") == Names{"project.vbench"});
+    THEN("before a volume mesh is made of it") {
+        const Json log = Json::parse(run({"log", folder + "/out/project.vbench", "--json"}).out);
+        CHECK(log["edits"].back()["operation"] == "remesh");
+        AND_THEN("also of pending edits") {
+            REQUIRE(run({"apply", folder + "/out/project.vbench", "tetrahedralize"}).exit_code ==
+                    0);
+            REQUIRE(run({"change", folder + "/out/project.vbench", "2", "caps=false"}).exit_code ==
+                    0);
+            const ProgramRun again = prepared({"--resume"});
+            CHECK(again.exit_code == 1);
+            CHECK_THAT(again.err, Contains("remeshing: remesh (") &&
+                                      !Contains("tetrahedralize (") &&
+                                      Contains("the model has lost vessels:"));
+        }
+    }
     THEN("it stays one after a cut by hand, which takes away what lies beyond it only") {
         const std::string project = folder + "/out/project.vbench";
         REQUIRE(run({"apply", project, "clip-opening", "tip=0,0,17", "distance=4"}).exit_code == 0);
@@ -388,6 +404,7 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     const Json report = Json::parse(text_of(out + "/report.json"));
     CHECK(report["print"].is_object());
     for (const Json& step : report["steps"]) CHECK(step["operation"] != "extrude-opening");
+    CHECK(text_of(out + "/report.html").find("openfoam") == std::string::npos);
     CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));
     THEN("an export without a variant's name is of the only one") {
         REQUIRE(run({"export", out + "/project.vbench", out + "/again.stl"}).exit_code == 0);
@@ -487,7 +504,12 @@ SCENARIO("prepare opens the ends that an edit by hand has not opened", "[workben
     const ProgramRun resumed = prepared({"--resume"});
     INFO(resumed.err);
     REQUIRE(resumed.exit_code == 0);
-    CHECK_THAT(resumed.err, Contains("clip-opening") && !Contains("smooth ("));
+    CHECK_THAT(resumed.err, Contains("clip-opening"));
+    Names smoothed;
+    const Json log = Json::parse(run({"log", project, "--json"}).out);
+    for (const Json& edit : log["edits"])
+        if (edit["operation"] == "smooth") smoothed.push_back(edit["given"].dump());
+    CHECK(smoothed == Names{R"({"iterations":2})"});  // the one by hand
     CHECK(Json::parse(text_of(out + "/report.json"))["openings"].size() == 3);
     THEN("what is made already is not made again, nor what was removed by hand") {
         REQUIRE(run({"remove", project, "4"}).exit_code == 0);  // the smoothing by hand
@@ -496,6 +518,88 @@ SCENARIO("prepare opens the ends that an edit by hand has not opened", "[workben
         CHECK(again.exit_code == 0);
         CHECK_THAT(again.err, Contains("every edit of the recipe has been made"));
     }
+}
+
+SCENARIO("What a resumed preparation runs is told, and its report has all warnings",
+         "[workbench][prepare]") {
+    const auto knob = [](const Vec3& p) {
+        return std::min(capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 2.5),
+                        capsule(p, Vec3::Zero(), Vec3(4.5, 0, 0), 1.0));
+    };
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    const Surface closed = iso_surface(knob, {Vec3(-5, -5, -23), Vec3(8, 5, 23)}, 0.4);
+    std::vector<bool> kept(closed.triangle_count());
+    for (TriangleId t = 0; t < kept.size(); ++t)
+        kept[t] = std::abs(closed.points()[closed.triangles()[t][0]].z()) < 17.0;
+    write_surface(select_triangles(closed, kept), folder + "/knob.stl");
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "repair"},
+        {"operation": "remove-branch", "optional": true, "arguments": {"tip": [0, 0, 16]}},
+        {"operation": "clip-opening"},
+        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 20},
+         "otherwise": {"edge": 0.6}}])");
+    const std::vector<std::string> command = {"prepare",  folder + "/knob.stl",   "--units", "mm",
+                                              "--for",    "simulation",           "--out",   out,
+                                              "--recipe", folder + "/recipe.json"};
+    const auto report = [&] { return Json::parse(text_of(out + "/report.json")); };
+    const auto told = [](const ProgramRun& result, const std::string& operation) {
+        std::vector<std::string> warnings;
+        std::istringstream lines(result.err);
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with("warning: " + operation)) warnings.push_back(line.substr(9));
+        return warnings;
+    };
+    const ProgramRun first = run(command);
+    INFO(first.err);
+    REQUIRE(first.exit_code == 0);
+    const Json before = report();
+    REQUIRE_FALSE(told(first, "clip-opening").empty());
+    REQUIRE_FALSE(told(first, "remesh with edge=0.6 instead").empty());
+    REQUIRE_FALSE(told(first, "remove-branch was skipped").empty());
+    REQUIRE(run({"change", out + "/project.vbench", "2", "caps=false"}).exit_code == 0);
+    auto again = command;
+    again.emplace_back("--resume");
+    const ProgramRun resumed = run(again);
+    INFO(resumed.err);
+    REQUIRE(resumed.exit_code == 0);
+    for (const char* line : {"openings: clip-opening (", "remeshing: remesh ("})
+        CHECK_THAT(resumed.err, Contains(line));
+    CHECK(told(resumed, "clip-opening") == told(first, "clip-opening"));
+    const Json after = report();
+    for (const Json& warning : before["warnings"]) {
+        CAPTURE(warning);
+        CHECK(std::ranges::count(after["warnings"], warning) == 1);
+    }
+    CHECK(after["ends"] == before["ends"]);
+    THEN("what was skipped is forgotten when it is made") {
+        REQUIRE(run({"apply", out + "/project.vbench", "remove-branch", "tip=5.5,0,0"}).exit_code ==
+                0);
+        REQUIRE(run(again).exit_code == 0);
+        CHECK_THAT(report()["warnings"].dump(), !Contains("was skipped"));
+    }
+    THEN("an edit that was removed is not called made") {
+        REQUIRE(run({"remove", out + "/project.vbench", "4"}).exit_code == 0);
+        const ProgramRun shorter = run(again);
+        INFO(shorter.err);
+        CHECK_THAT(shorter.err, Contains("except those removed by hand (remesh)"));
+    }
+}
+
+SCENARIO("A project made by hand is prepared in its folder", "[workbench][prepare]") {
+    const std::string out = temporary_folder() + "/head", project = out + "/project.vbench";
+    const std::string image = tube() + "/image.nii.gz";
+    fs::create_directory(out);
+    REQUIRE(run({"new", project, image}).exit_code == 0);
+    REQUIRE(run({"apply", project, "crop", "box=-8,-8,5,14,12,25"}).exit_code == 0);
+    REQUIRE(run({"apply", project, "extract-surface"}).exit_code == 0);
+    const ProgramRun result =
+        run({"prepare", image, "--for", "planning", "--out", out, "--resume"});
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    CHECK_THAT(result.err, !Contains("extract-surface (") && Contains("repair ("));
+    const Json report = Json::parse(text_of(out + "/report.json"));
+    CHECK(report["steps"][1]["operation"] == "crop");
+    CHECK(report["quality"]["after"]["bounds"][5].get<double>() < 26.0);
 }
 
 SCENARIO("A vessel's side is not opened where an image ends", "[workbench][prepare]") {
@@ -567,9 +671,10 @@ SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
     THEN("an edit no longer applies after an earlier one was changed") {
         const std::string project = out + "/project.vbench", model = folder + "/model.stl";
         REQUIRE(run({"apply", project, "brush-inflate", "at=2,0,10", "radius=0.5"}).exit_code == 0);
-        REQUIRE(
-            run({"change", project, "1", "units=m", "file=" + folder + "/tube.stl"}).exit_code ==
-            0);
+        write_surface(mapped(closed_tube(2.0, 20.0, 32, 40),
+                             [](const Vec3& p) { return Vec3(p + Vec3(50, 0, 0)); }),
+                      folder + "/far.stl");
+        REQUIRE(run({"change", project, "1", "file=" + folder + "/far.stl"}).exit_code == 0);
         const ProgramRun exported = run({"export", project, model});
         CHECK_THAT(exported.err, Contains("no longer applies and is not in the model"));
     }
@@ -595,18 +700,28 @@ SCENARIO("The unit of a prepared case can be changed", "[workbench][prepare]") {
         more.insert(more.begin(), command.begin(), command.end());
         return run(more);
     };
-    REQUIRE(with({"--units", "mm", "--set", "openfoam.flow=0.7"}).exit_code == 0);
+    REQUIRE(with({"--units", "mm", "--set", "openfoam.flow=0.7", "--set",
+                  "clip-opening.inlet=0,0,2", "--set", "extrude-opening.length=1"})
+                .exit_code == 0);
+    const ProgramRun refused = with({"--resume", "--units", "cm"});
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.err, Contains("vesselbench change " + project + " 1 units=cm"));
     // The file is found beside the folder, whatever the current one is.
     const ProgramRun changed = run({"change", project, "1", "units=cm"});
     INFO(changed.err);
     REQUIRE(changed.exit_code == 0);
-    CHECK_THAT(changed.out, Contains("clip-opening") && Contains("choose anew"));
+    CHECK_THAT(changed.out, Contains("clip-opening") && Contains("choose anew") &&
+                                Contains("clip-opening were scaled with the model, by 10\n") &&
+                                Contains("extrude-opening length=1\n"));
     const ProgramRun resumed = with({"--resume"});
     INFO(resumed.err);
     REQUIRE(resumed.exit_code == 0);
+    CHECK_THAT(resumed.err, Contains("\nflow as before: flow=0.7\n"));
     const Json report = Json::parse(text_of(out + "/report.json"));
     CHECK(report["openings"].size() == 2);
     CHECK(report["openings"][0]["diameter"].get<double>() == Approx(4.0).epsilon(0.05));
+    CHECK(report["openings"][0]["kind"] == "inlet");
+    CHECK(report["openings"][0]["centroid"][2].get<double>() == Approx(21.0).margin(0.5));
     THEN("the flow is the one that was given") {
         CHECK(report["flow"]["flow_cm3_s"] == 0.7);
         REQUIRE(run({"export", project, folder + "/other"}).exit_code == 0);
@@ -719,7 +834,10 @@ SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
     CHECK(no_mesh.exit_code == 1);  // the input is good, the model lacks something
     CHECK_THAT(no_mesh.err, Contains("tetrahedralize"));
     CHECK_FALSE(fs::exists(folder + "/model.vtu"));
-    check_bad_input(run({"export", project, folder + "/no-such-folder/model.stl"}));
+    const ProgramRun nowhere = run({"export", project, folder + "/no-such-folder/model.stl"});
+    check_bad_input(nowhere);
+    CHECK_THAT(nowhere.err, Contains("its folder 'no-such-folder' does not exist"));
+    CHECK_THAT(run({"export", project, folder + "/model.nii.gz"}).err, Contains("'.nii.gz'"));
     CHECK(run({"undo", project}).exit_code == 0);
     CHECK(run({"undo", project}).exit_code == 0);
     CHECK(run({"undo", project}).exit_code == 2);

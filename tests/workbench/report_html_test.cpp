@@ -24,7 +24,7 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         "openings": [{"name": "inlet", "kind": "inlet", "diameter": 4.25}],
         "ends": [{"place_mm": [1, 2, 31.5], "diameter_mm": 3.75, "fate": "closed",
                   "opening": null, "why": "it looks like an <aneurysm>"},
-                 {"place_mm": [4, 5, 6], "diameter_mm": 4.25, "fate": "opened",
+                 {"place_mm": [4, 5, 6], "diameter_mm": 4.5, "fate": "opened",
                   "opening": "inlet", "why": ""}],
         "distance_from_source": {"mean_mm": 0.125, "largest_mm": 27.5},
         "volume_mesh": {"cells": 98765},
@@ -53,6 +53,9 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "10 numbers",
                              "<h2>Vessel ends</h2>",
                              "<td>1,2,31.5</td><td class=n>3.75</td><td class=n>closed</td>",
+                             "<td>4,5,6</td><td class=n>4.5</td><td class=n>opened</td>"
+                             "<td class=n>inlet, 4.25 mm</td>",
+                             "inlet=, open= and closed=",
                              "it looks like an &lt;aneurysm&gt;",
                              "Distance from the source",
                              "27.5",
@@ -63,6 +66,16 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(page.find("<vessel>") == std::string::npos);
     CHECK(page.find("Absent") == std::string::npos);
+    THEN("a print's page does not speak of flow") {
+        Json print = report;
+        print["purpose"] = "rp";
+        print.erase("flow");
+        const std::string other = report_html(print, {}, {});
+        for (const char* word : {"inlet=", "extension", "flow"}) {
+            CAPTURE(word);
+            CHECK(other.find(word) == std::string::npos);
+        }
+    }
 }
 
 SCENARIO("Where there is no change of the volume, the reason is given", "[workbench][report]") {

@@ -15,6 +15,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/session/compaction.h"
 #include "workbench/session/edit_place.h"
+#include "workbench/session/moved_places.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -72,10 +73,14 @@ std::vector<const EditRecord*> pending_edits(const Snapshot& now) {
     return pending;
 }
 
+Json ids_of(const std::vector<const EditRecord*>& edits) {
+    Json ids = Json::array();
+    for (const EditRecord* edit : edits) ids.push_back(edit->edit.id);
+    return ids;
+}
+
 Json pending_json(const Snapshot& now) {
-    Json pending = Json::array();
-    for (const EditRecord* edit : pending_edits(now)) pending.push_back(edit->edit.id);
-    return pending;
+    return ids_of(pending_edits(now));
 }
 
 /// Pending edits, and whether they run with what they chose before.
@@ -90,6 +95,59 @@ void print_pending(const Snapshot& now) {
     if (anew) std::cout << "they choose anew what they had chosen by themselves\n";
 }
 
+/// What another unit of the model did to the arguments of the later edits.
+struct Rescaled {
+    double factor = 1.0;                    ///< of the model; 1: it has the same unit
+    std::vector<const EditRecord*> places;  ///< edits whose places were scaled
+    std::vector<const EditRecord*> sizes;   ///< edits whose sizes keep their numbers
+};
+
+const LogEntry* entry_of(const Snapshot& state, EditId id) {
+    const auto found =
+        std::ranges::find(state.log, id, [](const LogEntry& entry) { return entry.edit.edit.id; });
+    return found == state.log.end() ? nullptr : &*found;
+}
+
+/// \param changed the edit that was changed between the two
+Rescaled rescaled_by(EditId changed, const Snapshot& before, const Snapshot& now) {
+    Rescaled found;
+    const LogEntry *old = entry_of(before, changed), *made = entry_of(now, changed);
+    if (old == nullptr || !old->result || made == nullptr || !made->result) return found;
+    const Operation& operation = find_operation(made->edit.operation);
+    const auto factor = unit_factor(operation, old->result->resolved, made->result->resolved);
+    if (!factor) return found;
+    found.factor = *factor;
+    for (const LogEntry& entry : now.log) {
+        const LogEntry* earlier = entry_of(before, entry.edit.edit.id);
+        if (entry.status == EditStatus::Done || earlier == nullptr) continue;
+        if (entry.edit.given != earlier->edit.given) found.places.push_back(&entry.edit);
+        if (!given_sizes(find_operation(entry.edit.operation), entry.edit.given).empty())
+            found.sizes.push_back(&entry.edit);
+    }
+    return found;
+}
+
+/// "4 remesh edge=0.2, 5 extrude-opening length=8"
+std::string size_list(const std::vector<const EditRecord*>& edits) {
+    std::vector<std::string> texts;
+    for (const EditRecord* edit : edits) {
+        std::string text = edit_list({edit});
+        for (const std::string& name : given_sizes(find_operation(edit->operation), edit->given))
+            text += " " + name + "=" + to_text(edit->given.values().at(name));
+        texts.push_back(printable(text));
+    }
+    return joined(texts);
+}
+
+void print_rescaled(const Rescaled& rescaled) {
+    if (!rescaled.places.empty())
+        std::cout << "places given to " << edit_list(rescaled.places)
+                  << " were scaled with the model, by " << short_text(rescaled.factor) << "\n";
+    if (!rescaled.sizes.empty())
+        std::cout << "sizes that were given keep their numbers: " << size_list(rescaled.sizes)
+                  << "\n";
+}
+
 Json state_json(const Snapshot& now) {
     Json json = {{"state", now.history->current()}, {"edits", now.log.size()}};
     json["last"] = now.log.empty() ? Json() : Json(now.log.back().edit.edit.id);
@@ -97,11 +155,62 @@ Json state_json(const Snapshot& now) {
     return json;
 }
 
-void print_state(const Snapshot& now, bool json) {
-    if (json) return void(std::cout << state_json(now).dump(2) << "\n");
+void print_state(const Snapshot& now) {
     std::cout << "the case now holds " << counted(now.log.size(), "edit");
     if (!now.log.empty()) std::cout << ", the last is " << edit_list({&now.log.back().edit});
     std::cout << "\n";
+}
+
+/// A change of the case that was undone or redone.
+struct Move {
+    StateChange change = StateChange::Apply;
+    const EditRecord* edit = nullptr;
+};
+
+/// The changes that lead from an earlier state to a later one, the last one first.
+std::vector<Move> moves_between(const Snapshot& earlier, const Snapshot& later) {
+    std::vector<Move> moves;
+    const History& history = *later.history;
+    for (StateId at = history.current(); at != earlier.history->current() && at != 0;
+         at = history.state(at).parent) {
+        const HistoryState& state = history.state(at);
+        moves.push_back({state.change, &later.past->at(state.edit).edit});
+    }
+    return moves;
+}
+
+std::string move_name(StateChange change) {
+    return change == StateChange::Change   ? "change"
+           : change == StateChange::Remove ? "remove"
+                                           : "apply";
+}
+
+/// "edit 4 remesh", "the change of edit 2 smooth"
+std::string move_text(const Move& move) {
+    const std::string before = move.change == StateChange::Change   ? "the change of "
+                               : move.change == StateChange::Remove ? "the removal of "
+                                                                    : "";
+    return before + "edit " + edit_list({move.edit});
+}
+
+/// \param verb "undone" or "redone"
+void print_moves(const std::string& verb, const std::vector<Move>& moves, const Snapshot& now,
+                 bool json) {
+    if (json) {
+        Json state = state_json(now);
+        state[verb] = Json::array();
+        for (const Move& move : moves)
+            state[verb].push_back({{"edit", move.edit->edit.id},
+                                   {"revision", move.edit->edit.revision},
+                                   {"operation", move.edit->operation},
+                                   {"change", move_name(move.change)}});
+        std::cout << state.dump(2) << "\n";
+        return;
+    }
+    std::vector<std::string> texts;
+    for (const Move& move : moves) texts.push_back(move_text(move));
+    std::cout << verb << ": " << joined(texts) << "\n";
+    print_state(now);
 }
 
 std::string state_text(const LogEntry& entry) {
@@ -149,13 +258,13 @@ Json replay_json(const std::vector<ReplayEntry>& entries) {
 void print_replay(const std::vector<ReplayEntry>& entries) {
     std::vector<std::vector<std::string>> rows = {{"edit", "operation", "replay"}};
     for (const ReplayEntry& entry : entries) {
-        std::string text = entry.replayed ? "same bits" : "stored result is intact";
+        std::string text = entry.replayed ? "same bits" : "";
         if (entry.distance) {
             std::ostringstream distance;
             distance << "computed on a GPU: within " << *entry.distance << " mm";
             text = distance.str();
         }
-        if (!entry.note.empty()) text += " (" + entry.note + ")";
+        if (!entry.note.empty()) text += (text.empty() ? "" : ", ") + entry.note;
         if (!entry.differences.empty()) text = "DIFFERS:";
         for (const std::string& difference : entry.differences) text += " " + difference + ";";
         rows.push_back({std::to_string(entry.edit.id), entry.operation, text});
@@ -215,7 +324,8 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
 
 void change_edit(const ChangeOptions& options, const Progress& progress) {
     Session session = Session::open(options.project, {.find = find_operation});
-    const EditRecord old = edit_of(*session.snapshot(), options.edit);
+    const std::shared_ptr<const Snapshot> before = session.snapshot();
+    const EditRecord& old = edit_of(*before, options.edit);
     const GivenArguments more =
         arguments_from_texts(find_operation(old.operation), options.arguments);
     Arguments given = old.given;
@@ -225,14 +335,21 @@ void change_edit(const ChangeOptions& options, const Progress& progress) {
     if (options.anew) session.decide_anew({.author = options.author});
     remark_warnings(entry, given);
     const std::shared_ptr<const Snapshot> now = session.snapshot();
+    const Rescaled rescaled = rescaled_by(options.edit, *before, *now);
     if (options.json) {
         Json json = log_json(entry);
         json["pending"] = pending_json(*now);
+        if (rescaled.factor != 1.0) {
+            json["places_scaled_by"] = rescaled.factor;
+            json["scaled_places"] = ids_of(rescaled.places);
+            json["kept_sizes"] = ids_of(rescaled.sizes);
+        }
         std::cout << json.dump(2) << "\n";
         return;
     }
     print_edit(entry);
     print_pending(*now);
+    print_rescaled(rescaled);
 }
 
 void remove_edit(const RemoveOptions& options) {
@@ -247,7 +364,7 @@ void remove_edit(const RemoveOptions& options) {
         return;
     }
     std::cout << "removed edit " << edit_list({&old}) << "\n";
-    print_state(*now, false);
+    print_state(*now);
     print_pending(*now);
 }
 
@@ -281,20 +398,26 @@ void show_log(const LogOptions& options) {
 
 void undo_edit(const StepBackOptions& options) {
     Session session = Session::open(options.project, {.find = find_operation});
+    const std::shared_ptr<const Snapshot> before = session.snapshot();
     if (options.edit)
         session.undo(*options.edit);
     else
         session.undo();
-    print_state(*session.snapshot(), options.json);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    print_moves("undone", moves_between(*now, *before), *now, options.json);
 }
 
 void redo_edit(const StepBackOptions& options) {
     Session session = Session::open(options.project, {.find = find_operation});
+    const std::shared_ptr<const Snapshot> before = session.snapshot();
     if (options.edit)
         session.redo(*options.edit);
     else
         session.redo();
-    print_state(*session.snapshot(), options.json);
+    const std::shared_ptr<const Snapshot> now = session.snapshot();
+    std::vector<Move> moves = moves_between(*before, *now);
+    std::ranges::reverse(moves);
+    print_moves("redone", moves, *now, options.json);
 }
 
 bool replay_project(const LogOptions& options, const Progress& progress) {

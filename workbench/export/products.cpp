@@ -62,6 +62,10 @@ CfdParameters FlowSettings::parameters() const {
     return flow_from(checked_arguments(openfoam(), given_));
 }
 
+std::string FlowSettings::text() const {
+    return argument_summary(openfoam(), given_);
+}
+
 std::string FlowSettings::stored() const {
     return given_.values().empty() ? "" : to_json(given_).dump();
 }

@@ -25,6 +25,9 @@ public:
 
     [[nodiscard]] CfdParameters parameters() const;
 
+    /// For people, "flow=0.7 density=1050"; empty if nothing was given.
+    [[nodiscard]] std::string text() const;
+
     /// JSON, to be kept in a project; empty if nothing was given.
     [[nodiscard]] std::string stored() const;
 

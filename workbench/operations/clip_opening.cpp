@@ -445,8 +445,10 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     outcome.resolved.set("names", resolved.names);
     if (!made.plan.closings.empty())
         outcome.resolved.set("closings", closings_argument(made.plan.closings));
-    outcome.report = std::make_shared<ordered_json>(
-        ordered_json{{"openings", resolved.openings}, {"ends", ends_json(made.plan, resolved)}});
+    ordered_json report = {{"openings", resolved.openings}};
+    // Planes that are given say nothing of the other ends; the run that chose them does.
+    if (!arguments.has("planes")) report["ends"] = ends_json(made.plan, resolved);
+    outcome.report = std::make_shared<ordered_json>(std::move(report));
     outcome.warnings = end_warnings(made.plan);
     outcome.warnings.insert(outcome.warnings.end(), made.plan.warnings.begin(),
                             made.plan.warnings.end());

@@ -55,10 +55,37 @@ nlohmann::ordered_json cuts_of(const Surface& surface) {
     return cuts;
 }
 
+/// "label 3", "labels 1, 2, 3", "117 labels from 1 to 117"
+std::string labels_text(const std::vector<int>& labels) {
+    constexpr std::size_t kMostListed = 12;
+    if (labels.size() > kMostListed)
+        return std::to_string(labels.size()) + " labels from " + std::to_string(labels.front()) +
+               " to " + std::to_string(labels.back());
+    std::vector<std::string> texts;
+    for (const int label : labels) texts.push_back(std::to_string(label));
+    return (texts.size() == 1 ? "label " : "labels ") + joined(texts);
+}
+
 std::string headline_of(const Extraction& extraction) {
-    return extraction.method == ExtractionMethod::Threshold
-               ? "threshold " + to_text(extraction.threshold)
-               : "";
+    switch (extraction.method) {
+        case ExtractionMethod::Threshold:
+            return "threshold " + to_text(extraction.threshold);
+        case ExtractionMethod::Labels:
+            return labels_text(extraction.labels);
+        case ExtractionMethod::Masked:
+            break;
+    }
+    return "";
+}
+
+/// Labels of several structures may touch, and become one body.
+void warn_of_all_labels(const Extraction& extraction, Outcome& outcome) {
+    std::vector<int> labels = extraction.labels;
+    std::erase(labels, 0);
+    if (labels.size() < 2) return;
+    outcome.warnings.push_back("all labels were taken as one structure, " + labels_text(labels) +
+                               ": labels= takes some (with prepare: --set extract-surface.labels=" +
+                               std::to_string(labels[0]) + "," + std::to_string(labels[1]) + ")");
 }
 
 Report report_of(const Extraction& extraction) {
@@ -111,13 +138,14 @@ std::vector<std::string> warnings_of(const Extraction& extraction) {
     return warnings;
 }
 
-/// Labels are integers; an image with fractions was most likely measured.
-void warn_of_fractions(const Image& image, Outcome& outcome) {
+/// Labels are integers; an image with fractions was most likely measured. \return true if it warns
+bool warn_of_fractions(const Image& image, Outcome& outcome) {
     const auto fraction =
         std::ranges::find_if(*image.voxels, [](float v) { return v != std::floor(v); });
-    if (fraction == image.voxels->end()) return;
+    if (fraction == image.voxels->end()) return false;
     outcome.warnings.push_back("the image contains " + to_text(*fraction) +
                                " and is not a label map: use method=threshold for intensities");
+    return true;
 }
 
 class LiveExtraction final : public ReplacingStepper {
@@ -136,8 +164,9 @@ public:
                         .report = report_of(extraction_),
                         .resolved = resolved_,
                         .warnings = warnings_of(extraction_)};
-        if (extraction_.method == ExtractionMethod::Labels)
-            warn_of_fractions(image_of(before_), outcome);
+        const bool measured = extraction_.method == ExtractionMethod::Labels &&
+                              warn_of_fractions(image_of(before_), outcome);
+        if (!measured && !labels_given_) warn_of_all_labels(extraction_, outcome);
         return outcome;
     }
 
@@ -146,6 +175,7 @@ private:
         Extraction extraction = extractor_.extract(
             extraction_parameters(arguments, before_.mask.has_value()), progress);
         Arguments resolved = resolved_from(arguments, extraction);
+        labels_given_ = arguments.has("labels");
         scene_ = with_surface(before_, extraction.surface);
         scene_.sampling = extraction.sampling;
         resolved_ = std::move(resolved);
@@ -155,6 +185,7 @@ private:
     Scene before_;
     SurfaceExtractor extractor_;
     Extraction extraction_;
+    bool labels_given_ = false;
     Scene scene_;
     Arguments resolved_;
 };

@@ -50,6 +50,10 @@ double usual_length(const Arguments& arguments, double diameter, double extent) 
     return std::min(arguments.real("diameters") * diameter, arguments.real("share") * extent);
 }
 
+/// A stored length below this fraction of the usual one is worth a word: the usual one itself
+/// changes a little with the surface [-].
+constexpr double kNoticedShort = 0.95;
+
 /// The vessel's own direction at a cap; none, with a warning, if it cannot be used.
 std::optional<Vec3> vessel_direction(const Surface& surface, std::size_t patch,
                                      std::vector<std::string>& warnings) {
@@ -61,6 +65,16 @@ std::optional<Vec3> vessel_direction(const Surface& surface, std::size_t patch,
                              : "cannot be measured") +
                        ": it is extruded along the normal");
     return std::nullopt;
+}
+
+/// \param wanted length that the arguments ask for [mm]
+std::string short_text(const std::string& name, const Extrusion& made, double wanted) {
+    std::ostringstream text;
+    text << "the extrusion of '" << name << "' is " << made.length << " mm instead of " << wanted
+         << " mm long: "
+         << (made.shortened ? "another part of the surface is in the way"
+                            : "so it was chosen when it was made first");
+    return text.str();
 }
 
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -92,15 +106,12 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
             .blend = arguments.real("blend")};
         if (!arguments.has("length") && parameters.length < arguments.real("diameters") * diameter)
             limited.push_back(names[i]);
+        const double wanted = parameters.length;
         if (!stored.empty()) parameters.length = stored[i];
         parameters.may_shorten = stored.empty();
         const Extrusion made = extrude_opening(surface, patch, parameters);
-        if (made.shortened) {
-            std::ostringstream text;
-            text << "the extrusion of '" << names[i] << "' is " << made.length << " mm instead of "
-                 << parameters.length << " mm long: another part of the surface is in the way";
-            outcome.warnings.push_back(text.str());
-        }
+        if (made.shortened || made.length < kNoticedShort * wanted)
+            outcome.warnings.push_back(short_text(names[i], made, wanted));
         surface = made.surface;
         lengths.push_back(made.length);
         list += (list.empty() ? "" : ",") + names[i];
@@ -109,7 +120,7 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
                           {"diameter_mm", diameter},
                           {"shortened", made.shortened}});
     }
-    if (!limited.empty() && stored.empty())
+    if (!limited.empty())
         outcome.warnings.push_back(
             joined(limited) + (limited.size() > 1 ? ": the extrusions are" : ": the extrusion is") +
             formatted(arguments.real("diameters"), " shorter than %g diameters, ") +

@@ -31,19 +31,22 @@ bool takes_as_asked(const LogEntry& entry) {
                                [&](const char* name) { return entry.edit.given.has(name); });
 }
 
-/// The variant's edits that are done or can be, in their order.
-std::vector<LogEntry> edits_of(const Session& session, const std::string& variant) {
+/// The variant's edits that are done or can be, in their order, up to one of them; 0: all.
+std::vector<LogEntry> edits_until(const Session& session, const std::string& variant, EditId last) {
     std::vector<LogEntry> edits = session.log();
     std::erase_if(edits, [&](const LogEntry& entry) {
         const std::string& its = entry.edit.place.variant;
         return entry.status == EditStatus::Stale || !(its.empty() || its == variant);
     });
+    const auto end = std::ranges::find(edits, last, [](const auto& e) { return e.edit.edit.id; });
+    if (end != edits.end()) edits.erase(end + 1, edits.end());
     return edits;
 }
 
 /// From the first edit that cuts ends on.
-std::vector<LogEntry> edits_from_first_cut(const Session& session, const std::string& variant) {
-    std::vector<LogEntry> edits = edits_of(session, variant);
+std::vector<LogEntry> edits_from_first_cut(const Session& session, const std::string& variant,
+                                           EditId last) {
+    std::vector<LogEntry> edits = edits_until(session, variant, last);
     edits.erase(edits.begin(), std::ranges::find_if(edits, cuts_ends));
     return edits;
 }
@@ -76,9 +79,9 @@ bool has_edge(const Operation& operation) {
 }
 
 /// The edit after which the vessels are missing first, and what to do about it.
-std::string remedy_for(Session& session, const std::string& variant, const BeforeOpenings& before,
-                       const CenterlineGraph& lines) {
-    for (const LogEntry& entry : edits_from_first_cut(session, variant)) {
+std::string remedy_for(Session& session, const std::vector<LogEntry>& edits,
+                       const BeforeOpenings& before, const CenterlineGraph& lines) {
+    for (const LogEntry& entry : edits) {
         const Surface after = surface_of(session.scene_after(entry.edit.edit.id));
         const std::vector<LostVessel> lost = lost_vessels(lines, after, before.asked);
         if (lost.empty()) continue;
@@ -98,11 +101,10 @@ struct Cutter {
     Vec3 tip = Vec3::Zero();
 };
 
-std::optional<Cutter> cutter_of(const Session& session, const std::string& variant,
-                                const Vec3& opening) {
+std::optional<Cutter> cutter_of(const std::vector<LogEntry>& edits, const Vec3& opening) {
     std::optional<Cutter> found;
     double least = std::numeric_limits<double>::infinity();
-    for (const LogEntry& entry : edits_from_first_cut(session, variant)) {
+    for (const LogEntry& entry : edits) {
         if (!cuts_ends(entry) || !entry.result || !entry.result->resolved.has("planes")) continue;
         for (const PlannedOpening& made : openings_in(entry.result->resolved.list("planes"))) {
             const double distance = (made.place.plane.point - opening).norm();
@@ -121,17 +123,18 @@ CenterlineGraph vessel_lines(const Surface& surface, const Progress& progress) {
 
 }  // namespace
 
-std::optional<BeforeOpenings> before_openings(Session& session, const std::string& variant) {
+std::optional<BeforeOpenings> before_openings(Session& session, const std::string& variant,
+                                              EditId last) {
     std::optional<BeforeOpenings> before;
-    EditId last = 0;
-    for (const LogEntry& entry : edits_of(session, variant)) {
+    EditId previous = 0;
+    for (const LogEntry& entry : edits_until(session, variant, last)) {
         const EditId id = entry.edit.edit.id;
-        if (!before && cuts_ends(entry) && last != 0)
-            before = BeforeOpenings{surface_of(session.scene_after(last)), {}};
+        if (!before && cuts_ends(entry) && previous != 0)
+            before = BeforeOpenings{surface_of(session.scene_after(previous)), {}};
         if (before && takes_as_asked(entry))
             before->asked.push_back(
-                {surface_of(session.scene_after(last)), surface_of(session.scene_after(id))});
-        last = id;
+                {surface_of(session.scene_after(previous)), surface_of(session.scene_after(id))});
+        previous = id;
     }
     return before;
 }
@@ -152,32 +155,61 @@ VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
     }
 }
 
-std::string check_vessels(Session& session, const std::string& variant, const Progress& progress) {
-    const auto before = before_openings(session, variant);
+std::string check_vessels(Session& session, const std::string& variant, EditId last,
+                          const Progress& progress) {
+    const auto before = before_openings(session, variant, last);
     if (!before) return "";
     const VesselCheck check =
-        compared_vessels(*before, surface_of(session.scene(variant)), progress);
+        compared_vessels(*before, surface_of(session.scene_after(last)), progress);
     if (check.lost.empty()) return check.warning;
     std::string text;
     for (const LostVessel& vessel : check.lost)
         text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
                 ", diameter " + formatted(vessel.diameter) + " mm";
+    const CenterlineGraph lines = vessel_lines(before->surface, progress);
     throw AlgorithmFailure(
         "the model has lost vessels:" + text +
-        remedy_for(session, variant, *before, vessel_lines(before->surface, progress)));
+        remedy_for(session, edits_from_first_cut(session, variant, last), *before, lines));
 }
 
-void check_openings(Session& session, const std::string& variant) {
-    const auto before = before_openings(session, variant);
+void check_openings(Session& session, const std::string& variant, EditId last) {
+    const auto before = before_openings(session, variant, last);
     if (!before) return;
-    const Surface after = surface_of(session.scene(variant));
+    const Surface after = surface_of(session.scene_after(last));
     for (const std::size_t p : openings_in_walls(before->surface, after)) {
         const Vec3 at = patch_shape(after, p).plane.point;
-        const auto cutter = cutter_of(session, variant, at);
+        const auto cutter = cutter_of(edits_from_first_cut(session, variant, last), at);
         throw AlgorithmFailure("the opening '" + after.patches[p].name + "' at " + place_text(at) +
                                " lies in a vessel's side: the end has to stay closed" +
                                (cutter ? without_end(cutter->entry, cutter->tip) : ""));
     }
+}
+
+void ModelChecks::check_cut(const LogEntry& edit) {
+    if (!edit.result || edit.result->id == cut_) return;
+    check_openings(session_, variant_, edit.edit.edit.id);
+    cut_ = edit.result->id;
+}
+
+void ModelChecks::check_whole(const LogEntry& edit, const Progress& progress) {
+    if (!edit.result || edit.result->id == whole_) return;
+    warning_ = check_vessels(session_, variant_, edit.edit.edit.id, progress);
+    whole_ = edit.result->id;
+}
+
+void ModelChecks::after(const LogEntry& edit, const Progress& progress) {
+    if (!cuts_ends(edit)) return;
+    check_cut(edit);
+    check_whole(edit, progress);
+}
+
+void ModelChecks::surface_final(const Progress& progress) {
+    std::vector<LogEntry> edits = edits_until(session_, variant_, 0);
+    std::erase_if(edits, [](const auto& edit) { return edit.edit.place.step >= Step::Product; });
+    const auto cut = std::ranges::find_if(edits.rbegin(), edits.rend(), cuts_ends);
+    if (cut == edits.rend()) return;
+    check_cut(*cut);
+    check_whole(edits.back(), progress);
 }
 
 }  // namespace vesselbench

@@ -16,6 +16,7 @@
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
+#include "workbench/prepare/recipe_warnings.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/session/stored_texts.h"
 
@@ -25,6 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kProject = "project.vbench";
 
 /// Fraction of the progress for the edits; the rest is for reports and files.
 constexpr double kEditsShare = 0.8;
@@ -139,37 +142,57 @@ void keep_recipes(const fs::path& project, const Input& input) {
 }
 
 /// What a resumed preparation does first, unless edits of the recipe follow.
-void tell_rest(const Recipe& rest, const std::vector<LogEntry>& log, const Teller& tell) {
+/// \param removed operations of the recipe whose edits were removed by hand
+void tell_rest(const Recipe& rest, const std::vector<std::string>& removed,
+               const std::vector<LogEntry>& log, const Teller& tell) {
     if (!rest.empty()) return;
     const auto pending =
         static_cast<std::size_t>(std::ranges::count(log, EditStatus::Pending, &LogEntry::status));
-    tell("every edit of the recipe has been made: " +
+    tell((removed.empty()
+              ? "every edit of the recipe has been made: "
+              : "every edit of the recipe has been made, except those removed by hand (" +
+                    joined(removed) + "): ") +
          (pending == 0 ? "" : "running " + counted(pending, "pending edit") + ", then ") +
          "writing the results");
 }
 
-/// Applies the recipe; a model that has lost vessels, or an opening in a vessel's side, is an
-/// error, whenever the ends were opened.
-std::vector<std::string> apply_checked(Session& session, const Recipe& recipe,
-                                       const std::string& variant, const Teller& tell,
-                                       const Progress& progress) {
-    const auto cut = std::ranges::find_if(
-        recipe, [](const RecipeEntry& entry) { return entry.given.operation().recipe.cuts_ends; });
-    const auto then = cut == recipe.end() ? recipe.begin() : cut + 1;
-    const double until = static_cast<double>(then - recipe.begin()) /
-                         static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
-    auto warnings = apply_recipe(session, Recipe(recipe.begin(), then), variant, tell,
-                                 progress.part(0.0, 0.98 * until));
-    check_openings(session, variant);
-    const auto more = apply_recipe(session, Recipe(then, recipe.end()), variant, tell,
-                                   progress.part(0.98 * until, 0.98));
-    warnings.insert(warnings.end(), more.begin(), more.end());
-    const std::string warning = check_vessels(session, variant, progress.part(0.98, 1.0));
-    if (!warning.empty()) {
-        tell("warning: " + warning);
-        warnings.push_back(warning);
-    }
-    return warnings;
+/// What was given of the flow, if it is of use; a resumed preparation says where it is from.
+void tell_flow(const PrepareOptions& options, const FlowSettings& flow, const Teller& tell) {
+    const std::string text = flow.text();
+    if (!options.resume || text.empty() || !find_purpose(options.purpose).simulates_flow) return;
+    const bool changed = std::ranges::any_of(options.arguments, [](const std::string& argument) {
+        return argument.starts_with("openfoam.");
+    });
+    tell((changed ? "flow: " : "flow as before: ") + text);
+}
+
+/// Applies what is left of the recipe and runs pending edits, in the order of the case. A model
+/// that has lost vessels, or an opening in a vessel's side, is an error as early as it can be seen,
+/// and so is an edit that no longer applies.
+/// \return a warning; empty if there is none
+std::string make_model(Session& session, const Recipe& recipe, const PrepareOptions& options,
+                       const Teller& tell, const Progress& progress) {
+    ModelChecks checks(session, options.purpose);
+    const Progress quiet = progress.silent();
+    const RecipeWatch watch{
+        .before =
+            [&](Step step) {
+                if (step >= Step::Product) checks.surface_final(quiet);
+            },
+        .after =
+            [&](const LogEntry& edit) {
+                if (edit.status == EditStatus::Stale) refuse_stale_edits({edit});
+                checks.after(edit, quiet);
+            },
+        .warned =
+            [&](const RecipeWarning& warning) { keep_warning(options.out / kProject, warning); }};
+    const double until =
+        static_cast<double>(recipe.size()) / static_cast<double>(recipe.size() + 1);
+    run_recipe(session, recipe, options.purpose, tell, progress.part(0.0, until), watch);
+    run_pending(session, options.purpose, Step::Review, tell, progress.part(until, 0.99), watch);
+    checks.surface_final(quiet);
+    if (!checks.warning().empty()) tell("warning: " + checks.warning());
+    return checks.warning();
 }
 
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
@@ -189,6 +212,25 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     return {prepared.products, report.warnings};
 }
 
+/// Makes what is missing of the model, and writes the results.
+PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptions& options,
+                        PreparedCase prepared, const Teller& tell, const Progress& progress) {
+    const std::string warning =
+        make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
+    prepared.warnings = kept_warnings(options.out / kProject, session.log());
+    if (!warning.empty()) prepared.warnings.push_back(warning);
+    prepared.scene = session.scene(options.purpose);
+    refuse_stale_edits(session.log());
+    const std::string openings = openings_text(surface_of(prepared.scene));
+    if (!openings.empty()) tell("openings: " + openings);
+    try {
+        return write_results(session, options, std::move(prepared), tell,
+                             progress.part(kEditsShare, 1.0));
+    } catch (const InvalidInput& error) {
+        throw AlgorithmFailure(error.what());  // the model lacks something the product needs
+    }
+}
+
 }  // namespace
 
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
@@ -196,7 +238,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     const Input input = resolve_input(options.input, progress.part(0.0, 0.02));
     PrepareOptions for_recipe = options;
     PreparedCase prepared{.purpose = options.purpose, .input = input};
-    const fs::path project = options.out / "project.vbench";
+    const fs::path project = options.out / kProject;
     if (options.resume && !fs::exists(project))
         throw UsageError("--resume: there is no project.vbench in '" +
                          options.out.filename().string() + "' to go on with");
@@ -214,9 +256,12 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                                          : Session::create(project, {.find = find_operation});
         if (options.resume) {
             refuse_other_input(session, input);
-            recipe = rest_of(recipe, *session.snapshot(), options.purpose);
-            refuse_late_settings(for_recipe.arguments, recipe, session.log());
-            tell_rest(recipe, session.log(), tell);
+            const auto made = session.snapshot();
+            const auto removed = removed_entries(recipe, *made, options.purpose);
+            recipe = rest_of(recipe, *made, options.purpose);
+            refuse_late_settings(for_recipe.arguments, recipe, made->log);
+            tell_rest(recipe, removed, made->log, tell);
+            tell_flow(options, flow, tell);
         } else {
             keep_recipes(project, input);
         }
@@ -225,18 +270,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             any_edit = true;
             tell(text);
         };
-        prepared.warnings = apply_checked(session, recipe, options.purpose, noting,
-                                          progress.part(0.02, kEditsShare));
-        prepared.scene = session.scene(options.purpose);
-        refuse_stale_edits(session.log());
-        const std::string openings = openings_text(surface_of(prepared.scene));
-        if (!openings.empty()) tell("openings: " + openings);
-        try {
-            return write_results(session, options, std::move(prepared), tell,
-                                 progress.part(kEditsShare, 1.0));
-        } catch (const InvalidInput& error) {
-            throw AlgorithmFailure(error.what());  // the model lacks something the product needs
-        }
+        return finished(session, recipe, options, std::move(prepared), noting,
+                        progress.part(0.02, 1.0));
     } catch (const UnusableSource&) {
         if (!options.resume) clear_away(project, new_folder);
         throw;

@@ -14,6 +14,7 @@
 #include "workbench/case/version.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/recipe_run.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
 #include "workbench/session/source_counterpart.h"
@@ -171,8 +172,8 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
     for (const LogEntry& entry : edits) {
         report.document["steps"].push_back(log_json(entry));
         if (!entry.result) continue;
-        for (const std::string& warning : entry.result->warnings)
-            report.warnings.push_back(entry.edit.operation + ": " + warning);
+        for (std::string& warning : warnings_of(entry))
+            report.warnings.push_back(std::move(warning));
         if (part_of(entry).cuts_ends) add_ends(report.document, *entry.result);
         if (const auto& section = part_of(entry).report_section)
             add_section(report, *section, *entry.result);
@@ -190,7 +191,9 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     report = {{"program_version", version()},
               {"purpose", prepared.purpose},
               {"units", "mm"},
-              {"units_text", "Lengths are in millimetres; openfoam/ is in metres."},
+              {"units_text", find_purpose(prepared.purpose).simulates_flow
+                                 ? "Lengths are in millimetres; openfoam/ is in metres."
+                                 : "Lengths are in millimetres."},
               {"input",
                {{"name", prepared.input.name},
                 {"kind", prepared.input.is_image ? "image" : "surface"},

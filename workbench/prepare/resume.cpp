@@ -85,9 +85,17 @@ void refuse_other_input(const Session& session, const Input& input) {
     const LogEntry& loading = log.front();
     if (input.units.empty() || !loading.result || !loading.result->resolved.has("units")) return;
     const std::string units = loading.result->resolved.text("units");
-    if (units != input.units)
-        throw UsageError("--resume: the input was read in " + units + ", not in " + input.units +
-                         ": leave --units out, or prepare it into another folder");
+    if (units == input.units) return;
+    const EditRecord& edit = loading.edit;
+    const bool model_follows =
+        parameter_of(find_operation(edit.operation), Meaning::Unit) != nullptr;
+    throw UsageError("--resume: the input was read in " + units + ", not in " + input.units +
+                     (model_follows
+                          ? ": leave --units out; another unit is a change of the edit that read "
+                            "it,\nvesselbench change project.vbench " +
+                                std::to_string(edit.edit.id) + " units=" + input.units +
+                                ", then --resume"
+                          : ": leave --units out, or prepare it into another folder"));
 }
 
 void refuse_stale_edits(const std::vector<LogEntry>& log) {
@@ -124,6 +132,22 @@ Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& va
         if (!done[i] && !skipped) rest.push_back(recipe[i]);
     }
     return rest;
+}
+
+std::vector<std::string> removed_entries(const Recipe& recipe, const Snapshot& made,
+                                         const std::string& variant) {
+    std::vector<std::string> names;
+    const std::vector<EditId> ids = edits_made(made);
+    for (const RecipeEntry& entry : recipe) {
+        const std::string& name = entry.given.operation().name;
+        const bool present = std::ranges::any_of(made.log, [&](const LogEntry& edit) {
+            return has_place_of(edit.edit, entry, variant);
+        });
+        const bool was_made =
+            std::ranges::any_of(ids, [&](EditId id) { return does(id, made, entry, variant); });
+        if (!present && was_made && std::ranges::count(names, name) == 0) names.push_back(name);
+    }
+    return names;
 }
 
 void refuse_late_settings(std::span<const std::string> settings, const Recipe& rest,

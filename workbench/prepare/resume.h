@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/recipe.h"
@@ -28,6 +29,10 @@ void refuse_stale_edits(const std::vector<LogEntry>& log);
 /// not made up for before one that has been made.
 [[nodiscard]] Recipe rest_of(const Recipe& recipe, const Snapshot& made,
                              const std::string& variant);
+
+/// The operations of entries whose edits were removed by hand; each name once.
+[[nodiscard]] std::vector<std::string> removed_entries(const Recipe& recipe, const Snapshot& made,
+                                                       const std::string& variant);
 
 /// \throw UsageError if a setting "operation.parameter=value" is of an edit that has been made
 void refuse_late_settings(std::span<const std::string> settings, const Recipe& rest,

@@ -204,6 +204,11 @@ std::string quality(const Json& report) {
     return html + "</table>\n";
 }
 
+bool is_for_flow(const Json& report) {
+    const auto purpose = std::ranges::find(purposes(), report.value("purpose", ""), &Purpose::name);
+    return purpose != purposes().end() && purpose->simulates_flow;
+}
+
 std::string openings(const Json& report) {
     std::string html =
         "<h2>Openings</h2>\n<table><tr><th>name</th><th class=n>kind</th>"
@@ -215,9 +220,11 @@ std::string openings(const Json& report) {
                      shown(part_of(patch, "diameter")), shown(part_of(patch, "area")),
                      shown(part_of(patch, "centroid")), shown(part_of(patch, "normal")),
                      shown(part_of(patch, "flatness")), shown(part_of(patch, "tilt_deg"))});
-    return html +
-           "</table>\n<p class=about>As the model has them, at the ends of its extensions. A flat "
-           "end that was kept although it was tilted is named under the vessel ends.</p>\n";
+    return html + "</table>\n<p class=about>As the model has them" +
+           (is_for_flow(report) ? ", at the ends of its extensions. A flat end that was kept "
+                                  "although it was tilted is named under the vessel ends."
+                                : ".") +
+           "</p>\n";
 }
 
 /// As an argument, to be copied.
@@ -227,22 +234,30 @@ std::string place_text(const Json& place) {
     return to_text(Value(rounded_place(point)));
 }
 
+/// Name and diameter in the model: "outlet_1, 3.2 mm"; empty for an end without an opening.
+std::string opening_text(const Json& report, const Json& name) {
+    if (name.is_null()) return "";
+    for (const Json& patch : part_of(report, "openings"))
+        if (part_of(patch, "name") == name && part_of(patch, "diameter").is_number())
+            return shown(name) + ", " + shown(patch["diameter"]) + " mm";
+    return shown(name);
+}
+
 /// What became of every vessel end, worst first.
 std::string ends(const Json& report) {
     const Json& list = part_of(report, "ends");
     if (!list.is_array() || list.empty()) return "";
     std::string html =
-        "<h2>Vessel ends</h2>\n<table><tr><th>place [mm]</th><th class=n>diameter [mm]</th>"
-        "<th>became</th><th>opening</th><th>why</th></tr>\n";
-    for (const Json& end : list) {
-        const Json& opening = part_of(end, "opening");
+        "<h2>Vessel ends</h2>\n<table><tr><th>place [mm]</th><th class=n>vessel's diameter at its "
+        "end [mm]</th><th>became</th><th>opening in the model, its diameter</th><th>why</th>"
+        "</tr>\n";
+    for (const Json& end : list)
         html += row({place_text(part_of(end, "place_mm")), shown(part_of(end, "diameter_mm")),
-                     shown(part_of(end, "fate")), opening.is_null() ? "" : shown(opening),
+                     shown(part_of(end, "fate")), opening_text(report, part_of(end, "opening")),
                      shown(part_of(end, "why"))});
-    }
-    return html +
-           "</table>\n<p class=about>A place of this table chooses an end: inlet=, open= and "
-           "closed= of clip-opening take it.</p>\n";
+    return html + "</table>\n<p class=about>A place of this table chooses an end: " +
+           (is_for_flow(report) ? "inlet=, open= and closed=" : "open= and closed=") +
+           " of clip-opening take it.</p>\n";
 }
 
 /// A part of the report as a table of names and values; nothing if it is absent.
@@ -262,8 +277,8 @@ const std::vector<ReportSection>& usual_sections() {
     static const std::vector<ReportSection> sections = {
         {.key = "distance_to_source",
          .title = "Distance to the source surface",
-         .about = "From the wall to the loaded or extracted surface, away from the clipped and "
-                  "extruded ends."},
+         .about = "From the wall to the loaded or extracted surface, away from its "
+                  "ends."},
         {.key = "distance_from_source",
          .title = "Distance from the source surface",
          .about =

@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/project/source_files.h"
+#include "workbench/project/stored_text.h"
 #include "workbench/session/surface_change.h"
 
 namespace vesselbench {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 // Fraction of the progress for an edit's run; measuring the change and, for a pending edit, storing
 // it take the rest.
@@ -62,6 +68,47 @@ void note_difference(ResultRecord& record, const SurfaceChange& before) {
     if (!text.empty()) record.warnings.push_back(std::move(text));
 }
 
+/// The result with which a revision that has run made its choices.
+ResultId first_result(const History& history, EditRef edit) {
+    const auto& results = history.results();
+    const auto first = std::ranges::find_if(results, [&](const auto& result) {
+        return result.second.edit == edit && result.second.stale_reason.empty();
+    });
+    return first->first;
+}
+
+/// True for an edit that chose places by itself.
+bool chose_places(const Operation& operation, const Arguments& given, const Arguments& resolved) {
+    return std::ranges::any_of(operation.parameters, [&](const Parameter& parameter) {
+        return parameter.meaning == Meaning::Planes && resolved.has(parameter.name) &&
+               !given.has(parameter.name);
+    });
+}
+
+/// A text without its figures.
+std::string words_of(std::string text) {
+    std::erase_if(text, [](char c) {
+        return std::string_view("0123456789.+-").find(c) != std::string_view::npos;
+    });
+    return text;
+}
+
+/// An edit that is given the places it chose before does not look for others: what it found, and
+/// warned of, when it chose is kept with them.
+void keep_findings(ResultRecord& record, const ResultRecord& chosen) {
+    std::vector<std::string> warnings;
+    for (const std::string& warning : chosen.warnings)
+        if (std::ranges::count(record.warnings, words_of(warning), words_of) == 0)
+            warnings.push_back(warning);
+    record.warnings.insert(record.warnings.begin(), warnings.begin(), warnings.end());
+    Json report = Json::parse(record.report, nullptr, false);
+    const Json before = Json::parse(chosen.report, nullptr, false);
+    if (!report.is_object() || !before.is_object()) return;
+    for (const auto& [key, value] : before.items())
+        if (!report.contains(key)) report[key] = value;
+    record.report = stored_text(report);
+}
+
 }  // namespace
 
 EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedArguments& located,
@@ -89,7 +136,10 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
     try {
         const Operation& operation = options_->find(edit.operation);
         EditRun done = run(operation, input, located(operation, ref, arguments), progress);
-        if (record && record->stale_reason.empty()) note_difference(done.record, record->change);
+        if (!record) return done;
+        if (chose_places(operation, edit.given, record->resolved))
+            keep_findings(done.record, *store_->record(first_result(store_->history(), ref)));
+        if (record->stale_reason.empty()) note_difference(done.record, record->change);
         return done;
     } catch (const AlgorithmFailure& error) {
         return stale_run(std::move(input), error.what());

@@ -20,6 +20,19 @@ void compare(const ResultRecord& stored, const Scene& replayed_scene, CaseStore&
     replayed.differences.insert(replayed.differences.end(), names.begin(), names.end());
 }
 
+/// Why an edit has no stored result.
+std::string not_stored_text(const HistoryEntry& entry) {
+    switch (entry.status) {
+        case EditStatus::Pending:
+            return "pending: it has not run on what is before it now";
+        case EditStatus::Stale:
+            return "it does not apply: " + entry.reason;
+        case EditStatus::Done:
+            break;
+    }
+    return "its result is in memory only: the project cannot be written";
+}
+
 ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry& entry,
                        const Progress& progress) {
     ReplayEntry replayed;
@@ -27,7 +40,7 @@ ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry&
     replayed.operation = store.edit(entry.edit).operation;
     replayed.variant = entry.place.variant;
     if (entry.status != EditStatus::Done || store.is_own(entry.result)) {
-        replayed.note = to_string(entry.status) + ": there is no stored result";
+        replayed.note = not_stored_text(entry);
         return replayed;
     }
     replayed.differences = store.project().damages(entry.result, progress);

@@ -13,6 +13,7 @@
 #include "workbench/session/edit_place.h"
 #include "workbench/session/edit_runner.h"
 #include "workbench/session/known_results.h"
+#include "workbench/session/moved_places.h"
 
 namespace vesselbench {
 
@@ -129,25 +130,24 @@ struct Session::Parts {
                              " no longer fits: the edits before it have changed; preview it again");
     }
 
-    /// True if the edit's revision reads the model in another unit than the one before.
-    bool changes_unit(const EditRecord& old, const ResultRecord& now) {
+    /// By how much lengths grow if the edit's revision reads the model in another unit than the one
+    /// before [-]; none: it does not.
+    std::optional<double> growth(const EditRecord& old, const ResultRecord& now) {
         const HistoryResult* earlier = store.history().newest_result_of(old.edit);
-        if (earlier == nullptr) return false;
-        const Arguments& before = store.record(earlier->id)->resolved;
-        const auto& parameters = options.find(old.operation).parameters;
-        return std::ranges::any_of(parameters, [&](const Parameter& parameter) {
-            const std::string& name = parameter.name;
-            return parameter.meaning == Meaning::Unit && before.has(name) &&
-                   now.resolved.has(name) && before.text(name) != now.resolved.text(name);
-        });
+        if (earlier == nullptr) return std::nullopt;
+        return unit_factor(options.find(old.operation), store.record(earlier->id)->resolved,
+                           now.resolved);
     }
 
-    std::size_t decide_anew(const EditOptions& how) {
+    /// \param factor of the places that were given
+    std::size_t decide_anew(const EditOptions& how, double factor = 1.0) {
         std::size_t count = 0;
         for (const HistoryEntry& entry : store.history().entries()) {
             if (entry.status == EditStatus::Done) continue;
             History next = store.history();
             EditRecord edit = store.edit(entry.edit);
+            if (factor != 1.0)
+                edit.given = with_scaled_places(options.find(edit.operation), edit.given, factor);
             describe(edit, how);
             edit.edit = next.change(entry.edit.id);
             edit.time = utc_now();
@@ -168,7 +168,7 @@ struct Session::Parts {
         History next = store.history();
         ProjectChange change;
         ResultRecord& record = data.run.record;
-        const bool moves_places = edit.edit.id != 0 && changes_unit(edit, record);
+        const auto factor = edit.edit.id != 0 ? growth(edit, record) : std::nullopt;
         edit.edit = edit.edit.id == 0 ? next.apply(edit.place) : next.change(edit.edit.id);
         record.edit = edit.edit;
         record.input = vesselbench::enter(data.before, next, change.results);
@@ -177,7 +177,7 @@ struct Session::Parts {
         change.edit = &edit;
         change.sources = std::move(data.sources);
         store.commit(std::move(next), std::move(change));
-        if (moves_places) decide_anew({.author = edit.author});
+        if (factor) decide_anew({.author = edit.author}, *factor);
         return {std::move(edit), EditStatus::Done, {}, store.record(record.id)};
     }
 

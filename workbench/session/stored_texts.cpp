@@ -13,6 +13,8 @@ std::string key_of(StoredText which) {
             return "recipes";
         case StoredText::Flow:
             return "flow";
+        case StoredText::Warnings:
+            return "warnings";
         case StoredText::Spots:
             break;
     }

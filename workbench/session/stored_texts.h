@@ -10,7 +10,8 @@ namespace vesselbench {
 enum class StoredText {
     Recipes,  ///< those that the case brought along
     Flow,     ///< the arguments given for the flow, of those in flow_parameters()
-    Spots     ///< stored_spots.h
+    Spots,    ///< stored_spots.h
+    Warnings  ///< of a recipe, beside those of the edits
 };
 
 /// Keeps a text in a project file, which a session of this process may have open.

@@ -1,6 +1,7 @@
 #include "geometry/vessel/openings/flow_check.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,11 +16,20 @@ namespace vesselbench {
 
 namespace {
 
+/// The ends one to a line; of very many, the widest.
 std::string ends_text(const OpeningPlan& plan) {
+    constexpr std::size_t kMostListed = 20;
+    std::vector<EndRecord> ends = plan.ends;
+    const std::size_t more = ends.size() > kMostListed ? ends.size() - kMostListed : 0;
+    if (more > 0) {
+        std::ranges::stable_sort(ends, std::greater<>(), &EndRecord::diameter);
+        ends.resize(kMostListed);
+    }
     std::string text;
-    for (const EndRecord& end : plan.ends)
+    for (const EndRecord& end : ends)
         text += "\n  " + to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
                 formatted(end.diameter) + " mm" + (end.why.empty() ? "" : ": " + end.why);
+    if (more > 0) text += "\n  and " + std::to_string(more) + " more, which are no wider";
     return text;
 }
 

@@ -1,0 +1,223 @@
+#include "workbench/prepare/recipe_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/vessel_check.h"
+#include "workbench/operations/table.h"
+#include "workbench/report/log_json.h"
+#include "workbench/session/surface_change.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string entry_text(const LogEntry& entry) {
+    const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
+    const std::string change = entry.result ? effect_text(*entry.result) : "";
+    return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
+           (change.empty() ? "" : ": " + change);
+}
+
+/// Where an operation that keeps the volume changes it by more than this [-], the surface is too
+/// coarse for it.
+constexpr double kNoticedChange = 0.03;
+
+/// Where one takes more of it than this [-], the model is another one.
+constexpr double kLargestLoss = 0.25;
+
+/// \throw AlgorithmFailure if an operation that keeps the volume took much of it; the edit is
+/// undone
+void require_volume(Session& session, const LogEntry& entry) {
+    if (find_operation(entry.edit.operation).recipe.volume_remedy.empty() || !entry.result) return;
+    const auto change = volume_change(entry.result->change);
+    if (!change || *change >= -kLargestLoss) return;
+    session.undo();
+    throw AlgorithmFailure(
+        entry.edit.operation + " would take " + formatted(-100.0 * *change, "%.0f") +
+        " % of the volume: the triangles are too coarse for the vessel; make them finer with "
+        "subdivide");
+}
+
+/// \throw UnusableSource if there is nothing that a model could be made of
+void require_vessel(Session& session, const LogEntry& entry) {
+    try {
+        require_lumen(surface_of(session.scene_after(entry.edit.edit.id)));
+    } catch (const InvalidInput& error) {
+        throw UnusableSource(error.what());
+    }
+}
+
+/// A change of the volume where there should be none; else empty.
+std::string volume_warning(const LogEntry& entry) {
+    const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
+    if (remedy.empty() || !entry.result) return "";
+    const auto change = volume_change(entry.result->change);
+    if (!change || std::abs(*change) <= kNoticedChange) return "";
+    return entry.edit.operation + " changed the volume by " + formatted(100.0 * *change, "%.1f") +
+           " %: " + remedy;
+}
+
+/// True for an edit of a variant's line, up to a step.
+bool is_of(const EditPlace& place, const std::string& variant, Step last) {
+    return place.step <= last && (place.variant.empty() || place.variant == variant);
+}
+
+/// The step of the edit that an entry becomes.
+Step step_of(const RecipeEntry& entry) {
+    return entry.step.value_or(entry.given.operation().usual_step);
+}
+
+/// An operation's error text without the operation's name, which the sentence before it has.
+std::string reason_of(const std::exception& error, const Operation& operation) {
+    const std::string text = error.what(), name = operation.name + ": ";
+    return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+/// Applies entries and runs pending edits, and lets others know.
+class RecipeRun {
+public:
+    RecipeRun(Session& session, const std::string& variant, const Teller& tell,
+              const RecipeWatch& watch)
+        : session_(session), variant_(variant), tell_(tell), watch_(watch) {}
+
+    void apply(const RecipeEntry& entry, const Progress& progress) {
+        if (watch_.before) watch_.before(step_of(entry));
+        const std::optional<LogEntry> done = made(entry, progress);
+        if (done && watch_.after) watch_.after(*done);
+    }
+
+    void run_pending(Step last, const Progress& progress) {
+        const auto is_next = [&](const LogEntry& entry) {
+            return entry.status == EditStatus::Pending && is_of(entry.edit.place, variant_, last);
+        };
+        for (std::vector<LogEntry> log = session_.log();; log = session_.log()) {
+            const auto next = std::ranges::find_if(log, is_next);
+            if (next == log.end()) return;
+            if (watch_.before) watch_.before(next->edit.place.step);
+            const EditId id = next->edit.edit.id;
+            static_cast<void>(session_.scene_after(id, progress));
+            for (const LogEntry& entry : session_.log()) {
+                if (entry.edit.edit.id != id) continue;
+                if (entry.status == EditStatus::Done) tell_(entry_text(entry));
+                tell_warnings(entry);
+                if (watch_.after) watch_.after(entry);
+            }
+        }
+    }
+
+private:
+    void tell_warnings(const LogEntry& entry) const {
+        for (const std::string& warning : warnings_of(entry)) tell_("warning: " + warning);
+    }
+
+    /// \return none: it was skipped
+    std::optional<LogEntry> made(const RecipeEntry& entry, const Progress& progress) {
+        const Operation& operation = entry.given.operation();
+        try {
+            const LogEntry done =
+                session_.apply(entry.given, {.step = entry.step, .variant = variant_}, progress);
+            require_volume(session_, done);
+            tell_(entry_text(done));
+            if (operation.recipe.proves_source) require_vessel(session_, done);
+            tell_warnings(done);
+            return done;
+        } catch (const InvalidInput& error) {
+            // The loaded data was accepted: from here on, the operation is to blame.
+            if (operation.usual_step == Step::Source) throw;
+            throw AlgorithmFailure(error.what());
+        } catch (const AlgorithmFailure& error) {
+            if (operation.recipe.proves_source) throw UnusableSource(error.what());
+            const std::string why = reason_of(error, operation);
+            if (entry.otherwise) return made_otherwise(entry, why, progress);
+            if (!entry.optional) throw;
+            const std::string text = operation.name + " was skipped: " + why;
+            tell_("warning: " + text);
+            note({operation.name, step_of(entry), {}, text});
+            return std::nullopt;
+        }
+    }
+
+    std::optional<LogEntry> made_otherwise(const RecipeEntry& entry, const std::string& why,
+                                           const Progress& progress) {
+        RecipeEntry second = entry;
+        second.otherwise.reset();
+        second.given.set(*entry.otherwise);
+        std::string changed;
+        for (const auto& [name, value] : (*entry.otherwise)->values())
+            changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
+        const std::string& name = entry.given.operation().name;
+        const std::string text = name + " with " + changed + " instead: " + why;
+        tell_("warning: " + text);
+        std::optional<LogEntry> done = made(second, progress);
+        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt, text});
+        return done;
+    }
+
+    void note(const RecipeWarning& warning) const {
+        if (watch_.warned) watch_.warned(warning);
+    }
+
+    Session& session_;
+    const std::string& variant_;
+    const Teller& tell_;
+    const RecipeWatch& watch_;
+};
+
+/// True for an edit that ran with these arguments, given or decided.
+bool was_made(const LogEntry& edit, const GivenArguments& sought) {
+    if (edit.edit.operation != sought.operation().name || !edit.result) return false;
+    return std::ranges::all_of(sought->values(), [&](const auto& argument) {
+        const Arguments& ran = edit.result->resolved;
+        return ran.has(argument.first) && ran.values().at(argument.first) == argument.second;
+    });
+}
+
+/// True if the surface has no border where an edit of this step would be made.
+bool is_closed_before(Session& session, const std::string& variant, Step step) {
+    EditId last = 0;
+    for (const LogEntry& edit : session.log())
+        if (is_of(edit.edit.place, variant, step)) last = edit.edit.edit.id;
+    return last != 0 && surface_of(session.scene_after(last)).topology->boundary_loops().empty();
+}
+
+bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
+    if (entry.unless_made && std::ranges::any_of(session.log(), [&](const LogEntry& edit) {
+            return was_made(edit, *entry.unless_made);
+        }))
+        return true;
+    return entry.unless_closed && is_closed_before(session, variant, step_of(entry));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const LogEntry& entry) {
+    std::vector<std::string> warnings;
+    if (!entry.result) return warnings;
+    for (const std::string& warning : entry.result->warnings)
+        warnings.push_back(entry.edit.operation + ": " + warning);
+    if (const std::string warning = volume_warning(entry); !warning.empty())
+        warnings.push_back(warning);
+    return warnings;
+}
+
+void run_recipe(Session& session, const Recipe& recipe, const std::string& variant,
+                const Teller& tell, const Progress& progress, const RecipeWatch& watch) {
+    RecipeRun run(session, variant, tell, watch);
+    const double share = 1.0 / static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const double from = share * static_cast<double>(i);
+        const Progress part = progress.part(from, from + share);
+        run.run_pending(step_of(recipe[i]), part);
+        if (!is_left_out(session, recipe[i], variant)) run.apply(recipe[i], part);
+    }
+}
+
+void run_pending(Session& session, const std::string& variant, Step last, const Teller& tell,
+                 const Progress& progress, const RecipeWatch& watch) {
+    RecipeRun(session, variant, tell, watch).run_pending(last, progress);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/prepare/apply_recipe.h"
+
+namespace vesselbench {
+
+/// Something that a recipe could not do as it says.
+struct RecipeWarning {
+    std::string operation;
+    Step step = Step::Source;
+    std::optional<EditRef> edit;  ///< what was made instead; none: the entry was skipped
+    std::string text;
+};
+
+/// Who watches a recipe's edits; each may be empty. What they throw ends the recipe.
+struct RecipeWatch {
+    std::function<void(Step)> before;            ///< an edit of this step is about to run
+    std::function<void(const LogEntry&)> after;  ///< an edit has run, or no longer applies
+    std::function<void(const RecipeWarning&)> warned;
+};
+
+/// What a user should know of an edit: its own warnings, and a change of the volume where there
+/// should be none.
+[[nodiscard]] std::vector<std::string> warnings_of(const LogEntry& entry);
+
+/// Applies a recipe's entries to a session, one edit each, in their order. Pending edits before an
+/// entry's place run first, and are told of like new ones.
+/// \param variant of the edits of steps 6-8
+/// \throw what an edit throws; UnusableSource. The session keeps the edits that were done
+void run_recipe(Session& session, const Recipe& recipe, const std::string& variant,
+                const Teller& tell, const Progress& progress, const RecipeWatch& watch);
+
+/// Runs the pending edits of a variant up to a step, in the same way.
+void run_pending(Session& session, const std::string& variant, Step last, const Teller& tell,
+                 const Progress& progress, const RecipeWatch& watch);
+
+}  // namespace vesselbench

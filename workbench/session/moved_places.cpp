@@ -1,0 +1,89 @@
+#include "workbench/session/moved_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace vesselbench {
+
+namespace {
+
+/// What parameters of Meaning::Unit can be resolved to [mm].
+double millimetres_in(const std::string& unit) {
+    static const std::map<std::string, double> lengths = {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}};
+    const auto found = lengths.find(unit);
+    return found == lengths.end() ? 1.0 : found->second;
+}
+
+bool is_place(const Parameter& parameter) {
+    using enum Meaning;
+    constexpr Meaning kPlaces[] = {Place, Tip, Branch, Inlet, Seed, Box, Planes, Dabs};
+    return parameter.unit == "mm" && std::ranges::count(kPlaces, parameter.meaning) > 0;
+}
+
+/// Which numbers of a record in a list are lengths; the others are directions and choices.
+using Layout = std::vector<bool>;
+
+const Layout kPoint = {true, true, true};
+/// Tip, point of the plane, normal, way.
+const Layout kOpening = {true, true, true, true, true, true, false, false, false, false};
+/// Place, way.
+const Layout kClosing = {true, true, true, false};
+/// Point, normal, local radius, radius of the brush, strength, falloff.
+const Layout kDab = {true, true, true, false, false, false, true, true, false, false};
+
+/// True if each record has a unit normal where an opening has one.
+bool holds_openings(const std::vector<double>& numbers) {
+    constexpr double kTolerance = 1e-3;
+    if (numbers.size() % kOpening.size() != 0) return false;
+    for (std::size_t i = 0; i < numbers.size(); i += kOpening.size())
+        if (std::abs(std::hypot(numbers[i + 6], numbers[i + 7], numbers[i + 8]) - 1.0) > kTolerance)
+            return false;
+    return true;
+}
+
+const Layout& layout_of(const Parameter& parameter, const std::vector<double>& numbers) {
+    if (parameter.meaning == Meaning::Dabs) return kDab;
+    if (parameter.meaning != Meaning::Planes) return kPoint;
+    return holds_openings(numbers) ? kOpening : kClosing;
+}
+
+}  // namespace
+
+std::optional<double> unit_factor(const Operation& operation, const Arguments& resolved_before,
+                                  const Arguments& resolved_now) {
+    const Parameter* unit = parameter_of(operation, Meaning::Unit);
+    if (unit == nullptr || !resolved_before.has(unit->name) || !resolved_now.has(unit->name))
+        return std::nullopt;
+    const std::string &before = resolved_before.text(unit->name),
+                      &now = resolved_now.text(unit->name);
+    if (before == now) return std::nullopt;
+    return millimetres_in(now) / millimetres_in(before);
+}
+
+Arguments with_scaled_places(const Operation& operation, Arguments given, double factor) {
+    for (const Parameter& parameter : operation.parameters) {
+        if (!is_place(parameter) || !given.has(parameter.name)) continue;
+        const Value& value = given.values().at(parameter.name);
+        if (const Vec3* point = std::get_if<Vec3>(&value)) {
+            given.set(parameter.name, Vec3(factor * *point));
+        } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
+            std::vector<double> numbers = *list;
+            const Layout& layout = layout_of(parameter, numbers);
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                if (layout[i % layout.size()]) numbers[i] *= factor;
+            given.set(parameter.name, std::move(numbers));
+        }
+    }
+    return given;
+}
+
+std::vector<std::string> given_sizes(const Operation& operation, const Arguments& given) {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.unit == "mm" && !is_place(parameter) && given.has(parameter.name))
+            names.push_back(parameter.name);
+    return names;
+}
+
+}  // namespace vesselbench
