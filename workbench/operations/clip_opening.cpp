@@ -347,15 +347,23 @@ std::string small_ends_text(const std::vector<EndRecord>& small) {
            " of them";
 }
 
+/// A cap at an image's border that is as wide as other openings: the vessel goes on behind it.
+bool is_lost_at_border(const OpeningPlan& plan, const EndRecord& end) {
+    return end.border && std::ranges::any_of(plan.ends, [&](const EndRecord& other) {
+               return other.opening && end.diameter >= kLargeEnd * other.diameter;
+           });
+}
+
 /// What a user should know about the ends, worst first. Small closed ends share a warning, except
-/// the open rims among them.
+/// the open rims among them, and vessels that an image's border cuts.
 std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     const double widest = widest_opening(plan);
     std::vector<std::string> warnings;
     std::vector<EndRecord> small;
     for (const EndRecord& end : plan.ends) {
         if (end.plain || end.why.empty() || end.asked) continue;
-        if (end.fate == EndFate::Closed && !end.rim && end.diameter < kLargeEnd * widest)
+        if (end.fate == EndFate::Closed && !end.rim && !is_lost_at_border(plan, end) &&
+            end.diameter < kLargeEnd * widest)
             small.push_back(end);
         else
             warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);

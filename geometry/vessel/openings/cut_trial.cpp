@@ -153,6 +153,14 @@ void CutTrials::take() {
     for (const VertexId v : strip_) use_[v] = Use::Guarded;
 }
 
+bool CutTrials::is_whole_cap(const SurfaceEnd& end) const {
+    for (TriangleId t = 0; end.patch && t < surface_.triangle_count(); ++t)
+        if ((*surface_.patch_labels)[t] == *end.patch)
+            for (const VertexId v : surface_.triangles()[t])
+                if (use_[v] == Use::Gone) return false;
+    return end.patch.has_value();
+}
+
 void CutTrials::protect(const SurfaceEnd& end) {
     for (const VertexId v : end.rim) use_[v] = Use::Guarded;
     if (!end.patch) return;

@@ -89,7 +89,11 @@ public:
 private:
     /// A torn rim is longer than it is wide; a hole in a vessel's side is narrower than the vessel.
     EndRecord record_of(const SurfaceEnd& end) const {
-        if (end.rim.empty()) return {.place = end.centre, .diameter = end.diameter};
+        if (end.rim.empty())
+            return {.place = end.centre,
+                    .diameter = end.diameter,
+                    .border = options_.border_cuts && end.patch &&
+                              surface_.patches[*end.patch].kind == PatchKind::Cut};
         const double width = rim_shape(surface_, end.rim).diameter();
         return {.place = end.centre,
                 .diameter = end.tip ? std::min(end.diameter, width) : width,
@@ -454,7 +458,25 @@ private:
         const auto place = place_along_rim(e);
         if (place && is_free(*place, e)) return make_cut(e, *place, "cut along its rim: " + why);
         records_[e].why = why;
-        return false;
+        return keep_oblique(e);
+    }
+
+    /// The last resort at an image's border: a vessel ends there, even if its furcation is so near
+    /// that no place for a cut across it is left.
+    bool keep_oblique(std::size_t e) {
+        const SurfaceEnd& end = ends_[e];
+        if (!records_[e].border || !end.tip || !rises(*end.patch) || !trials_.is_whole_cap(end))
+            return false;
+        const PatchShape shape = patch_shape(surface_, *end.patch);
+        const auto axis = axis_at_patch(surface_, *end.patch);
+        const OpeningPlace place = place_on(shape.plane, shape.diameter(), tip_place(end), axis);
+        if (!is_flat(shape) || has_failed(e, place.plane.point)) return false;
+        make(e, place, OpeningWay::KeepCap, EndFate::Kept,
+             "its cap at the image's border was kept, though it is not perpendicular to the "
+             "vessel: " +
+                 records_[e].why);
+        trials_.protect(end);
+        return true;
     }
 
     /// True for a rim that may not vanish (kLargeEnd).

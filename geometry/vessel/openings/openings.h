@@ -49,6 +49,7 @@ struct EndRecord {
     EndFate fate = EndFate::Closed;
     std::string why;       ///< may be empty: opened at the chosen place
     bool rim = false;      ///< an open border of the surface
+    bool border = false;   ///< a cap where an image's border cuts a vessel
     bool shared = false;   ///< removed with the cut of another end, of which it is a part
     bool plain = false;    ///< kept, or opened at the chosen place
     bool sac = false;      ///< it looks like an aneurysm: closed, however wide
