@@ -18,6 +18,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/planned_cut.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/opening_arguments.h"
@@ -201,11 +202,23 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
     throw AlgorithmFailure(failed.why + closing_advice(closed));
 }
 
+/// The lines that a plan needs; the ends without one go into its options.
+std::shared_ptr<const CenterlineGraph> planning_lines(const Surface& surface,
+                                                      OpeningPlanOptions& options,
+                                                      const Progress& progress) {
+    if (options.tip) return lines_for_openings(surface, options.tip, progress);
+    Positions wanted = options.open;
+    wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
+    LinesAndStubs lines = lines_to_ends(surface, wanted, progress);
+    options.stubs = std::move(lines.stubs);
+    return lines.graph;
+}
+
 /// Plans and cuts; where a cut fails, plans again without it.
 Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
-    const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.5));
+    const auto graph = planning_lines(surface, options, progress.part(0.0, 0.5));
     if (!options.tip) require_tube(surface, *graph);
     const bool for_flow = !options.tip && arguments.text("check") == "flow";
     const bool chosen = !options.distance && !options.radii && !options.strict;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "geometry/vessel/openings/cut_trial.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 
 namespace vesselbench {
 
@@ -73,6 +75,11 @@ public:
             records_[e] = record_of(ends_[e]);
             in_side_.push_back(lies_in_side(e));
         }
+        if (options.tip) return;
+        for (const UnlinedEnd& end : unlined_ends(surface, graph, options.stubs, ends_)) {
+            unlined_.push_back(record_of(end));
+            unlined_.back().asked = options.leave_closed;
+        }
     }
 
     OpeningPlan run() {
@@ -98,6 +105,33 @@ private:
         return {.place = end.centre,
                 .diameter = end.tip ? std::min(end.diameter, width) : width,
                 .rim = true};
+    }
+
+    static EndRecord record_of(const UnlinedEnd& end) {
+        return {.place = end.place,
+                .diameter = end.diameter,
+                .why = std::string(end.sac ? "it looks like an aneurysm, and is" : "it is") +
+                       " too short for a centerline, " + formatted(end.length) +
+                       " mm beyond the vessels around; open=" + coordinates_argument(end.place) +
+                       " opens it",
+                .sac = end.sac,
+                .offered = true,
+                .unlined = true};
+    }
+
+    /// The end without a line that a point means: it is near, and nearer than all others.
+    EndRecord* unlined_near(const Vec3& point) {
+        const auto end = end_near(ends_, point);
+        double least =
+            end ? (ends_[*end].centre - point).norm() : std::numeric_limits<double>::infinity();
+        EndRecord* found = nullptr;
+        for (EndRecord& record : unlined_)
+            if (const double d = (record.place - point).norm();
+                d < least && d <= kUnlinedReach * record.diameter) {
+                least = d;
+                found = &record;
+            }
+        return found;
     }
 
     std::size_t end_of_tip(std::size_t tip) const {
@@ -206,6 +240,11 @@ private:
 
     void leave_closed() {
         for (const Vec3& point : options_.closed) {
+            if (EndRecord* unlined = unlined_near(point)) {
+                unlined->asked = true;
+                unlined->why = "left closed as asked";
+                continue;
+            }
             const auto end = end_near(ends_, point);
             if (!end)
                 throw AlgorithmFailure("no vessel ends near closed=" + coordinates_argument(point));
@@ -635,6 +674,7 @@ private:
             plan_.openings.push_back(*made_[e]);
         }
         plan_.ends = records_;
+        plan_.ends.insert(plan_.ends.end(), unlined_.begin(), unlined_.end());
         const auto rank = [](const EndRecord& end) {
             return std::tuple(end.plain, end.fate, -end.diameter);
         };
@@ -649,6 +689,9 @@ private:
     /// (lost_vessels).
     static constexpr double kMostGivenUp = 2.8;
 
+    /// A point this far from an end without a centerline does not mean it [diameters].
+    static constexpr double kUnlinedReach = 1.5;
+
     /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
     static constexpr double kLongestAcross = 3.0;
 
@@ -661,6 +704,7 @@ private:
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
     std::vector<bool> in_side_;                        ///< by end: no vessel ends there
+    std::vector<EndRecord> unlined_;                   ///< of ends without a centerline
     CutTrials trials_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened
