@@ -31,6 +31,8 @@ constexpr double kDeepestDent = 0.5;
 /// Cosines of the angles that make a crease of the surface, tried one after the other: the sharper
 /// one is not misled by coarse triangles, the blunter one is closed around an oblique cap.
 constexpr std::array<double, 2> kCreases = {0.77, 0.906};
+/// Edges of the rim of such a disc; fewer are a rounded end of a coarse surface.
+constexpr std::size_t kFewestCreases = 10;
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
 constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind it, in radii
 /// Fraction of the area; with more, the surface is not a vessel: a short bifurcation has 0.35.
@@ -188,11 +190,11 @@ public:
 
     /// True if a part between creases closes a vessel: only its rim is flat.
     bool is_dented_cap(const std::vector<TriangleId>& part, const SurfaceDistance& surface) const {
-        if (part.size() < kOnKnob || !is_disc(part, kPlanarRim) || !has_flat_rim(part))
-            return false;
+        if (part.size() < kOnKnob || !is_disc(part, kRim) || !has_flat_rim(part)) return false;
         const auto [centre, normal, area] = disc_of(part);
         const double planar = enclosed_area(part), radius = std::sqrt(planar / std::numbers::pi);
         const Heights rim = rim_heights(part);
+        if (rim.edges < kFewestCreases) return false;
         for (const TriangleId t : part)
             for (const VertexId v : triangles_[t]) {
                 const double height = (points_[v] - centre).dot(normal);
@@ -230,6 +232,7 @@ private:
     /// Of a rim, over the disc's middle in the direction of its normal [mm].
     struct Heights {
         double low = 0.0, high = 0.0;
+        std::size_t edges = 0;
     };
 
     Heights rim_heights(const std::vector<TriangleId>& region) const {
@@ -240,6 +243,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k)
                 if (!std::ranges::binary_search(region, near_[t][k]))
                     for (const VertexId v : {triangles_[t][k], triangles_[t][(k + 1) % 3]}) {
+                        heights.edges += v == triangles_[t][k] ? 1 : 0;
                         const double height = (points_[v] - disc.centre).dot(disc.normal);
                         heights.low = std::min(heights.low, height);
                         heights.high = std::max(heights.high, height);
