@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/image/extract_surface.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -15,12 +16,15 @@
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/flat_caps.h"
 #include "geometry/vessel/openings/flow_check.h"
+#include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/rim_shape.h"
 #include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 #include "geometry/vessel/repair/repair.h"
+#include "tests/support/image_shapes.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stop_at.h"
@@ -470,6 +474,88 @@ SCENARIO("A bump of the wall is not a vessel's end", "[geometry][openings]") {
     };
     CHECK(fate_of(1.5) == EndFate::Closed);
     CHECK(fate_of(3.3) == EndFate::Opened);
+}
+
+SCENARIO("A trunk that a dome closes just before its bifurcation is no end that nobody mentions",
+         "[geometry][openings]") {
+    // Its line was pruned as that of a sac, and one of its daughters became the inlet.
+    for (const double length : {2.0, 2.5}) {
+        CAPTURE(length);
+        const std::vector<PhantomPart> parts = {
+            {.name = "trunk", .shape = vessel_along({Vec3::Zero(), Vec3(0, 0, length)}, 2.0)},
+            {.name = "left",
+             .shape = vessel_along({Vec3::Zero(), Vec3(-12, 0, -12)}, 1.6, true),
+             .blend = 0.3},
+            {.name = "right",
+             .shape = vessel_along({Vec3::Zero(), Vec3(12, 0, -12)}, 1.6, true),
+             .blend = 0.3}};
+        const PhantomField field(parts);
+        const Surface closed = label_flat_caps(exact_surface(field, field.bounds(), 0.3));
+        const Vec3 dome(0, 0, length + 2.0);
+        const LinesAndStubs lines = lines_to_ends(closed, {});
+        const OpeningPlanOptions options{.stubs = lines.stubs};
+        const OpeningPlan plan = plan_openings(closed, *lines.graph, options);
+        const EndRecord end = end_at(plan, dome);
+        CHECK((end.place - dome).norm() < 2.0);  // anywhere on the dome
+        CHECK(end.diameter == Approx(4.0).epsilon(0.15));
+        CHECK(end.fate == EndFate::Closed);
+        CHECK(plan.openings.size() == 2);
+        CHECK_THROWS_WITH(check_flow(plan, closed, *lines.graph, options),
+                          Contains("the largest end") && Contains("clip-opening open="));
+        const LinesAndStubs asked = lines_to_ends(closed, {end.place});
+        CHECK(plan_openings(closed, *asked.graph, {.open = {end.place}, .stubs = asked.stubs})
+                  .openings.size() == 3);
+        const OpeningPlan left =
+            plan_openings(closed, *lines.graph, {.closed = {end.place}, .stubs = lines.stubs});
+        CHECK(why_no_flow(left).empty());
+    }
+}
+
+SCENARIO("An image's border just behind a bifurcation loses no vessel", "[geometry][openings]") {
+    // Cuts across the two vessels would meet.
+    constexpr double kVoxel = 1.5, kBorder = -12.5;
+    const auto shape = [](const Vec3& p) {
+        const double trunk = capsule(p, Vec3(0, 0, 60), Vec3::Zero(), 8.0);
+        const double left = capsule(p, Vec3::Zero(), Vec3(-25, 0, -50), 5.0);
+        const double right = capsule(p, Vec3::Zero(), Vec3(25, 0, -50), 5.0);
+        return std::min({trunk, left, right});
+    };
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() *= kVoxel;
+    matrix.topRightCorner<3, 1>() = Vec3(-24, -14, kBorder);
+    const Image image = image_of({33, 19, 39}, matrix, [&](const Vec3& p) { return -shape(p); });
+    const Surface surface = extract_surface(image, {}, {.threshold = 0.0}).surface;
+    const auto graph = centerlines_of(surface);
+    const OpeningPlan plan = plan_openings(surface, *graph, {.border_cuts = true});
+    CHECK(plan.openings.size() == 3);
+    for (const double x : {-6.25, 6.25}) {
+        const EndRecord end = end_at(plan, Vec3(x, 0, kBorder));
+        CAPTURE(x, end.why);
+        CHECK(end.opening.has_value());
+    }
+    CHECK(std::ranges::any_of(plan.ends, [](const EndRecord& end) {
+        return end.why.find("kept, though it is not perpendicular") != std::string::npos;
+    }));
+    const Surface opened = clip_openings(surface, plan).surface;
+    CHECK(is_closed_manifold(opened));
+    CHECK(openings_in_walls(surface, opened).empty());
+}
+
+SCENARIO("The groove around a dent is as wide an end as its vessel", "[geometry][openings]") {
+    // The line runs into the groove, whose width was taken for the vessel's.
+    std::vector<double> radii(60, 0.9);
+    const std::vector<double> groove = {0.5, 0.3, 0.2, 0.15, 0.15};
+    radii.insert(radii.end(), groove.begin(), groove.end());
+    const CenterlineGraph graph = with_side_branch(radii);
+    const auto pimple = pimple_at(graph, 3);
+    REQUIRE(pimple);
+    CHECK(pimple->radius == Approx(0.9));
+    CHECK(pimple->length == Approx(0.15 * 4).margin(0.2));
+    CHECK_FALSE(pimple_at(graph, 1));
+    CHECK_FALSE(pimple_at(with_side_branch(std::vector<double>(60, 0.4)), 3));
+    std::vector<double> tapered;
+    for (int i = 0; i <= 60; ++i) tapered.push_back(0.9 - 0.012 * i);
+    CHECK_FALSE(pimple_at(with_side_branch(tapered), 3));
 }
 
 SCENARIO("A wrong model is a failure", "[geometry][openings]") {

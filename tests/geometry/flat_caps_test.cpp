@@ -38,6 +38,16 @@ Surface capped_tube(double slope, double dent) {
     return unlabelled(tube);
 }
 
+/// A closed tube of radius 2 without labels, whose caps bulge by `height` radii at their middles.
+Surface rounded_caps(int around, double height) {
+    return unlabelled(mapped(fine_tube(2.0, 30.0, around), [&](const Vec3& p) {
+        const double at = std::min(1.0, p.head<2>().squaredNorm() / 4.0);
+        const double outward = 2.0 * height * (1.0 - at);
+        const bool cap = p.z() < 1e-9 || p.z() > 30.0 - 1e-9;
+        return Vec3(p.x(), p.y(), p.z() + (cap ? (p.z() > 15.0 ? outward : -outward) : 0.0));
+    }));
+}
+
 /// The surface of a shape's voxel mask.
 Surface masked(const ImplicitShape& shape, const Eigen::AlignedBox3d& box, double voxel) {
     const auto mask = [&](const Vec3& p) { return shape(p) < 0.0 ? -1.0 : 1.0; };
@@ -49,7 +59,7 @@ Surface masked(const ImplicitShape& shape, const Eigen::AlignedBox3d& box, doubl
 SCENARIO("Flat caps of a closed surface without labels are kept as its openings",
          "[geometry][openings]") {
     for (const double slope : {0.0, 0.5})
-        for (const double dent : {0.0, 0.2}) {
+        for (const double dent : {0.0, 0.2, 0.6, -0.6}) {
             CAPTURE(slope, dent);
             const Surface tube = capped_tube(slope, dent);
             const Surface found = label_flat_caps(tube);
@@ -72,6 +82,22 @@ SCENARIO("Flat caps of a closed surface without labels are kept as its openings"
                 const auto kept =
                     std::ranges::count(border.openings, OpeningWay::KeepCap, &PlannedOpening::way);
                 CHECK(kept == (slope == 0.0 ? 2 : 1));
+            }
+        }
+}
+
+SCENARIO("A cap is known by its sharp and flat rim, however smoothing has bent its middle",
+         "[geometry][openings]") {
+    for (const int around : {12, 24, 48})
+        for (const double height : {-0.4, -0.3, -0.1, 0.1, 0.3, 0.4}) {
+            CAPTURE(around, height);
+            const Surface found = label_flat_caps(rounded_caps(around, height));
+            REQUIRE(found.patches.size() == 3);
+            for (const std::size_t p : {1, 2}) {
+                const PatchShape cap = patch_shape(found, p);
+                CHECK(cap.flatness < 1e-9);
+                CHECK(cap.diameter() == Approx(4.0).epsilon(0.05));
+                CHECK(std::abs(cap.plane.point.z() - 15.0) == Approx(15.0).epsilon(1e-6));
             }
         }
 }
@@ -137,7 +163,11 @@ SCENARIO("What closes no vessel is no cap", "[geometry][openings]") {
     CHECK(caps_of(icosphere(5.0, 4)) == 0);
     CHECK(caps_of(cube(5.0)) == 0);
     CHECK(caps_of(open_tube(2.0, 30.0, 40, 90)) == 0);
-    CHECK(caps_of(capped_tube(0.0, 0.6)) == 0);  // 17 degrees
+    CHECK(caps_of(capped_tube(0.0, 1.2)) == 0);  // a cone of 31 degrees
+    CHECK(caps_of(rounded_caps(24, 0.7)) == 0);
+    CHECK(caps_of(mapped(capped_tube(0.0, 0.6), [](const Vec3& p) {  // its rims are not flat
+              return Vec3(p.x(), p.y(), p.z() + 0.1 * p.x() * p.x());
+          })) == 0);
 }
 
 SCENARIO("A step of a voxel mask is no cap", "[geometry][openings]") {

@@ -19,6 +19,7 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/planned_cut.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/opening_arguments.h"
@@ -203,11 +204,23 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
     throw AlgorithmFailure(failed.why + closing_advice(closed));
 }
 
+/// The lines that a plan needs; the ends without one go into its options.
+std::shared_ptr<const CenterlineGraph> planning_lines(const Surface& surface,
+                                                      OpeningPlanOptions& options,
+                                                      const Progress& progress) {
+    if (options.tip) return lines_for_openings(surface, options.tip, progress);
+    Positions wanted = options.open;
+    wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
+    LinesAndStubs lines = lines_to_ends(surface, wanted, progress);
+    options.stubs = std::move(lines.stubs);
+    return lines.graph;
+}
+
 /// Plans and cuts; where a cut fails, plans again without it.
 Clipping decide(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
-    const auto graph = lines_for_openings(surface, options.tip, progress.part(0.0, 0.5));
+    const auto graph = planning_lines(surface, options, progress.part(0.0, 0.5));
     if (!options.tip) require_tube(surface, *graph);
     const bool for_flow = !options.tip && arguments.text("check") == "flow";
     const bool chosen = !options.distance && !options.radii && !options.strict;
@@ -349,15 +362,23 @@ std::string small_ends_text(const std::vector<EndRecord>& small) {
            " of them";
 }
 
+/// A cap at an image's border that is as wide as other openings: the vessel goes on behind it.
+bool is_lost_at_border(const OpeningPlan& plan, const EndRecord& end) {
+    return end.border && std::ranges::any_of(plan.ends, [&](const EndRecord& other) {
+               return other.opening && end.diameter >= kLargeEnd * other.diameter;
+           });
+}
+
 /// What a user should know about the ends, worst first. Small closed ends share a warning, except
-/// the open rims among them.
+/// the open rims among them, and vessels that an image's border cuts.
 std::vector<std::string> end_warnings(const OpeningPlan& plan) {
     const double widest = widest_opening(plan);
     std::vector<std::string> warnings;
     std::vector<EndRecord> small;
     for (const EndRecord& end : plan.ends) {
         if (end.plain || end.why.empty() || end.asked) continue;
-        if (end.fate == EndFate::Closed && !end.rim && end.diameter < kLargeEnd * widest)
+        if (end.fate == EndFate::Closed && !end.rim && !is_lost_at_border(plan, end) &&
+            end.diameter < kLargeEnd * widest)
             small.push_back(end);
         else
             warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);

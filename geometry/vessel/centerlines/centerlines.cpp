@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "geometry/vessel/centerlines/lumen_grid.h"
 #include "geometry/vessel/centerlines/refinement.h"
 #include "geometry/vessel/centerlines/skeleton.h"
+#include "geometry/vessel/centerlines/stubs.h"
 #include "geometry/vessel/centerlines/thin_vessels.h"
 #include "geometry/vessel/centerlines/thinning.h"
 #include "geometry/vessel/centerlines/vessel_wall.h"
@@ -191,9 +193,26 @@ RoughGraph rough_graph(const LumenGrid& grid, const Skeleton& skeleton, const An
 /// The result of one grid.
 struct Attempt {
     RoughGraph rough;
+    std::vector<Stub> stubs;
     std::size_t components = 0;
     int loops = 0;
 };
+
+std::vector<Stub> stubs_among(const LumenGrid& grid, const std::vector<BlindReach>& dropped) {
+    std::vector<Stub> stubs;
+    for (const BlindReach& reach : dropped) {
+        const Vec3 root = grid.centre(reach.root), tip = grid.centre(reach.tip);
+        if (!((tip - root).norm() > 0.0)) continue;
+        stubs.push_back({.root = root,
+                         .exit = grid.centre(reach.exit),
+                         .tip = tip + grid.depth[reach.tip] * (tip - root).normalized(),
+                         .length = reach.length,
+                         .widest = reach.widest,
+                         .parent = grid.depth[reach.root]});
+    }
+    std::ranges::stable_sort(stubs, std::greater{}, &Stub::length);
+    return stubs;
+}
 
 Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& parameters, double spacing,
                     const Progress& progress) {
@@ -215,18 +234,24 @@ Attempt skeletonise(const VesselWall& wall, const CenterlineParameters& paramete
     progress.report(0.5, "thinning the lumen");
     auto curve = thin(grid, grid.voxels, all, progress);
     progress.report(0.8, "thinning the lumen");
-    curve = prune(grid, std::move(curve), {anchors.fixed, anchors.blind, anchors.low},
-                  {parameters.blind_beyond_parent, parameters.blind_slenderness}, progress);
-    const Skeleton skeleton = skeleton_of(grid, curve);
+    const PrunedCurve pruned =
+        prune(grid, std::move(curve), {anchors.fixed, anchors.blind, anchors.low},
+              {parameters.blind_beyond_parent, parameters.blind_slenderness}, progress);
+    attempt.stubs = stubs_among(grid, pruned.dropped);
+    const Skeleton skeleton = skeleton_of(grid, pruned.voxels);
     attempt.loops = loop_count(skeleton);
     attempt.rough = rough_graph(grid, skeleton, anchors);
     return attempt;
 }
 
-}  // namespace
+/// Lines, and the stubs that got none.
+struct Lines {
+    CenterlineGraph graph;
+    std::vector<Stub> stubs;
+};
 
-CenterlineGraph compute_centerlines(const Surface& surface, const CenterlineParameters& parameters,
-                                    const Progress& progress) {
+Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
+                 const Progress& progress) {
     check(parameters);
     const VesselWall wall = vessel_wall_of(surface, progress);
     if (!(wall.volume > 0.0)) {
@@ -248,10 +273,9 @@ CenterlineGraph compute_centerlines(const Surface& surface, const CenterlinePara
             "the surface, or crop it to the vessels of interest");
     }
     const WallSections sections(wall, 0.5 * thin);
-    return refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0));
+    return {refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0)),
+            std::move(attempt.stubs)};
 }
-
-namespace {
 
 ContentKey key_of(const CenterlineParameters& p) {
     const double numbers[] = {p.find_blind_ends ? 1.0 : 0.0, p.blind_beyond_parent,
@@ -260,8 +284,10 @@ ContentKey key_of(const CenterlineParameters& p) {
                         content_key(std::span<const double>(numbers))});
 }
 
-std::size_t bytes_of(const CenterlineGraph& graph) {
-    std::size_t bytes = sizeof graph + graph.nodes.size() * sizeof(CenterlineNode) +
+std::size_t bytes_of(const Lines& lines) {
+    const CenterlineGraph& graph = lines.graph;
+    std::size_t bytes = sizeof lines + lines.stubs.size() * sizeof(Stub) +
+                        graph.nodes.size() * sizeof(CenterlineNode) +
                         graph.branches.size() * sizeof(CenterlineBranch);
     for (const CenterlineNode& node : graph.nodes)
         bytes += node.branches.size() * sizeof(std::size_t);
@@ -270,16 +296,35 @@ std::size_t bytes_of(const CenterlineGraph& graph) {
     return bytes;
 }
 
+std::shared_ptr<const Lines> lines_of(const Surface& surface,
+                                      const CenterlineParameters& parameters,
+                                      const Progress& progress, DerivedCache& cache) {
+    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    return cache.find_or_make<Lines>(
+        "centerlines", content_key({cache.surface_key(surface), key_of(parameters)}),
+        [&] { return find_lines(surface, parameters, progress); }, &bytes_of, progress);
+}
+
 }  // namespace
+
+CenterlineGraph compute_centerlines(const Surface& surface, const CenterlineParameters& parameters,
+                                    const Progress& progress) {
+    return find_lines(surface, parameters, progress).graph;
+}
 
 std::shared_ptr<const CenterlineGraph> centerlines_of(const Surface& surface,
                                                       const CenterlineParameters& parameters,
                                                       const Progress& progress,
                                                       DerivedCache& cache) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
-    return cache.find_or_make<CenterlineGraph>(
-        "centerlines", content_key({cache.surface_key(surface), key_of(parameters)}),
-        [&] { return compute_centerlines(surface, parameters, progress); }, &bytes_of, progress);
+    const auto lines = lines_of(surface, parameters, progress, cache);
+    return {lines, &lines->graph};
+}
+
+std::shared_ptr<const std::vector<Stub>> stubs_of(const Surface& surface,
+                                                  const CenterlineParameters& parameters,
+                                                  const Progress& progress, DerivedCache& cache) {
+    const auto lines = lines_of(surface, parameters, progress, cache);
+    return {lines, &lines->stubs};
 }
 
 }  // namespace vesselbench

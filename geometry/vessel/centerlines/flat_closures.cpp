@@ -23,12 +23,23 @@ constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns 
 /// Cosine of 25 degrees: the same for a disc in one plane. At an oblique cap of a bent or narrowing
 /// vessel a seventh of the rim turns by less than 40. So it does at a knob of a few triangles.
 constexpr double kPlanarRim = 0.906;
-constexpr std::size_t kOnKnob = 10;   ///< triangles; fewer are a cap only if the wall turns by kRim
-constexpr double kSharpRim = 0.9;     ///< fraction of the rim that must be sharp
+constexpr std::size_t kOnKnob = 10;  ///< triangles; fewer are a cap only if the wall turns by kRim
+constexpr double kSharpRim = 0.9;    ///< fraction of the rim that must be sharp
+/// A disc between creases may bulge or be dented by this much [radii]: smoothing and sloppy capping
+/// push the middle of a cap off the plane of its rim. A dome without a crease rises by 1.
+constexpr double kDeepestDent = 0.5;
+/// Cosines of the angles that make a crease of the surface, tried one after the other: the sharper
+/// one is not misled by coarse triangles, the blunter one is closed around an oblique cap.
+constexpr std::array<double, 2> kCreases = {0.77, 0.906};
+/// Edges of the rim of such a disc; fewer are a rounded end of a coarse surface.
+constexpr std::size_t kFewestCreases = 10;
 constexpr double kRoundness = 0.6;    ///< 4 pi area / perimeter^2 of a disc; an ellipse of 1 : 2.4
 constexpr double kWidestLumen = 1.4;  ///< distance to the wall two radii behind it, in radii
 /// Fraction of the area; with more, the surface is not a vessel: a short bifurcation has 0.35.
 constexpr double kMostFlat = 0.45;
+
+/// Area of the smallest disc over the surface's.
+constexpr double kLeastShare = 1e-5;
 
 /// Area of a mouth over that of the smallest closure: only coarse walls have smaller flat places.
 constexpr double kLeastMouth = 0.5;
@@ -151,15 +162,53 @@ public:
 
     /// True if the rim lies in its plane.
     bool has_flat_rim(const std::vector<TriangleId>& region) const {
-        const Disc disc = disc_of(region);
-        std::vector<double> heights;
-        for (const TriangleId t : region)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (!std::ranges::binary_search(region, near_[t][k]))
-                    for (const VertexId v : {triangles_[t][k], triangles_[t][(k + 1) % 3]})
-                        heights.push_back((points_[v] - disc.centre).dot(disc.normal));
-        const auto [low, high] = std::ranges::minmax(heights);
-        return high - low <= 2.0 * kFlatRim * std::sqrt(disc.area / std::numbers::pi);
+        const Heights rim = rim_heights(region);
+        return rim.high - rim.low <=
+               2.0 * kFlatRim * std::sqrt(disc_of(region).area / std::numbers::pi);
+    }
+
+    /// The parts of the surface that edges with a turn outward of a crease bound.
+    /// \param turn cosine of the angle of a crease
+    std::vector<std::vector<TriangleId>> parts_between_creases(double turn) const {
+        std::vector<std::vector<TriangleId>> parts;
+        std::vector<bool> taken(triangles_.size(), false);
+        for (TriangleId seed = 0; seed < triangles_.size(); ++seed) {
+            if (taken[seed]) continue;
+            std::vector<TriangleId> part{seed};
+            taken[seed] = true;
+            for (std::size_t i = 0; i < part.size(); ++i)
+                for (const TriangleId t : near_[part[i]])
+                    if (t != kNone && !taken[t] && !is_crease(part[i], t, turn)) {
+                        taken[t] = true;
+                        part.push_back(t);
+                    }
+            std::ranges::sort(part);
+            parts.push_back(std::move(part));
+        }
+        return parts;
+    }
+
+    /// True if a part between creases closes a vessel: only its rim is flat.
+    bool is_dented_cap(const std::vector<TriangleId>& part, const SurfaceDistance& surface) const {
+        if (part.size() < kOnKnob || !is_disc(part, kRim) || !has_flat_rim(part)) return false;
+        const auto [centre, normal, area] = disc_of(part);
+        const double planar = enclosed_area(part), radius = std::sqrt(planar / std::numbers::pi);
+        const Heights rim = rim_heights(part);
+        if (rim.edges < kFewestCreases) return false;
+        for (const TriangleId t : part)
+            for (const VertexId v : triangles_[t]) {
+                const double height = (points_[v] - centre).dot(normal);
+                if (std::max(rim.low - height, height - rim.high) > kDeepestDent * radius)
+                    return false;
+            }
+        return lumen_behind(part, surface) < kWidestLumen;
+    }
+
+    /// The area inside the rim, whatever the triangles between do.
+    double enclosed_area(const std::vector<TriangleId>& region) const {
+        Vec3 sum = Vec3::Zero();
+        for (const TriangleId t : region) sum += areas_[t] * normals_[t];
+        return sum.norm();
     }
 
     double area(const std::vector<TriangleId>& region) const {
@@ -179,6 +228,40 @@ private:
         Vec3 centre, normal;
         double area = 0.0;
     };
+
+    /// Of a rim, over the disc's middle in the direction of its normal [mm].
+    struct Heights {
+        double low = 0.0, high = 0.0;
+        std::size_t edges = 0;
+    };
+
+    Heights rim_heights(const std::vector<TriangleId>& region) const {
+        const Disc disc = disc_of(region);
+        Heights heights{std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity()};
+        for (const TriangleId t : region)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (!std::ranges::binary_search(region, near_[t][k]))
+                    for (const VertexId v : {triangles_[t][k], triangles_[t][(k + 1) % 3]}) {
+                        heights.edges += v == triangles_[t][k] ? 1 : 0;
+                        const double height = (points_[v] - disc.centre).dot(disc.normal);
+                        heights.low = std::min(heights.low, height);
+                        heights.high = std::max(heights.high, height);
+                    }
+        return heights;
+    }
+
+    /// True if the surface turns outward, away from both triangles, by more than a crease.
+    bool is_crease(TriangleId a, TriangleId b, double turn) const {
+        if (!(areas_[a] > 0.0 && areas_[b] > 0.0) || normals_[a].dot(normals_[b]) >= turn)
+            return false;
+        return (middle(b) - middle(a)).dot(normals_[a]) < 0.0;
+    }
+
+    Vec3 middle(TriangleId t) const {
+        return (points_[triangles_[t][0]] + points_[triangles_[t][1]] + points_[triangles_[t][2]]) /
+               3.0;
+    }
 
     Disc disc_of(const std::vector<TriangleId>& region) const {
         Disc disc{Vec3::Zero(), Vec3::Zero()};
@@ -222,6 +305,24 @@ private:
     std::uint32_t visit_ = 0;
 };
 
+/// Caps that are not flat, but whose sharp rims are.
+/// \param found by triangle: in a disc; on return also in one of these
+std::vector<std::vector<TriangleId>> dented_caps(const Search& search,
+                                                 const SurfaceDistance& surface,
+                                                 std::vector<bool>& found) {
+    std::vector<std::vector<TriangleId>> caps;
+    const double least = kLeastShare * search.whole_area();
+    for (const double turn : kCreases)
+        for (auto& part : search.parts_between_creases(turn)) {
+            if (search.enclosed_area(part) < least || !search.is_dented_cap(part, surface))
+                continue;
+            if (std::ranges::any_of(part, [&](TriangleId t) { return found[t]; })) continue;
+            for (const TriangleId t : part) found[t] = true;
+            caps.push_back(std::move(part));
+        }
+    return caps;
+}
+
 /// Drops the mouths that became part of a closure or are much smaller than all of them.
 void keep_mouths(const Search& search, FlatDiscs& discs, const std::vector<bool>& in_closure) {
     double least = std::numeric_limits<double>::infinity();
@@ -250,7 +351,7 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
         auto region = search.grow(t, taken);
         const double planar = search.area(region);
         // A disc has at least as many triangles as a hexagon, and is not tiny.
-        if (region.size() < 4 || planar < 1e-5 * whole) continue;
+        if (region.size() < 4 || planar < kLeastShare * whole) continue;
         const double turn = region.size() < kOnKnob ? kRim : kPlanarRim;
         if (!search.closes_vessel(region, turn, surface)) {
             if (search.is_disc(region, turn) && std::isfinite(search.lumen_behind(region, surface)))
@@ -267,6 +368,10 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
         for (const TriangleId r : region) taken[r] = found[r] = true;
         flat += search.area(region);
         discs.closures.push_back(std::move(region));
+    }
+    for (auto& cap : dented_caps(search, surface, found)) {
+        flat += search.area(cap);
+        discs.closures.push_back(std::move(cap));
     }
     if (flat > kMostFlat * whole || discs.closures.empty()) return {};
     keep_mouths(search, discs, found);

@@ -145,8 +145,8 @@ Skeleton skeleton_of(const LumenGrid& grid, std::span<const VoxelId> voxels) {
     return skeleton;
 }
 
-double significance(const LumenGrid& grid, const Skeleton& skeleton, std::size_t branch,
-                    std::size_t tip, const BlindBranchRule& rule) {
+BlindReach blind_reach(const LumenGrid& grid, const Skeleton& skeleton, std::size_t branch,
+                       std::size_t tip) {
     const SkeletonBranch& b = skeleton.branches[branch];
     std::vector<VoxelId> path = b.path;
     if (b.from == tip) std::reverse(path.begin(), path.end());
@@ -155,32 +155,38 @@ double significance(const LumenGrid& grid, const Skeleton& skeleton, std::size_t
     while (exit > 0 && !within_parent(grid, skeleton, branch, root, grid.centre(path[exit]))) {
         --exit;
     }
-    double length = 0.0;
-    double widest = grid.depth[path.back()];
+    BlindReach reach{.root = skeleton.nodes[root],
+                     .exit = path[exit],
+                     .tip = path.back(),
+                     .length = grid.depth[path.back()],
+                     .widest = grid.depth[path.back()]};
     for (std::size_t i = exit; i + 1 < path.size(); ++i) {
-        length += step_length(grid, path[i], path[i + 1]);
-        if (i > exit) widest = std::max<double>(widest, grid.depth[path[i]]);
+        reach.length += step_length(grid, path[i], path[i + 1]);
+        if (i > exit) reach.widest = std::max<double>(reach.widest, grid.depth[path[i]]);
     }
-    if (widest > rule.widest) return 0.0;
-    length += grid.depth[path.back()];
-    const double least =
-        std::max(rule.beyond_parent * grid.depth[skeleton.nodes[root]], rule.slenderness * widest);
-    return length / least;
+    return reach;
 }
 
-std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
-                           const CurveAnchors& anchors, const BlindBranchRule& rule,
-                           const Progress& cancel) {
+double significance(const LumenGrid& grid, const BlindReach& reach, const BlindBranchRule& rule) {
+    if (reach.widest > rule.widest) return 0.0;
+    const double least =
+        std::max(rule.beyond_parent * grid.depth[reach.root], rule.slenderness * reach.widest);
+    return reach.length / least;
+}
+
+PrunedCurve prune(const LumenGrid& grid, std::vector<VoxelId> curve, const CurveAnchors& anchors,
+                  const BlindBranchRule& rule, const Progress& cancel) {
     constexpr double kThin = 3.0;  // voxels
     const auto& [fixed, blind, low] = anchors;
     BlindBranchRule low_rule = rule;
     low_rule.widest = kThin * grid.spacing;
+    std::vector<BlindReach> dropped;
     for (;;) {
         cancel.check_cancelled();
         const Skeleton skeleton = skeleton_of(grid, curve);
         const auto degree = skeleton.degrees();
         double least = 1.0;
-        std::optional<VoxelId> weakest;
+        std::optional<BlindReach> weakest;
         for (std::size_t b = 0; b < skeleton.branches.size(); ++b) {
             const auto& branch = skeleton.branches[b];
             for (const auto& [tip, root] :
@@ -189,20 +195,22 @@ std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
                 if (degree[tip] != 1 || degree[root] < 3) continue;
                 if (std::find(blind.begin(), blind.end(), v) == blind.end()) continue;
                 const bool is_low = std::ranges::find(low, v) != low.end();
-                const double s = significance(grid, skeleton, b, tip, is_low ? low_rule : rule);
+                const BlindReach reach = blind_reach(grid, skeleton, b, tip);
+                const double s = significance(grid, reach, is_low ? low_rule : rule);
                 if (s < least) {
                     least = s;
-                    weakest = v;
+                    weakest = reach;
                 }
             }
         }
         if (!weakest) break;
-        std::erase(blind, *weakest);
+        dropped.push_back(*weakest);
+        std::erase(blind, weakest->tip);
         std::vector<VoxelId> kept(fixed.begin(), fixed.end());
         kept.insert(kept.end(), blind.begin(), blind.end());
         curve = thin(grid, curve, kept, cancel);
     }
-    return curve;
+    return {std::move(curve), std::move(dropped)};
 }
 
 std::vector<Summit> summits(const LumenGrid& grid, std::span<const float> geodesic, double height,

@@ -35,11 +35,23 @@ struct BlindBranchRule {
     double widest = std::numeric_limits<double>::infinity();  ///< wider ones are none [mm]
 };
 
+/// A blind branch beyond its parent's inscribed spheres.
+struct BlindReach {
+    VoxelId root = 0;     ///< of the furcation
+    VoxelId exit = 0;     ///< the last voxel within the parent
+    VoxelId tip = 0;      ///< its end
+    double length = 0.0;  ///< from the parent's spheres to the wall at the tip [mm]
+    double widest = 0.0;  ///< largest depth out there [mm]
+};
+
+/// \param tip index of the branch's end node; the other end is a furcation
+[[nodiscard]] BlindReach blind_reach(const LumenGrid& grid, const Skeleton& skeleton,
+                                     std::size_t branch, std::size_t tip);
+
 /// Ratio of the length beyond the parent to that minimum; below 1 the branch is a bump or a sac; 0
 /// if it is too wide.
-/// \param tip index of the branch's end node; the other end is a furcation
-[[nodiscard]] double significance(const LumenGrid& grid, const Skeleton& skeleton,
-                                  std::size_t branch, std::size_t tip, const BlindBranchRule& rule);
+[[nodiscard]] double significance(const LumenGrid& grid, const BlindReach& reach,
+                                  const BlindBranchRule& rule);
 
 /// Anchors of a curve's ends.
 struct CurveAnchors {
@@ -49,12 +61,18 @@ struct CurveAnchors {
     std::span<const VoxelId> low = {};
 };
 
-/// The curve without insignificant blind branches, removed in ascending order of significance.
+/// A curve without its insignificant blind branches.
+struct PrunedCurve {
+    std::vector<VoxelId> voxels;
+    std::vector<BlindReach> dropped;  ///< the branches that went
+};
+
+/// Removes them in ascending order of significance.
 /// \param anchors on return the remaining ones
 /// \throw Cancelled if the user cancels
-[[nodiscard]] std::vector<VoxelId> prune(const LumenGrid& grid, std::vector<VoxelId> curve,
-                                         const CurveAnchors& anchors, const BlindBranchRule& rule,
-                                         const Progress& cancel);
+[[nodiscard]] PrunedCurve prune(const LumenGrid& grid, std::vector<VoxelId> curve,
+                                const CurveAnchors& anchors, const BlindBranchRule& rule,
+                                const Progress& cancel);
 
 /// A maximum of the geodesic distance.
 struct Summit {

@@ -20,10 +20,6 @@ constexpr double kWidestSection = 2.0;  ///< diameter over that of the inscribed
 constexpr double kLeastRoundness = 0.3;
 /// What a cut may remove beyond its tip [diameters].
 constexpr double kLongestLoss = 3.0;
-/// What is narrower by this factor up to its tip, and ends within the vessel's own diameter, is a
-/// pimple of the vessel [-].
-constexpr double kPimple = 3.0;
-constexpr int kPimpleSteps = 200;
 /// An open rim this wide beside a cut [-] is an end of its own, unless both were torn off one end:
 /// they face the same way within this angle [deg], and are this close [sums of their diameters].
 constexpr double kWideRim = 0.5;
@@ -59,24 +55,10 @@ std::string CutTrials::shape_problem(const SectionCurve& curve, const OpeningPla
 /// A speck of noise on a vessel's closed end is no vessel: the line runs through it to its tip.
 std::string CutTrials::pimple_problem(const OpeningPlace& place, std::size_t end) const {
     if (!ends_[end].tip || ends_[end].is_visible()) return "";
-    const std::size_t tip = *ends_[end].tip, index = branch_of_tip(graph_, tip);
-    const CenterlineBranch& branch = graph_.branches[index];
-    const double whole = branch_length(branch);
-    const double own = whole - furcation_zone_end(graph_, index, other_node(graph_, index, tip));
-    const double step = own / kPimpleSteps;
-    std::vector<double> radii;
-    for (int k = 0; k <= kPimpleSteps; ++k)
-        radii.push_back(radius_at(branch, place_from_node(graph_, index, tip, k * step).abscissa));
-    double widest = 0.0;  // so far
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        widest = std::max(widest, radii[i]);
-        if (static_cast<double>(i) * step < place.distance) continue;
-        for (std::size_t j = i + 1; j < radii.size(); ++j)
-            if (radii[j] > kPimple * widest && static_cast<double>(j - i) * step < 2.0 * radii[j])
-                return "a cut there would open a pimple of a vessel " + formatted(2.0 * radii[j]) +
-                       " mm wide";
-    }
-    return "";
+    const auto pimple = pimple_at(graph_, *ends_[end].tip, place.distance);
+    return pimple ? "a cut there would open a pimple of a vessel " +
+                        formatted(2.0 * pimple->radius) + " mm wide"
+                  : "";
 }
 
 std::string CutTrials::flood(const SectionCurve& curve) {
@@ -169,6 +151,14 @@ std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
 void CutTrials::take() {
     for (const VertexId v : removed_) use_[v] = Use::Gone;
     for (const VertexId v : strip_) use_[v] = Use::Guarded;
+}
+
+bool CutTrials::is_whole_cap(const SurfaceEnd& end) const {
+    for (TriangleId t = 0; end.patch && t < surface_.triangle_count(); ++t)
+        if ((*surface_.patch_labels)[t] == *end.patch)
+            for (const VertexId v : surface_.triangles()[t])
+                if (use_[v] == Use::Gone) return false;
+    return end.patch.has_value();
 }
 
 void CutTrials::protect(const SurfaceEnd& end) {

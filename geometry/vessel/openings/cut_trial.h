@@ -27,6 +27,9 @@ public:
     /// Keeps other cuts away from the one of the last problem_of.
     void take();
 
+    /// True if no cut that was taken reaches an end's cap.
+    [[nodiscard]] bool is_whole_cap(const SurfaceEnd& end) const;
+
     /// Keeps cuts away from an end's rim or cap.
     void protect(const SurfaceEnd& end);
 

@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/cut_trial.h"
 #include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 
 namespace vesselbench {
 
@@ -130,11 +131,23 @@ private:
 
     [[nodiscard]] Judgement judgement(const OpeningPlanOptions& options) const {
         try {
+            if (!options.stubs.empty() && options.open.size() > options_.open.size())
+                return judgement_with_lines(options);
             const OpeningPlan plan = plan_openings(surface_, graph_, options, cancel_);
             return flow_problem(plan).text.empty() ? Judgement::Good : Judgement::Insufficient;
         } catch (const AlgorithmFailure&) {
             return Judgement::Impossible;
         }
+    }
+
+    /// The same where the ends to be opened may need lines of their own.
+    [[nodiscard]] Judgement judgement_with_lines(OpeningPlanOptions options) const {
+        Positions wanted = options.open;
+        wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
+        LinesAndStubs lines = lines_to_ends(surface_, wanted, cancel_);
+        options.stubs = std::move(lines.stubs);
+        const OpeningPlan plan = plan_openings(surface_, *lines.graph, options, cancel_);
+        return flow_problem(plan).text.empty() ? Judgement::Good : Judgement::Insufficient;
     }
 
     /// Opens one end after the other until it is enough.
@@ -161,7 +174,7 @@ private:
         for (const EndRecord& end : problem_.ends) {
             cancel_.check_cancelled();
             const auto e = end_near(ends, end.place);
-            if (end.sac || !e || !ends[*e].tip) continue;
+            if (end.sac || end.unlined || !e || !ends[*e].tip) continue;
             const auto place =
                 nearest_opening_place(surface_, graph_, *ends[*e].tip, [&](const OpeningPlace& at) {
                     cancel_.check_cancelled();

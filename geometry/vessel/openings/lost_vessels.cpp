@@ -9,6 +9,7 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/rim_shape.h"
+#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
@@ -72,7 +73,7 @@ public:
             if (missing[b].empty()) continue;
             if (!missing[b].front()) places_[branch.start_node].is_root = true;
             if (!missing[b].back()) places_[branch.end_node].is_root = true;
-            add_stretches(branch, missing[b]);
+            add_stretches(branch, missing[b], widths_of(graph, branch));
         }
         stretches_at_.resize(places_.size());
         for (std::size_t s = 0; s < stretches_.size(); ++s) {
@@ -100,7 +101,24 @@ private:
         bool is_root = false;  ///< next to what is left
     };
 
-    void add_stretches(const CenterlineBranch& branch, const Flags& missing) {
+    /// Radii along a branch [mm]; a pimple at its tip is no vessel of its own.
+    static std::vector<double> widths_of(const CenterlineGraph& graph,
+                                         const CenterlineBranch& branch) {
+        std::vector<double> widths = branch.radii;
+        const std::vector<double> s = abscissas(branch);
+        for (const std::size_t tip : {branch.start_node, branch.end_node}) {
+            if (!graph.nodes[tip].is_tip()) continue;
+            const auto pimple = pimple_at(graph, tip);
+            for (std::size_t i = 0; pimple && i < s.size(); ++i)
+                if ((tip == branch.start_node ? s[i] : s.back() - s[i]) <= pimple->length)
+                    widths[i] = pimple->radius;
+        }
+        return widths;
+    }
+
+    /// \param widths radii [mm]
+    void add_stretches(const CenterlineBranch& branch, const Flags& missing,
+                       const std::vector<double>& widths) {
         const std::vector<double> s = abscissas(branch);
         for (std::size_t i = 0; i < s.size(); ++i) {
             std::size_t end = i;
@@ -113,7 +131,7 @@ private:
                                             ? static_cast<std::uint32_t>(branch.end_node)
                                             : root_at(branch.points[last]),
                                   .length = s[last] - s[i],
-                                  .diameter = 2.0 * branch.radii[middle],
+                                  .diameter = 2.0 * widths[middle],
                                   .middle = branch.points[middle]});
             i = last;
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/openings/unlined_ends.h"
 
 namespace vesselbench {
 
@@ -77,6 +79,11 @@ public:
             records_[e] = record_of(ends_[e]);
             in_side_.push_back(lies_in_side(e));
         }
+        if (options.tip) return;
+        for (const UnlinedEnd& end : unlined_ends(surface, graph, options.stubs, ends_)) {
+            unlined_.push_back(record_of(end));
+            unlined_.back().asked = options.leave_closed;
+        }
     }
 
     OpeningPlan run() {
@@ -93,11 +100,42 @@ public:
 private:
     /// A torn rim is longer than it is wide; a hole in a vessel's side is narrower than the vessel.
     EndRecord record_of(const SurfaceEnd& end) const {
-        if (end.rim.empty()) return {.place = end.centre, .diameter = end.diameter};
+        if (end.rim.empty())
+            return {.place = end.centre,
+                    .diameter = end.diameter,
+                    .border = options_.border_cuts && end.patch &&
+                              surface_.patches[*end.patch].kind == PatchKind::Cut};
         const double width = rim_shape(surface_, end.rim).diameter();
         return {.place = end.centre,
                 .diameter = end.tip ? std::min(end.diameter, width) : width,
                 .rim = true};
+    }
+
+    static EndRecord record_of(const UnlinedEnd& end) {
+        return {.place = end.place,
+                .diameter = end.diameter,
+                .why = std::string(end.sac ? "it looks like an aneurysm, and is" : "it is") +
+                       " too short for a centerline, " + formatted(end.length) +
+                       " mm beyond the vessels around; open=" + coordinates_argument(end.place) +
+                       " opens it",
+                .sac = end.sac,
+                .offered = true,
+                .unlined = true};
+    }
+
+    /// The end without a line that a point means: it is near, and nearer than all others.
+    EndRecord* unlined_near(const Vec3& point) {
+        const auto end = end_near(ends_, point);
+        double least =
+            end ? (ends_[*end].centre - point).norm() : std::numeric_limits<double>::infinity();
+        EndRecord* found = nullptr;
+        for (EndRecord& record : unlined_)
+            if (const double d = (record.place - point).norm();
+                d < least && d <= kUnlinedReach * record.diameter) {
+                least = d;
+                found = &record;
+            }
+        return found;
     }
 
     std::size_t end_of_tip(std::size_t tip) const {
@@ -206,6 +244,11 @@ private:
 
     void leave_closed() {
         for (const Vec3& point : options_.closed) {
+            if (EndRecord* unlined = unlined_near(point)) {
+                unlined->asked = true;
+                unlined->why = "left closed as asked";
+                continue;
+            }
             const auto end = end_near(ends_, point);
             if (!end)
                 throw AlgorithmFailure("no vessel ends near closed=" + coordinates_argument(point));
@@ -473,7 +516,25 @@ private:
         const auto place = place_along_rim(e);
         if (place && is_free(*place, e)) return make_cut(e, *place, "cut along its rim: " + why);
         records_[e].why = why;
-        return false;
+        return keep_oblique(e);
+    }
+
+    /// The last resort at an image's border: a vessel ends there, even if its furcation is so near
+    /// that no place for a cut across it is left.
+    bool keep_oblique(std::size_t e) {
+        const SurfaceEnd& end = ends_[e];
+        if (!records_[e].border || !end.tip || !rises(*end.patch) || !trials_.is_whole_cap(end))
+            return false;
+        const PatchShape shape = patch_shape(surface_, *end.patch);
+        const auto axis = axis_at_patch(surface_, *end.patch);
+        const OpeningPlace place = place_on(shape.plane, shape.diameter(), tip_place(end), axis);
+        if (!is_flat(shape) || has_failed(e, place.plane.point)) return false;
+        make(e, place, OpeningWay::KeepCap, EndFate::Kept,
+             "its cap at the image's border was kept, though it is not perpendicular to the "
+             "vessel: " +
+                 records_[e].why);
+        trials_.protect(end);
+        return true;
     }
 
     /// True for a rim that may not vanish (kLargeEnd).
@@ -634,6 +695,7 @@ private:
         }
         plan_.ends = records_;
         add_threads();
+        plan_.ends.insert(plan_.ends.end(), unlined_.begin(), unlined_.end());
         const auto rank = [](const EndRecord& end) {
             return std::tuple(end.plain, end.fate, -end.diameter);
         };
@@ -663,6 +725,9 @@ private:
     /// (lost_vessels).
     static constexpr double kMostGivenUp = 2.8;
 
+    /// A point this far from an end without a centerline does not mean it [diameters].
+    static constexpr double kUnlinedReach = 1.5;
+
     /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
     static constexpr double kLongestAcross = 3.0;
 
@@ -676,6 +741,7 @@ private:
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
     std::vector<bool> in_side_;                        ///< by end: no vessel ends there
+    std::vector<EndRecord> unlined_;                   ///< of ends without a centerline
     CutTrials trials_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "geometry/vessel/centerlines/stubs.h"
 #include "geometry/vessel/openings/fading_ends.h"
 #include "geometry/vessel/openings/opening_place.h"
 
@@ -49,12 +50,14 @@ struct EndRecord {
     EndFate fate = EndFate::Closed;
     std::string why;       ///< may be empty: opened at the chosen place
     bool rim = false;      ///< an open border of the surface
+    bool border = false;   ///< a cap where an image's border cuts a vessel
     bool shared = false;   ///< removed with the cut of another end, of which it is a part
     bool plain = false;    ///< kept, or opened at the chosen place
     bool sac = false;      ///< it looks like an aneurysm: closed, however wide
     bool asked = false;    ///< closed since the caller wants it so
     bool tried = false;    ///< closed since it could not be cut
     bool offered = false;  ///< closed by a rule: `open` may open it, as `why` says
+    bool unlined = false;  ///< it has no centerline yet (unlined_ends): `open` needs one
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 
@@ -92,6 +95,7 @@ struct OpeningPlanOptions {
     Positions open;    ///< near ends that have to be opened, though they may look closed [mm]
     Positions closed;  ///< near the ends that stay closed [mm]
     std::vector<FailedCut> failed;  ///< places to be avoided
+    std::vector<Stub> stubs;        ///< without a line: they stay closed (lines_to_ends)
 };
 
 /// Ends at least this wide beside the largest opening count as large [-].
@@ -117,7 +121,8 @@ inline constexpr double kEndReach = 1.5;
 /// others are open and one of them is wider. A trunk that frays is one end (without_frays), unless
 /// `tip` is given. Every other end is cut at the chosen place
 /// (choose_opening_place); else at the nearest place with a whole section; else its branch is
-/// removed if it is a stub, shorter than its parent is wide; else it is closed as wall. \throw
+/// removed if it is a stub, shorter than its parent is wide; else it is closed as wall. Ends
+/// without a centerline are listed as closed. \throw
 /// AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip` or one
 /// of `inlets` or `open` cannot be opened; Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,

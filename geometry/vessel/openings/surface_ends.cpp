@@ -33,6 +33,10 @@ constexpr double kBallLength = 1.5;
 /// Its sections' diameters rise by this factor; those of short vessels in voxels by at most 1.13.
 constexpr double kBallSections = 1.2;
 constexpr int kSections = 20;
+/// What is narrower by this factor up to its tip, and ends within the vessel's own diameter, is a
+/// pimple of the vessel [-].
+constexpr double kPimple = 3.0;
+constexpr int kPimpleSteps = 200;
 /// A stub is shorter than this many of its parent's diameters.
 constexpr double kStubShare = 1.0;
 
@@ -169,15 +173,39 @@ std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const Centerli
             taken.insert(*end.tip);
             end.diameter = 2.0 * tip_radius(graph, *end.tip);
         }
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-        if (graph.nodes[n].is_tip() && !taken.contains(n))
-            ends.push_back({.centre = graph.nodes[n].position,
-                            .diameter = 2.0 * tip_radius(graph, n),
-                            .patch = std::nullopt,
-                            .rim = {},
-                            .tip = n,
-                            .vertex = nearest_vertex(surface, graph.nodes[n].position)});
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+        if (!graph.nodes[n].is_tip() || taken.contains(n)) continue;
+        const auto pimple = pimple_at(graph, n);
+        ends.push_back({.centre = graph.nodes[n].position,
+                        .diameter = 2.0 * (pimple ? pimple->radius : tip_radius(graph, n)),
+                        .patch = std::nullopt,
+                        .rim = {},
+                        .tip = n,
+                        .vertex = nearest_vertex(surface, graph.nodes[n].position)});
+    }
     return ends;
+}
+
+std::optional<Pimple> pimple_at(const CenterlineGraph& graph, std::size_t tip, double from) {
+    const std::size_t index = branch_of_tip(graph, tip);
+    const CenterlineBranch& branch = graph.branches[index];
+    const double whole = branch_length(branch);
+    const double own = whole - furcation_zone_end(graph, index, other_node(graph, index, tip));
+    const double step = own / kPimpleSteps;
+    std::vector<double> radii;
+    for (int k = 0; k <= kPimpleSteps; ++k)
+        radii.push_back(radius_at(branch, place_from_node(graph, index, tip, k * step).abscissa));
+    Pimple found;
+    double widest = 0.0;  // so far
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        widest = std::max(widest, radii[i]);
+        const double length = static_cast<double>(i) * step;
+        if (length < from) continue;
+        for (std::size_t j = i + 1; j < radii.size(); ++j)
+            if (radii[j] > kPimple * widest && static_cast<double>(j - i) * step < 2.0 * radii[j])
+                found = {.radius = std::max(found.radius, radii[j]), .length = length};
+    }
+    return found.radius > 0.0 ? std::optional(found) : std::nullopt;
 }
 
 std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends, const Vec3& point) {

@@ -56,6 +56,19 @@ struct BlindBranch {
 [[nodiscard]] std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph,
                                                       std::size_t tip);
 
+/// A thread of the lumen at a vessel's closed end, such as a speck of noise or the groove around a
+/// dent: the line runs through it to its tip, but the end is that of the vessel.
+struct Pimple {
+    double radius = 0.0;  ///< of the vessel behind it [mm]
+    double length = 0.0;  ///< from the tip [mm]
+};
+
+/// A stretch at a closed tip that is thinner by a factor of 3 than the vessel within the vessel's
+/// own diameter; empty if there is none.
+/// \param from inner end of the shortest stretch looked at, from the tip [mm]
+[[nodiscard]] std::optional<Pimple> pimple_at(const CenterlineGraph& graph, std::size_t tip,
+                                              double from = 0.0);
+
 /// True for a sac that hardly protrudes, by its sections: at most 1.5 radii of it lie beyond the
 /// vessels around, and it is wider than its neck.
 [[nodiscard]] bool is_ball(const Surface& surface, const CenterlineGraph& graph, std::size_t tip);
