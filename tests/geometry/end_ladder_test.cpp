@@ -500,8 +500,10 @@ SCENARIO("A trunk that a dome closes just before its bifurcation is no end that 
         CHECK(end.diameter == Approx(4.0).epsilon(0.15));
         CHECK(end.fate == EndFate::Closed);
         CHECK(plan.openings.size() == 2);
-        CHECK_THROWS_WITH(check_flow(plan, closed, *lines.graph, options),
-                          Contains("the largest end") && Contains("clip-opening open="));
+        // An aneurysm on a bend looks the same: a warning names it, and the flow may do without.
+        CHECK_FALSE(end.plain);
+        CHECK_THAT(end.why, Contains("open="));
+        CHECK(why_no_flow(plan).empty());
         const LinesAndStubs asked = lines_to_ends(closed, {end.place});
         CHECK(plan_openings(closed, *asked.graph, {.open = {end.place}, .stubs = asked.stubs})
                   .openings.size() == 3);

@@ -184,7 +184,7 @@ SCENARIO("A step of a voxel mask is no cap", "[geometry][openings]") {
 SCENARIO("Capped models without labels keep their ends", "[geometry][openings][data]") {
     for (const auto& [name, caps] :
          {std::pair("surfaces/jk_carotid_left_lumen_capped.stl", 3),
-          std::pair("surfaces/vasp_small_aneurysm_fluidboundary.vtp", 2)}) {
+          std::pair("surfaces/vasp_small_aneurysm_fluidboundary.vtp", 3)}) {
         CAPTURE(name);
         const std::string file = shared_data(name);
         if (file.empty()) return;

@@ -80,7 +80,8 @@ FlowProblem flow_problem(const OpeningPlan& plan) {
         return problem;
     }
     std::erase_if(problem.ends, [&](const EndRecord& end) {
-        return !is_large_rim(plan, end) && (end.sac || !is_wider_than_all_openings(plan, end));
+        return !is_large_rim(plan, end) &&
+               (end.sac || end.unlined || !is_wider_than_all_openings(plan, end));
     });
     if (problem.ends.empty()) return problem;
     const EndRecord& end = problem.ends.front();
