@@ -11,8 +11,8 @@ namespace vesselbench {
 [[nodiscard]] double widest_opening(const OpeningPlan& plan);
 
 /// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
-/// needs two openings, and no end without one, unless it is a sac, has no centerline or is asked for,
-/// that is wider than all of them (kAsLarge), or an open rim that is large (kLargeEnd).
+/// needs two openings, and no end without one, unless it is a sac, has no centerline or is asked
+/// for, that is wider than all of them (kAsLarge), or an open rim that is large (kLargeEnd).
 [[nodiscard]] std::string why_no_flow(const OpeningPlan& plan);
 
 /// \param options that made the plan
