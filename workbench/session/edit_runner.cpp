@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -68,13 +69,13 @@ void note_difference(ResultRecord& record, const SurfaceChange& before) {
     if (!text.empty()) record.warnings.push_back(std::move(text));
 }
 
-/// The result with which a revision that has run made its choices.
-ResultId first_result(const History& history, EditRef edit) {
+/// The result with which a revision made its choices; empty if none of its runs succeeded.
+std::optional<ResultId> first_result(const History& history, EditRef edit) {
     const auto& results = history.results();
     const auto first = std::ranges::find_if(results, [&](const auto& result) {
         return result.second.edit == edit && result.second.stale_reason.empty();
     });
-    return first->first;
+    return first == results.end() ? std::nullopt : std::optional(first->first);
 }
 
 /// True for an edit that chose places by itself.
@@ -137,8 +138,9 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
         const Operation& operation = options_->find(edit.operation);
         EditRun done = run(operation, input, located(operation, ref, arguments), progress);
         if (!record) return done;
-        if (chose_places(operation, edit.given, record->resolved))
-            keep_findings(done.record, *store_->record(first_result(store_->history(), ref)));
+        const auto first = first_result(store_->history(), ref);
+        if (first && chose_places(operation, edit.given, record->resolved))
+            keep_findings(done.record, *store_->record(*first));
         if (record->stale_reason.empty()) note_difference(done.record, record->change);
         return done;
     } catch (const AlgorithmFailure& error) {
