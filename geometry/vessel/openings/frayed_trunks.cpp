@@ -61,8 +61,9 @@ public:
 private:
     /// Empty if the branch is no bridge, or if this side cannot be a fray.
     [[nodiscard]] std::optional<Side> side_of(std::size_t bridge, std::size_t node) const {
+        if (graph_.nodes[node].branches.size() < 3) return std::nullopt;
         const auto diameter = trunk_diameter(bridge, node);
-        if (graph_.nodes[node].branches.size() < 3 || !diameter) return std::nullopt;
+        if (!diameter) return std::nullopt;
         Side side{.bridge = bridge,
                   .node = node,
                   .branches = std::vector<bool>(graph_.branches.size(), false),
