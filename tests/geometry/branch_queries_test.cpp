@@ -5,20 +5,12 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/support/straight_branch.h"
 
 using namespace vesselbench;
+using namespace vesselbench::test;
 
 namespace {
-
-CenterlineBranch straight(std::size_t from, std::size_t to, const Vec3& a, const Vec3& b,
-                          double radius) {
-    CenterlineBranch branch{from, to, {}, {}};
-    for (int i = 0; i <= 100; ++i) {
-        branch.points.push_back(a + (b - a) * (i / 100.0));
-        branch.radii.push_back(radius);
-    }
-    return branch;
-}
 
 /// Parent of radius 2 along x from -20 to 0, a daughter of radius 2 on to 20, one of 1 along y.
 CenterlineGraph tree() {
@@ -27,9 +19,9 @@ CenterlineGraph tree() {
                    {{0, 0, 0}, 2.0, {0, 1, 2}},
                    {{20, 0, 0}, 2.0, {1}},
                    {{0, 30, 0}, 1.0, {2}}};
-    graph.branches = {straight(0, 1, {-20, 0, 0}, {0, 0, 0}, 2.0),
-                      straight(1, 2, {0, 0, 0}, {20, 0, 0}, 2.0),
-                      straight(3, 1, {0, 30, 0}, {0, 0, 0}, 1.0)};
+    graph.branches = {straight_branch(0, 1, {-20, 0, 0}, {0, 0, 0}, 2.0),
+                      straight_branch(1, 2, {0, 0, 0}, {20, 0, 0}, 2.0),
+                      straight_branch(3, 1, {0, 30, 0}, {0, 0, 0}, 1.0)};
     return graph;
 }
 

@@ -6,27 +6,17 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/shapes.h"
+#include "tests/support/straight_branch.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
 
-/// A straight branch; the radius is a function of the share of its length.
-CenterlineBranch straight(std::size_t from, std::size_t to, const Vec3& a, const Vec3& b,
-                          const std::function<double(double)>& radius) {
-    CenterlineBranch branch{from, to, {}, {}};
-    for (int i = 0; i <= 200; ++i) {
-        branch.points.push_back(a + (b - a) * (i / 200.0));
-        branch.radii.push_back(radius(i / 200.0));
-    }
-    return branch;
-}
-
 /// One vessel from the origin, whose tip is node 1.
 CenterlineGraph vessel(const Vec3& to, const std::function<double(double)>& radius) {
     CenterlineGraph graph;
-    graph.branches = {straight(0, 1, Vec3::Zero(), to, radius)};
+    graph.branches = {straight_branch(0, 1, Vec3::Zero(), to, radius)};
     graph.nodes = {{Vec3::Zero(), radius(0.0), {0}}, {to, radius(1.0), {0}}};
     return graph;
 }
@@ -35,7 +25,8 @@ CenterlineGraph vessel(const Vec3& to, const std::function<double(double)>& radi
 CenterlineGraph two_vessels(const Vec3& a, const Vec3& tip_a, const Vec3& b, const Vec3& tip_b) {
     const auto radius = [](double) { return 1.0; };
     CenterlineGraph graph;
-    graph.branches = {straight(0, 1, a, tip_a, radius), straight(2, 3, b, tip_b, radius)};
+    graph.branches = {straight_branch(0, 1, a, tip_a, radius),
+                      straight_branch(2, 3, b, tip_b, radius)};
     graph.nodes = {{a, 1.0, {0}}, {tip_a, 1.0, {0}}, {b, 1.0, {1}}, {tip_b, 1.0, {1}}};
     return graph;
 }

@@ -15,6 +15,7 @@
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
+#include "tests/support/straight_branch.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -41,26 +42,16 @@ Surface frayed_vessel(double thread) {
     return repair(iso_surface(field, {Vec3(-20, -9, -60), Vec3(20, 9, 26)}, 0.3)).surface;
 }
 
-CenterlineBranch straight(std::size_t from, std::size_t to, const Vec3& a, const Vec3& b,
-                          double radius) {
-    CenterlineBranch branch{from, to, {}, {}};
-    for (int i = 0; i <= 100; ++i) {
-        branch.points.push_back(a + (b - a) * (i / 100.0));
-        branch.radii.push_back(radius);
-    }
-    return branch;
-}
-
 /// A trunk of radius 4 over `length` along x to the origin, and threads from there.
 CenterlineGraph trunk_with(double length, const std::vector<std::pair<Vec3, double>>& threads) {
     CenterlineGraph graph;
     graph.nodes = {{Vec3(-length, 0, 0), kTrunk, {0}}, {Vec3::Zero(), kTrunk, {0}}};
-    graph.branches = {straight(0, 1, graph.nodes[0].position, Vec3::Zero(), kTrunk)};
+    graph.branches = {straight_branch(0, 1, graph.nodes[0].position, Vec3::Zero(), kTrunk)};
     for (const auto& [tip, radius] : threads) {
         const std::size_t branch = graph.branches.size(), node = graph.nodes.size();
         graph.nodes[1].branches.push_back(branch);
         graph.nodes.push_back({tip, radius, {branch}});
-        graph.branches.push_back(straight(1, node, Vec3::Zero(), tip, radius));
+        graph.branches.push_back(straight_branch(1, node, Vec3::Zero(), tip, radius));
     }
     return graph;
 }

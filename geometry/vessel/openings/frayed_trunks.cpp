@@ -34,11 +34,8 @@ struct Side {
 
 class FraySearch {
 public:
-    FraySearch(const Surface& surface, const CenterlineGraph& graph) : graph_(graph) {
-        meant_.assign(graph.nodes.size(), false);
-        for (const SurfaceEnd& end : find_surface_ends(surface, graph))
-            if (end.tip && end.is_visible()) meant_[*end.tip] = true;
-    }
+    FraySearch(const Surface& surface, const CenterlineGraph& graph)
+        : surface_(surface), graph_(graph) {}
 
     /// Disjoint sides, each a fray.
     [[nodiscard]] std::vector<Side> frays() const {
@@ -48,6 +45,7 @@ public:
                  {graph_.branches[b].start_node, graph_.branches[b].end_node})
                 if (auto side = side_of(b, node); side && is_fray(*side))
                     found.push_back(std::move(*side));
+        if (!found.empty()) drop_meant(found);
         std::ranges::stable_sort(found, {}, &Side::size);
         std::vector<Side> chosen;
         for (const Side& side : found)
@@ -117,10 +115,20 @@ private:
         double section = 0.0;
         for (const std::size_t tip : side.tips) {
             const double ratio = 2.0 * tip_radius(graph_, tip) / side.diameter;
-            if (meant_[tip] || ratio > kWidestThread) return false;
+            if (ratio > kWidestThread) return false;
             section += ratio * ratio;
         }
         return section < kThreadsSection;
+    }
+
+    /// Sides with a rim or cap. Looking for these takes longer than all else here.
+    void drop_meant(std::vector<Side>& sides) const {
+        std::vector<bool> meant(graph_.nodes.size(), false);
+        for (const SurfaceEnd& end : find_surface_ends(surface_, graph_))
+            if (end.tip && end.is_visible()) meant[*end.tip] = true;
+        std::erase_if(sides, [&](const Side& side) {
+            return std::ranges::any_of(side.tips, [&](std::size_t tip) { return meant[tip]; });
+        });
     }
 
     [[nodiscard]] bool is_part_of_wider(const Side& side, const std::vector<Side>& others) const {
@@ -129,8 +137,8 @@ private:
         });
     }
 
+    const Surface& surface_;
     const CenterlineGraph& graph_;
-    std::vector<bool> meant_;  ///< by node: the tip of a rim or cap
 };
 
 /// The lines without some branches, and the nodes that keep none.
