@@ -14,10 +14,12 @@ target_compile_options(vesselbench_options INTERFACE ${WARNINGS} -ffp-contract=o
 target_include_directories(vesselbench_options INTERFACE ${CMAKE_SOURCE_DIR})
 
 # ccache believes in precompiled headers only when told to; without a preprocessor's run of its own a miss costs nothing.
+# It would read all of the precompiled header for every source, hits as well (1.5 s of 190 MB each), did it not know
+# files again by their inodes.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1 ${CCACHE_PROGRAM})
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1 CCACHE_INODECACHE=1 ${CCACHE_PROGRAM})
 endif()
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
