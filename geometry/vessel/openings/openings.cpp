@@ -9,7 +9,6 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/blind_ends.h"
 #include "geometry/vessel/openings/end_opener.h"
-#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/named_ends.h"
 #include "geometry/vessel/openings/plan_draft.h"
 
@@ -127,22 +126,6 @@ std::size_t end_of_tip(const std::vector<SurfaceEnd>& ends, std::size_t tip) {
     return found == ends.end() ? 0 : static_cast<std::size_t>(found - ends.begin());
 }
 
-/// \param frayed tips of the graph
-OpeningPlan plan_by_lines(const Surface& surface, const CenterlineGraph& graph,
-                          const std::vector<FrayedTrunk>& frayed, const OpeningPlanOptions& options,
-                          const Progress& progress) {
-    PlanDraft draft(surface, graph, frayed, options, progress);
-    Planner planner(draft, progress);
-    if (draft.ends().empty())
-        throw AlgorithmFailure(
-            "no vessel end that could be opened was found: give one with tip=x,y,z");
-    if (options.tip)
-        planner.plan_one(end_of_tip(draft.ends(), tip_to_open(graph, *options.tip)));
-    else
-        planner.plan_all();
-    return draft.finished();
-}
-
 }  // namespace
 
 std::string to_string(EndFate fate) {
@@ -171,9 +154,23 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                           const OpeningPlanOptions& options, const Progress& progress) {
-    if (options.tip) return plan_by_lines(surface, graph, {}, options, progress);
-    const LinesWithoutFrays lines = without_frays(surface, graph);
-    return plan_by_lines(surface, lines.graph, lines.trunks, options, progress);
+    return plan_openings(surface,
+                         options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph),
+                         options, progress);
+}
+
+OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines,
+                          const OpeningPlanOptions& options, const Progress& progress) {
+    PlanDraft draft(surface, lines, options, progress);
+    Planner planner(draft, progress);
+    if (draft.ends().empty())
+        throw AlgorithmFailure(
+            "no vessel end that could be opened was found: give one with tip=x,y,z");
+    if (options.tip)
+        planner.plan_one(end_of_tip(draft.ends(), tip_to_open(lines.graph, *options.tip)));
+    else
+        planner.plan_all();
+    return draft.finished();
 }
 
 }  // namespace vesselbench

@@ -63,14 +63,12 @@ bool lies_in_side(const PlanDraft& draft, std::size_t e) {
 
 }  // namespace
 
-PlanDraft::PlanDraft(const Surface& surface, const CenterlineGraph& graph,
-                     const std::vector<FrayedTrunk>& frayed, const OpeningPlanOptions& options,
-                     const Progress& progress)
+PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
+                     const OpeningPlanOptions& options, const Progress& progress)
     : surface_(surface),
-      graph_(graph),
-      frayed_(frayed),
+      lines_(lines),
       options_(options),
-      ends_(find_surface_ends(surface, graph)),
+      ends_(find_surface_ends(surface, lines.graph)),
       made_(ends_.size()),
       records_(ends_.size()),
       decided_(ends_.size(), false) {
@@ -80,7 +78,7 @@ PlanDraft::PlanDraft(const Surface& surface, const CenterlineGraph& graph,
         in_side_.push_back(lies_in_side(*this, e));
     }
     if (options.tip) return;
-    for (const UnlinedEnd& end : unlined_ends(surface, graph, options.stubs, ends_))
+    for (const UnlinedEnd& end : unlined_ends(surface, lines.graph, options.stubs, ends_))
         unlined_.push_back(record_of(end, options.leave_closed));
 }
 
@@ -96,13 +94,13 @@ bool PlanDraft::stays_side(std::size_t e) const {
 const FrayedTrunk* PlanDraft::frays(std::size_t e) const {
     const auto& tip = ends_[e].tip;
     const auto found = std::ranges::find_if(
-        frayed_, [&](const FrayedTrunk& trunk) { return tip && trunk.tip == *tip; });
-    return found == frayed_.end() ? nullptr : &*found;
+        lines_.trunks, [&](const FrayedTrunk& trunk) { return tip && trunk.tip == *tip; });
+    return found == lines_.trunks.end() ? nullptr : &*found;
 }
 
 Vec3 PlanDraft::tip_place(std::size_t e) const {
     const SurfaceEnd& end = ends_[e];
-    return end.tip ? graph_.nodes[*end.tip].position : end.centre;
+    return end.tip ? graph().nodes[*end.tip].position : end.centre;
 }
 
 double PlanDraft::widest_beside(std::size_t e) const {
@@ -153,7 +151,7 @@ void PlanDraft::remove_stub(std::size_t e) {
     decided_[e] = true;
     records_[e].fate = EndFate::Removed;
     records_[e].why = "a stub shorter than its parent is wide: " + records_[e].why;
-    plan_.closings.push_back({graph_.nodes[*ends_[e].tip].position, ClosingWay::RemoveStub});
+    plan_.closings.push_back({graph().nodes[*ends_[e].tip].position, ClosingWay::RemoveStub});
 }
 
 void PlanDraft::take_along(std::size_t e, std::size_t cut) {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/surface_ends.h"
 
@@ -15,15 +14,13 @@ namespace vesselbench {
 class PlanDraft {
 public:
     /// Keeps references to all arguments but `progress`.
-    /// \param frayed tips of the graph
     /// \throw Cancelled if the user cancels
-    PlanDraft(const Surface& surface, const CenterlineGraph& graph,
-              const std::vector<FrayedTrunk>& frayed, const OpeningPlanOptions& options,
-              const Progress& progress);
+    PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
+              const OpeningPlanOptions& options, const Progress& progress);
 
     [[nodiscard]] const Surface& surface() const { return surface_; }
 
-    [[nodiscard]] const CenterlineGraph& graph() const { return graph_; }
+    [[nodiscard]] const CenterlineGraph& graph() const { return lines_.graph; }
 
     [[nodiscard]] const OpeningPlanOptions& options() const { return options_; }
 
@@ -87,8 +84,7 @@ private:
     void add_threads();
 
     const Surface& surface_;
-    const CenterlineGraph& graph_;
-    const std::vector<FrayedTrunk>& frayed_;
+    const LinesWithoutFrays& lines_;
     const OpeningPlanOptions& options_;
     std::vector<SurfaceEnd> ends_;
     std::vector<std::optional<PlannedOpening>> made_;  ///< by end
