@@ -116,6 +116,30 @@ std::optional<Cutter> cutter_of(const std::vector<LogEntry>& edits, const Vec3& 
     return found;
 }
 
+/// \param edits from the first one that cuts ends to the one that made `after`
+/// \throw AlgorithmFailure if an opening lies in a vessel's side
+void require_ends_opened(const std::vector<LogEntry>& edits, const BeforeOpenings& before,
+                         const Surface& after) {
+    const std::vector<std::size_t> wrong = openings_in_walls(before.surface, after);
+    if (wrong.empty()) return;
+    const Vec3 at = patch_shape(after, wrong.front()).plane.point;
+    const auto cutter = cutter_of(edits, at);
+    throw AlgorithmFailure("the opening '" + after.patches[wrong.front()].name + "' at " +
+                           place_text(at) + " lies in a vessel's side: the end has to stay closed" +
+                           (cutter ? without_end(cutter->entry, cutter->tip) : ""));
+}
+
+/// \throw AlgorithmFailure that lists the vessels and names the edit that lost them
+[[noreturn]] void refuse_lost(Session& session, const std::vector<LogEntry>& edits,
+                              const BeforeOpenings& before, const VesselCheck& check) {
+    std::string text;
+    for (const LostVessel& vessel : check.lost)
+        text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
+                ", diameter " + formatted(vessel.diameter) + " mm";
+    throw AlgorithmFailure("the model has lost vessels:" + text +
+                           remedy_for(session, edits, before, check.lines));
+}
+
 /// The centerlines without the threads of frayed trunks, which nobody misses.
 CenterlineGraph vessel_lines(const Surface& surface, const Progress& progress) {
     return without_frays(surface, *centerlines_of(surface, {}, progress)).graph;
@@ -146,8 +170,9 @@ VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
                                       failure.what()};
     };
     try {
-        const CenterlineGraph lines = vessel_lines(before.surface, progress);
-        return {.lost = lost_vessels(lines, after, before.asked), .warning = ""};
+        VesselCheck check{.lines = vessel_lines(before.surface, progress)};
+        check.lost = lost_vessels(check.lines, after, before.asked);
+        return check;
     } catch (const AlgorithmFailure& failure) {
         return without_lines(failure);
     } catch (const InvalidInput& failure) {
@@ -155,52 +180,36 @@ VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
     }
 }
 
-std::string check_vessels(Session& session, const std::string& variant, EditId last,
-                          const Progress& progress) {
-    const auto before = before_openings(session, variant, last);
-    if (!before) return "";
-    const VesselCheck check =
-        compared_vessels(*before, surface_of(session.scene_after(last)), progress);
-    if (check.lost.empty()) return check.warning;
-    std::string text;
-    for (const LostVessel& vessel : check.lost)
-        text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
-                ", diameter " + formatted(vessel.diameter) + " mm";
-    const CenterlineGraph lines = vessel_lines(before->surface, progress);
-    throw AlgorithmFailure(
-        "the model has lost vessels:" + text +
-        remedy_for(session, edits_from_first_cut(session, variant, last), *before, lines));
-}
-
-void check_openings(Session& session, const std::string& variant, EditId last) {
-    const auto before = before_openings(session, variant, last);
-    if (!before) return;
-    const Surface after = surface_of(session.scene_after(last));
-    for (const std::size_t p : openings_in_walls(before->surface, after)) {
-        const Vec3 at = patch_shape(after, p).plane.point;
-        const auto cutter = cutter_of(edits_from_first_cut(session, variant, last), at);
-        throw AlgorithmFailure("the opening '" + after.patches[p].name + "' at " + place_text(at) +
-                               " lies in a vessel's side: the end has to stay closed" +
-                               (cutter ? without_end(cutter->entry, cutter->tip) : ""));
-    }
-}
-
-void ModelChecks::check_cut(const LogEntry& edit) {
-    if (!edit.result || edit.result->id == cut_) return;
-    check_openings(session_, variant_, edit.edit.edit.id);
+void ModelChecks::check_cut(const LogEntry& edit, const std::optional<BeforeOpenings>& before) {
+    if (edit.result->id == cut_) return;
+    const EditId id = edit.edit.edit.id;
+    if (before)
+        require_ends_opened(edits_from_first_cut(session_, variant_, id), *before,
+                            surface_of(session_.scene_after(id)));
     cut_ = edit.result->id;
 }
 
-void ModelChecks::check_whole(const LogEntry& edit, const Progress& progress) {
-    if (!edit.result || edit.result->id == whole_) return;
-    warning_ = check_vessels(session_, variant_, edit.edit.edit.id, progress);
+void ModelChecks::check_whole(const LogEntry& edit, const std::optional<BeforeOpenings>& before,
+                              const Progress& progress) {
+    if (edit.result->id == whole_) return;
+    const EditId id = edit.edit.edit.id;
+    warning_.clear();
+    if (before) {
+        const VesselCheck check =
+            compared_vessels(*before, surface_of(session_.scene_after(id)), progress);
+        if (!check.lost.empty())
+            refuse_lost(session_, edits_from_first_cut(session_, variant_, id), *before, check);
+        warning_ = check.warning;
+    }
     whole_ = edit.result->id;
 }
 
 void ModelChecks::after(const LogEntry& edit, const Progress& progress) {
-    if (!cuts_ends(edit)) return;
-    check_cut(edit);
-    check_whole(edit, progress);
+    if (!cuts_ends(edit) || !edit.result) return;
+    if (edit.result->id == cut_ && edit.result->id == whole_) return;
+    const auto before = before_openings(session_, variant_, edit.edit.edit.id);
+    check_cut(edit, before);
+    check_whole(edit, before, progress);
 }
 
 void ModelChecks::surface_final(const Progress& progress) {
@@ -208,8 +217,11 @@ void ModelChecks::surface_final(const Progress& progress) {
     std::erase_if(edits, [](const auto& edit) { return edit.edit.place.step >= Step::Product; });
     const auto cut = std::ranges::find_if(edits.rbegin(), edits.rend(), cuts_ends);
     if (cut == edits.rend()) return;
-    check_cut(*cut);
-    check_whole(edits.back(), progress);
+    if (cut->result && cut->result->id != cut_)
+        check_cut(*cut, before_openings(session_, variant_, cut->edit.edit.id));
+    const LogEntry& last = edits.back();
+    if (last.result && last.result->id != whole_)
+        check_whole(last, before_openings(session_, variant_, last.edit.edit.id), progress);
 }
 
 }  // namespace vesselbench

@@ -268,7 +268,8 @@ private:
         return false;
     }
 
-    /// Not beside a voxel beyond a wall.
+    /// Not beside a voxel beyond a wall, seen from the path: the voxel's own centre may lie outside
+    /// the vessel.
     [[nodiscard]] bool may_join(const PathVoxel& at) const {
         for (std::size_t n = 0; n < offsets_.size(); ++n) {
             const VoxelId w = neighbour(at.voxel, n);

@@ -8,6 +8,7 @@
 #include "geometry/kernel/progress.h"
 #include "geometry/vessel/centerlines/stubs.h"
 #include "geometry/vessel/openings/fading_ends.h"
+#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_place.h"
 
 namespace vesselbench {
@@ -127,6 +128,12 @@ inline constexpr double kEndReach = 1.5;
 /// of `inlets` or `open` cannot be opened; Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {},
+                                        const Progress& progress = {});
+
+/// The same by lines whose frays are taken out already, for several plans of a surface.
+/// \param lines with `tip`, all of the surface's lines
+[[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines,
+                                        const OpeningPlanOptions& options,
                                         const Progress& progress = {});
 
 }  // namespace vesselbench

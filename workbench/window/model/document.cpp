@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <set>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
@@ -12,81 +11,16 @@
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
-#include "workbench/report/log_json.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/model/snapshot_edits.h"
 
 namespace vesselbench {
 
 namespace {
 
 constexpr std::size_t kMostMessages = 500;
-
-/// True if lists of edits that show one would show the same of the other.
-bool same_edits(const Snapshot& a, const Snapshot& b) {
-    return a.history == b.history && a.past == b.past && a.project == b.project &&
-           a.read_only_reason == b.read_only_reason;
-}
-
-/// The variant of the newest edit that belongs to one.
-std::string newest_variant(const Snapshot& snapshot) {
-    const LogEntry* newest = nullptr;
-    for (const LogEntry& entry : snapshot.log)
-        if (!entry.edit.place.variant.empty() &&
-            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
-            newest = &entry;
-    return newest == nullptr ? kDefaultVariant : newest->edit.place.variant;
-}
-
-/// "Remesh: volume -0.1 %, ..."
-std::string changed_text(const EditRecord& edit, const ResultRecord& result) {
-    const std::string change = effect_text(result);
-    return readable(edit.operation) + (change.empty() ? "" : ": " + change);
-}
-
-/// The edits that were pending in one snapshot and have run in the other.
-std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
-    std::set<EditId> pending;
-    for (const LogEntry& entry : before.log)
-        if (entry.status == EditStatus::Pending) pending.insert(entry.edit.edit.id);
-    std::vector<LogEntry> run;
-    for (const LogEntry& entry : now.log)
-        if (entry.status != EditStatus::Pending && pending.contains(entry.edit.edit.id))
-            run.push_back(entry);
-    return run;
-}
-
-/// The newest edit of an operation; null: none.
-const LogEntry* newest_edit(const Snapshot& snapshot, const std::string& operation) {
-    const LogEntry* newest = nullptr;
-    for (const LogEntry& entry : snapshot.log)
-        if (entry.edit.operation == operation &&
-            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
-            newest = &entry;
-    return newest;
-}
-
-/// "edit 7, Smooth", or of several, "edit 7, Smooth, and 2 more": the edits that only one of two
-/// states contains, or contains otherwise.
-std::string edits_between(const Snapshot& a, const Snapshot& b) {
-    std::vector<EditRecord> differing;
-    const auto add_those_missing = [&](const Snapshot& from, const Snapshot& in) {
-        for (const LogEntry& entry : from.log) {
-            const auto same = [&](const LogEntry& other) { return other.edit == entry.edit; };
-            const auto known = [&](const EditRecord& e) { return e.edit.id == entry.edit.edit.id; };
-            if (std::ranges::none_of(in.log, same) && std::ranges::none_of(differing, known))
-                differing.push_back(entry.edit);
-        }
-    };
-    add_those_missing(a, b);
-    add_those_missing(b, a);
-    if (differing.empty()) return "an edit";
-    const EditRecord& first = differing.front();
-    const std::string more =
-        differing.size() == 1 ? "" : ", and " + std::to_string(differing.size() - 1) + " more";
-    return "edit " + std::to_string(first.edit.id) + ", " + readable(first.operation) + more;
-}
 
 /// A case on its way out: strokes that were painted to their end are entered first.
 class ClosedCase {

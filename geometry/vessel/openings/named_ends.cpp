@@ -1,0 +1,74 @@
+#include "geometry/vessel/openings/named_ends.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// A point this far from an end without a centerline does not mean it [diameters].
+constexpr double kUnlinedReach = 1.5;
+
+std::size_t end_meant(const std::vector<SurfaceEnd>& ends, const Vec3& point,
+                      const std::string& parameter) {
+    if (const auto end = end_near(ends, point)) return *end;
+    const auto nearest = std::ranges::min_element(
+        ends, {}, [&](const SurfaceEnd& e) { return (e.centre - point).norm(); });
+    throw AlgorithmFailure("no vessel ends near " + parameter + "=" + coordinates_argument(point) +
+                           "; the nearest end is at " + place_text(nearest->centre));
+}
+
+void name_inlets(PlanDraft& draft) {
+    for (const Vec3& point : draft.options().inlets) {
+        const std::size_t end = end_meant(draft.ends(), point, "inlet");
+        if (draft.is_inlet(end))
+            throw AlgorithmFailure("two inlets mean the same end, at " +
+                                   place_text(draft.ends()[end].centre));
+        draft.name_inlet(end);
+    }
+}
+
+/// The end without a line that a point means: it is near, and nearer than all others.
+EndRecord* unlined_near(PlanDraft& draft, const Vec3& point) {
+    const auto end = end_near(draft.ends(), point);
+    double least =
+        end ? (draft.ends()[*end].centre - point).norm() : std::numeric_limits<double>::infinity();
+    EndRecord* found = nullptr;
+    for (EndRecord& record : draft.unlined())
+        if (const double d = (record.place - point).norm();
+            d < least && d <= kUnlinedReach * record.diameter) {
+            least = d;
+            found = &record;
+        }
+    return found;
+}
+
+void leave_closed(PlanDraft& draft) {
+    for (const Vec3& point : draft.options().closed) {
+        if (EndRecord* unlined = unlined_near(draft, point)) {
+            unlined->asked = true;
+            unlined->why = "left closed as asked";
+            continue;
+        }
+        const auto end = end_near(draft.ends(), point);
+        if (!end)
+            throw AlgorithmFailure("no vessel ends near closed=" + coordinates_argument(point));
+        draft.record(*end).asked = true;
+        draft.close(*end, "left closed as asked");
+    }
+}
+
+}  // namespace
+
+void decide_named_ends(PlanDraft& draft) {
+    name_inlets(draft);
+    for (const Vec3& point : draft.options().open)
+        draft.want(end_meant(draft.ends(), point, "open"));
+    leave_closed(draft);
+}
+
+}  // namespace vesselbench

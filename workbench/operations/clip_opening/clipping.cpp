@@ -1,0 +1,179 @@
+#include "workbench/operations/clip_opening/clipping.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/clip_openings.h"
+#include "geometry/vessel/openings/flow_check.h"
+#include "geometry/vessel/openings/frayed_trunks.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/opening_names.h"
+#include "geometry/vessel/openings/planned_cut.h"
+#include "geometry/vessel/openings/unlined_ends.h"
+#include "geometry/vessel/openings/vessel_check.h"
+#include "workbench/operations/clip_opening/parameters.h"
+#include "workbench/operations/clip_opening/wrong_cuts.h"
+#include "workbench/operations/shared/opening_arguments.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// After so many ends could not be cut as planned, the rest of them is given up.
+constexpr int kMostPlans = 12;
+
+/// An opening so far away is not meant by a point [diameters].
+constexpr double kFarthestInlet = 2.0;
+
+void name_opening(OpeningPlan& plan, const Arguments& arguments) {
+    const auto kind = arguments.optional_text("kind");
+    const auto name = arguments.optional_text("name");
+    if (kind || name)
+        for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
+}
+
+/// With all ends, the inlets are those that were named. With one alone, they are chosen when it is
+/// open (with_inlets).
+InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
+    if (arguments.has("tip")) return {};
+    InletChoice choice{.promote = true};
+    for (const std::size_t inlet : plan.inlets)
+        choice.points.push_back(plan.openings[inlet].place.plane.point);
+    return choice;
+}
+
+/// The opening that a point means: near the opening, or near the tip that was cut there.
+/// \throw AlgorithmFailure if there is none; the text names the nearest one
+Vec3 inlet_meant(const Surface& surface, const OpeningPlan& plan, const Vec3& point) {
+    const auto nearest = nearest_opening(surface, point);
+    if (!nearest) throw AlgorithmFailure("there is no opening that could be the inlet");
+    const PatchShape shape = patch_shape(surface, *nearest);
+    if ((shape.plane.point - point).norm() <= kFarthestInlet * shape.diameter()) return point;
+    for (const PlannedOpening& opening : plan.openings) {
+        const Vec3& at = opening.place.plane.point;
+        const auto patch = nearest_opening(surface, at);
+        const double reach = kFarthestInlet * patch_shape(surface, *patch).diameter();
+        if ((opening.place.tip - point).norm() <= reach) return at;
+    }
+    throw AlgorithmFailure(
+        "no opening is near inlet=" + coordinates_argument(point) + "; the nearest one, " +
+        surface.patches[*nearest].name + ", is at " + place_text(shape.plane.point) +
+        ": open the inlet's own end first (clip-opening tip=" + coordinates_argument(point) + ")");
+}
+
+/// The surface with the openings near some points as its inlets.
+Surface with_inlets(const Surface& surface, const OpeningPlan& plan, Positions points) {
+    if (points.empty()) return surface;
+    for (Vec3& point : points) point = inlet_meant(surface, plan, point);
+    return name_openings(surface, {}, points);
+}
+
+/// \throw AlgorithmFailure for a closed surface without a tube
+void require_tube(const Surface& surface, const CenterlineGraph& graph) {
+    if (surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
+        !has_tube(graph))
+        throw AlgorithmFailure(
+            "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
+            "as it is wide; tip=x,y,z opens it nevertheless");
+}
+
+[[noreturn]] void give_up(const FailedCut& failed, const OpeningPlanOptions& options) {
+    if (options.tip) throw AlgorithmFailure(failed.why);
+    Positions closed = options.closed;
+    closed.push_back(failed.tip);
+    throw AlgorithmFailure(failed.why + closing_advice(closed));
+}
+
+/// The lines that a plan needs; the ends without one go into its options.
+std::shared_ptr<const CenterlineGraph> planning_lines(const Surface& surface,
+                                                      OpeningPlanOptions& options,
+                                                      const Progress& progress) {
+    if (options.tip) return lines_for_openings(surface, options.tip, progress);
+    Positions wanted = options.open;
+    wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
+    LinesAndStubs lines = lines_to_ends(surface, wanted, progress);
+    options.stubs = std::move(lines.stubs);
+    return lines.graph;
+}
+
+/// The plan resolved by an earlier run.
+OpeningPlan stored_plan(const Arguments& arguments) {
+    OpeningPlan plan{.openings = openings_in(arguments.list("planes"))};
+    const std::vector<Patch> patches = patches_in(arguments.text("names"));
+    if (arguments.has("closings")) plan.closings = closings_in(arguments.list("closings"));
+    const bool nothing = plan.openings.empty() && plan.closings.empty();
+    if (nothing || patches.size() < plan.openings.size())
+        throw UsageError(
+            "clip-opening: planes needs 10 numbers per opening (tip, point, unit normal, 1 for a "
+            "kept cap, 2 for a rim capped as it is, 3 for another name only), and names as many "
+            "entries kind:name");
+    for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
+    plan.ends = ends_of(plan);
+    return plan;
+}
+
+/// A plan of all openings names all of them. One of a single end, or typed by hand, leaves the
+/// others to the inlets that are asked for.
+Positions stored_inlets(const OpeningPlan& plan, const Surface& clipped,
+                        const Arguments& arguments) {
+    const auto others = std::ranges::count_if(
+        clipped.patches, [](const Patch& patch) { return patch.kind != PatchKind::Wall; });
+    if (static_cast<std::size_t>(others) <= plan.openings.size()) return {};
+    return points_of(arguments, "inlet");
+}
+
+}  // namespace
+
+Clipping decide_openings(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    OpeningPlanOptions options = plan_options(arguments, scene.image);
+    const auto graph = planning_lines(surface, options, progress.part(0.0, 0.5));
+    if (!options.tip) require_tube(surface, *graph);
+    // A single end is not judged beside others: threads stay ends of their own.
+    const LinesWithoutFrays lines =
+        options.tip ? LinesWithoutFrays{*graph, {}} : without_frays(surface, *graph);
+    const bool for_flow = !options.tip && arguments.text("check") == "flow";
+    const bool chosen = !options.distance && !options.radii && !options.strict;
+    for (int plans = 1;; ++plans) {
+        Clipping made{.plan = plan_openings(surface, lines, options, progress.part(0.5, 0.8)),
+                      .surface = {}};
+        if (for_flow) check_flow(made.plan, surface, *graph, options, progress.part(0.8, 0.81));
+        name_opening(made.plan, arguments);
+        ClippedSurface clipped =
+            clip_openings(surface, made.plan, inlet_choice(made.plan, arguments), graph.get(),
+                          progress.part(0.8, 1.0));
+        made.surface = std::move(clipped.surface);
+        if (clipped.failed.empty() && options.tip) {
+            made.surface = with_inlets(made.surface, made.plan, points_of(arguments, "inlet"));
+            return made;
+        }
+        if (clipped.failed.empty()) {
+            require_most_kept(surface, made.surface);
+            if (chosen) clipped.failed = wrong_cuts(surface, lines.graph, made.plan, made.surface);
+            if (clipped.failed.empty()) return made;
+        }
+        if (options.strict || options.tip || plans == kMostPlans)
+            give_up(clipped.failed.front(), options);
+        options.failed.insert(options.failed.end(), clipped.failed.begin(), clipped.failed.end());
+    }
+}
+
+Clipping repeat_openings(const Surface& surface, const Arguments& arguments,
+                         const Progress& progress) {
+    Clipping made{.plan = stored_plan(arguments), .surface = {}};
+    const bool stubs =
+        std::ranges::count(made.plan.closings, ClosingWay::RemoveStub, &PlannedClosing::way) > 0;
+    const auto graph = stubs ? lines_for_openings(surface, std::nullopt, progress.part(0.0, 0.7))
+                             : std::shared_ptr<const CenterlineGraph>();
+    ClippedSurface clipped =
+        clip_openings(surface, made.plan, {}, graph.get(), progress.part(0.7, 1.0));
+    if (!clipped.failed.empty()) throw AlgorithmFailure(clipped.failed.front().why);
+    made.surface = with_inlets(clipped.surface, made.plan,
+                               stored_inlets(made.plan, clipped.surface, arguments));
+    return made;
+}
+
+}  // namespace vesselbench

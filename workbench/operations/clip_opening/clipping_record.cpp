@@ -1,0 +1,91 @@
+#include "workbench/operations/clip_opening/clipping_record.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/vessel/openings/opening_names.h"
+#include "workbench/operations/shared/opening_arguments.h"
+#include "workbench/operations/shared/opening_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Adds the openings beside the plan that got another name or kind, so that the record has all that
+/// was decided.
+void add_renamed(OpeningPlan& plan, const Surface& before, const Surface& surface,
+                 const std::vector<PatchMeasures>& patches) {
+    std::vector<bool> planned(surface.patches.size(), false);
+    for (const PlannedOpening& opening : plan.openings)
+        if (const auto p = nearest_opening(surface, opening.place.plane.point)) planned[*p] = true;
+    for (const PatchMeasures& patch : patches)
+        if (patch.kind != PatchKind::Wall && !planned[patch.row] &&
+            std::ranges::count(before.patches, surface.patches[patch.row]) == 0)
+            plan.openings.push_back(
+                {.place = {.tip = patch.centroid, .plane = {patch.centroid, patch.normal}},
+                 .way = OpeningWay::Rename,
+                 .patch = surface.patches[patch.row]});
+}
+
+/// Figures of an opening in the report.
+ordered_json figures_of(const Surface& surface, const std::vector<PatchMeasures>& patches,
+                        std::size_t row) {
+    const auto patch = std::ranges::find(patches, row, &PatchMeasures::row);
+    return opening_json(surface, patch == patches.end() ? PatchMeasures{} : *patch,
+                        Keys::WithUnits);
+}
+
+/// Standard deviation of the direction of a cut [deg]; null where none was made or measured.
+ordered_json doubt_json(const OpeningPlan& plan, const EndRecord& end) {
+    if (!end.opening) return nullptr;
+    const PlannedOpening& opening = plan.openings[*end.opening];
+    if (opening.way != OpeningWay::Cut || !opening.place.measured) return nullptr;
+    return opening.place.doubt_deg;
+}
+
+/// \param names of the plan's openings
+ordered_json ends_json(const OpeningPlan& plan, const std::vector<std::string>& names) {
+    ordered_json list = ordered_json::array();
+    for (const EndRecord& end : plan.ends)
+        list.push_back({{"place_mm", {end.place.x(), end.place.y(), end.place.z()}},
+                        {"diameter_mm", end.diameter},
+                        {"direction_sd_deg", doubt_json(plan, end)},
+                        {"fate", to_string(end.fate)},
+                        {"opening", end.opening ? ordered_json(names[*end.opening]) : nullptr},
+                        {"why", end.why}});
+    return list;
+}
+
+}  // namespace
+
+ClippingRecord record_of(const Surface& before, const Clipping& made, bool decided) {
+    const Surface& surface = made.surface;
+    OpeningPlan plan = made.plan;
+    const std::vector<PatchMeasures> patches = measure_patches(surface);
+    const std::size_t planned = plan.openings.size();
+    add_renamed(plan, before, surface, patches);
+    std::vector<Patch> chosen;
+    std::vector<std::string> names;  // of the plan's openings
+    ordered_json openings = ordered_json::array();
+    for (std::size_t i = 0; i < plan.openings.size(); ++i) {
+        const auto& opening = plan.openings[i];
+        const std::size_t p = nearest_opening(surface, opening.place.plane.point).value_or(0);
+        chosen.push_back(surface.patches[p]);
+        names.push_back(surface.patches[p].name);
+        if (i >= planned) continue;
+        ordered_json figures = figures_of(surface, patches, p);
+        figures["distance_from_tip_mm"] = opening.place.distance;
+        figures["kept"] = opening.way != OpeningWay::Cut;
+        openings.push_back(std::move(figures));
+    }
+    auto report = std::make_shared<ordered_json>();
+    (*report)["openings"] = std::move(openings);
+    if (decided) (*report)["ends"] = ends_json(plan, names);
+    return {planes_argument(plan.openings), names_argument(chosen), std::move(report)};
+}
+
+}  // namespace vesselbench

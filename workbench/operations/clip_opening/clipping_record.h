@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "workbench/operations/clip_opening/clipping.h"
+
+namespace vesselbench {
+
+/// What an edit keeps of a clipping: its resolved arguments, and the report.
+struct ClippingRecord {
+    std::vector<double> planes;
+    std::string names;
+    std::shared_ptr<nlohmann::ordered_json> report;  ///< `openings`; `ends`, if they were decided
+};
+
+/// \param decided the plan was made by this run (decide_openings): planes that are given say
+/// nothing of the other ends
+[[nodiscard]] ClippingRecord record_of(const Surface& before, const Clipping& made, bool decided);
+
+}  // namespace vesselbench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/vessel/openings/openings.h"
+
+namespace vesselbench {
+
+/// What a user should know about the ends, worst first. Small closed ends share a warning, except
+/// the open rims among them, and vessels that an image's border cuts.
+[[nodiscard]] std::vector<std::string> end_warnings(const OpeningPlan& plan);
+
+/// Of flat ends that were kept although the vessels behind them run another way; empty if there
+/// are none.
+/// \param openings of the report (record_of)
+[[nodiscard]] std::string tilt_warning(const nlohmann::ordered_json& openings);
+
+/// What to say of outlets that look like inlets; empty if there are none.
+[[nodiscard]] std::string further_inlets(const Surface& surface);
+
+}  // namespace vesselbench

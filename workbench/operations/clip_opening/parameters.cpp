@@ -1,0 +1,155 @@
+#include "workbench/operations/clip_opening/parameters.h"
+
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+VoxelEdges voxel_edges(const Image& image) {
+    return image.index_to_patient.topLeftCorner<3, 3>();
+}
+
+/// Which end, and where it is cut.
+std::vector<Parameter> place_parameters() {
+    using enum ParameterType;
+    return {{.name = "tip",
+             .type = Point,
+             .unit = "mm",
+             .help = "a point near the tip of the branch to open; default: every vessel end",
+             .meaning = Meaning::Tip},
+            {.name = "distance",
+             .unit = "mm",
+             .help = "distance of the cut from the tip along the centerline; default: the nearest "
+                     "straight place",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "radii",
+             .unit = "-",
+             .help = "the same distance in radii of the vessel at its tip",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "inlet",
+             .type = List,
+             .unit = "mm",
+             .help = "a point near the opening where the blood flows in, or x,y,z of each of "
+                     "several; default: that of the widest vessel",
+             .meaning = Meaning::Inlet},
+            {.name = "name",
+             .type = Text,
+             .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size",
+             .meaning = Meaning::Name},
+            {.name = "kind",
+             .type = Choice,
+             .help = "role of the opening at tip for the solver; default: by size",
+             .choices = {"inlet", "outlet"}}};
+}
+
+/// Which ends are opened, if all of them are looked at.
+std::vector<Parameter> choice_parameters() {
+    using enum ParameterType;
+    return {{.name = "open",
+             .type = List,
+             .unit = "mm",
+             .help = "ends that are opened although they look closed, such as short ones: x,y,z of "
+                     "each",
+             .meaning = Meaning::Tip},
+            {.name = "closed",
+             .type = List,
+             .unit = "mm",
+             .help = "ends that stay closed on purpose: x,y,z of each",
+             .meaning = Meaning::Tip},
+            {.name = "strict",
+             .type = Flag,
+             .default_value = false,
+             .help = "cut every end perpendicular to its vessel, also one with a flat rim; the "
+                     "first end that cannot be cut is a failure"},
+            {.name = "check",
+             .type = Choice,
+             .default_value = "flow",
+             .help = "flow: fail unless there are two openings and the largest end is one of "
+                     "them; none: no such check",
+             .choices = {"flow", "none"}},
+            {.name = "closed_ends",
+             .type = Choice,
+             .default_value = "open",
+             .help = "open: closed ends are opened where the surface's rims are not all its ends; "
+                     "leave: closed ends and the caps at an image's border stay as they are, as a "
+                     "print needs no openings",
+             .choices = {"open", "leave"}}};
+}
+
+/// What an earlier run decided.
+std::vector<Parameter> resolved_parameters() {
+    using enum ParameterType;
+    return {
+        {.name = "planes",
+         .type = List,
+         .unit = "mm",
+         .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
+                 "plane, unit normal out of the vessel, 1 if a good cap was kept, 2 if a flat "
+                 "rim was capped as it is, 3 if only its name changed; they are used as they are",
+         .meaning = Meaning::Planes},
+        {.name = "names",
+         .type = Text,
+         .help = "with planes: kind:name of each opening, separated by commas",
+         .meaning = Meaning::Patches},
+        {.name = "closings",
+         .type = List,
+         .unit = "mm",
+         .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
+                 "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
+                 "stub was removed",
+         .meaning = Meaning::Planes}};
+}
+
+}  // namespace
+
+std::vector<Parameter> clip_opening_parameters() {
+    std::vector<Parameter> all = place_parameters();
+    for (Parameter& parameter : choice_parameters()) all.push_back(std::move(parameter));
+    for (Parameter& parameter : resolved_parameters()) all.push_back(std::move(parameter));
+    return all;
+}
+
+void check_clip_arguments(const Arguments& arguments) {
+    if ((arguments.has("name") || arguments.has("kind")) && !arguments.has("tip") &&
+        !arguments.has("planes"))
+        throw UsageError("clip-opening: name and kind belong to one opening: give its tip, too");
+    if (arguments.has("distance") && arguments.has("radii"))
+        throw UsageError("clip-opening: give distance or radii, not both");
+    if (arguments.has("planes") != arguments.has("names"))
+        throw UsageError("clip-opening: give planes and names together");
+    for (const char* name : {"open", "closed", "inlet"})
+        if (arguments.has(name) && arguments.list(name).size() % 3 != 0)
+            throw UsageError("clip-opening: " + std::string(name) +
+                             " needs three numbers for each end");
+}
+
+Positions points_of(const Arguments& arguments, const char* name) {
+    if (!arguments.has(name)) return {};
+    const std::vector<double>& numbers = arguments.list(name);
+    Positions points;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    return points;
+}
+
+OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<Image>& image) {
+    OpeningPlanOptions options{.tip = arguments.optional_point("tip"),
+                               .distance = arguments.optional_real("distance"),
+                               .radii = arguments.optional_real("radii"),
+                               .strict = arguments.flag("strict"),
+                               .border_cuts = image.has_value()};
+    options.leave_closed = arguments.text("closed_ends") == "leave";
+    if (options.leave_closed) options.border_cuts = false;
+    if (image) options.voxels = voxel_edges(*image);
+    if (!options.tip) options.inlets = points_of(arguments, "inlet");
+    options.open = points_of(arguments, "open");
+    options.closed = points_of(arguments, "closed");
+    return options;
+}
+
+}  // namespace vesselbench
