@@ -568,6 +568,12 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     CHECK_THAT(why_no_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
     plan.ends[0].sac = true;
     CHECK(why_no_flow(plan).empty());
+    plan.ends[0].unlined = true;
+    plan.ends[0].rest_of = 21.0;
+    CHECK_THAT(why_no_flow(plan), Contains("a space 21 mm wide, whose mouth may be closed"));
+    plan.openings[0].place.diameter = 12.0;  // no chamber beside such a vessel
+    CHECK(why_no_flow(plan).empty());
+    plan.openings[0].place.diameter = 0.0;
     plan.ends[0] = {.diameter = 3.2};
     CHECK(why_no_flow(plan).empty());
     THEN("of very many ends, the widest are listed") {
