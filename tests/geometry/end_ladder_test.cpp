@@ -513,6 +513,28 @@ SCENARIO("A trunk that a dome closes just before its bifurcation is no end that 
     }
 }
 
+SCENARIO("A stub that leans along its vessel is no end that nobody mentions",
+         "[geometry][openings]") {
+    // Along the vessel, its tip is hardly farther away than the wall opposite to it.
+    for (const auto& [lean, reach] : {std::pair(0.6, 2.0), std::pair(1.0, 2.6)}) {
+        CAPTURE(lean, reach);
+        const Vec3 way = Vec3(1, 0, lean).normalized();
+        const ImplicitShape vessels = [&, length = reach](const Vec3& p) {
+            const double stub =
+                std::max(capsule(p, Vec3::Zero(), 9.0 * way, 0.6), p.dot(way) - length);
+            return std::min(capsule(p, Vec3(0, 0, -12), Vec3(0, 0, 12), 0.8), stub);
+        };
+        const Surface closed = iso_surface(vessels, {Vec3(-2, -2, -14), Vec3(5, 2, 14)}, 0.25);
+        const LinesAndStubs lines = lines_to_ends(closed, {});
+        const OpeningPlan plan = plan_openings(closed, *lines.graph, {.stubs = lines.stubs});
+        CHECK(plan.openings.size() == 2);
+        const EndRecord end = end_at(plan, reach * way);
+        CHECK((end.place - reach * way).norm() < 0.7);
+        CHECK(end.diameter == Approx(1.2).epsilon(0.1));
+        CHECK_THAT(end.why, Contains("too short for a centerline") && Contains("open="));
+    }
+}
+
 SCENARIO("An image's border just behind a bifurcation loses no vessel", "[geometry][openings]") {
     // Cuts across the two vessels would meet.
     constexpr double kVoxel = 1.5, kBorder = -12.5;
@@ -568,6 +590,12 @@ SCENARIO("A wrong model is a failure", "[geometry][openings]") {
     CHECK_THAT(why_no_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
     plan.ends[0].sac = true;
     CHECK(why_no_flow(plan).empty());
+    plan.ends[0].unlined = true;
+    plan.ends[0].rest_of = 21.0;
+    CHECK_THAT(why_no_flow(plan), Contains("a space 21 mm wide, whose mouth may be closed"));
+    plan.openings[0].place.diameter = 12.0;  // no chamber beside such a vessel
+    CHECK(why_no_flow(plan).empty());
+    plan.openings[0].place.diameter = 0.0;
     plan.ends[0] = {.diameter = 3.2};
     CHECK(why_no_flow(plan).empty());
     THEN("of very many ends, the widest are listed") {

@@ -104,6 +104,27 @@ SCENARIO("Loose, doubled and turned triangles are put together", "[geometry][rep
     }
 }
 
+SCENARIO("Of the two sides of a vessel's wall the lumen's is taken", "[geometry][repair]") {
+    const Surface lumen = open_tube(2.0, 24.0, 32, 60), outer = open_tube(2.6, 24.0, 32, 60);
+    for (const Surface& inner : {lumen, flipped(lumen)}) {
+        const Repaired repaired = repair(merged(outer, inner));
+        CHECK(repaired.report.removed_outer_wall);
+        CHECK(repaired.report.removed_components == 1);
+        CHECK_FALSE(repaired.report.removed_vessel);
+        CHECK(area(repaired.surface) == Approx(area(lumen)));
+    }
+    const Surface closed = closed_tube(2.6, 24.0, 32, 60);
+    const Surface within = mapped(closed_tube(2.0, 23.0, 32, 60),
+                                  [](const Vec3& p) { return Vec3(p + Vec3(0, 0, 0.5)); });
+    CHECK(volume(repair(merged(closed, within)).surface) == Approx(volume(within)));
+    AND_THEN("a small body within the lumen, or a vessel beside it, is no lumen") {
+        CHECK_FALSE(
+            repair(merged(closed, icosphere(0.8, 2, Vec3(0, 0, 12)))).report.removed_outer_wall);
+        const Surface beside = mapped(lumen, [](const Vec3& p) { return Vec3(p + Vec3(6, 0, 0)); });
+        CHECK_FALSE(repair(merged(outer, beside)).report.removed_outer_wall);
+    }
+}
+
 SCENARIO("Stray holes are closed, vessel ends stay open", "[geometry][repair]") {
     const Surface tube = open_tube(2.0, 24.0, 32, 60);
     const Surface holed = punched(punched(tube, Vec3(2, 0, 12), 0.6), Vec3(0, -2, 5), 0.5);

@@ -103,6 +103,11 @@ void add_closed_ends(std::vector<ClosedHole> ends, std::vector<std::string>& war
 std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before,
                                      bool given_radius) {
     std::vector<std::string> warnings;
+    if (report.removed_outer_wall)
+        warnings.push_back(
+            "the surface has the outer and the inner side of a vessel's wall: repair removed the "
+            "outer one, since blood flows inside the inner one; to use the outer one, load it from "
+            "a file of its own");
     if (const auto& vessel = report.removed_vessel)
         warnings.push_back(
             "repair removed " + counted(report.removed_components, "unconnected piece") +
@@ -110,8 +115,9 @@ std::vector<std::string> warnings_of(const RepairReport& report, const Surface& 
             formatted(vessel->length) + " mm long and " + formatted(vessel->diameter) +
             " mm wide: a vessel; keep_components=" + std::to_string(report.keeping_it) +
             " keeps it");
-    else if (static_cast<double>(report.removed_component_triangles) >
-             kWorthAWarning * static_cast<double>(before.triangle_count()))
+    else if (!report.removed_outer_wall &&
+             static_cast<double>(report.removed_component_triangles) >
+                 kWorthAWarning * static_cast<double>(before.triangle_count()))
         warnings.push_back("repair removed " +
                            counted(report.removed_components, "unconnected piece") + " with " +
                            counted(report.removed_component_triangles, "triangle") +
@@ -176,7 +182,8 @@ Operation repair_operation() {
               .type = Integer,
               .unit = "-",
               .default_value = std::int64_t{1},
-              .help = "number of unconnected pieces to keep, in descending order of area",
+              .help = "number of unconnected pieces to keep, in descending order of area; 1 keeps "
+                      "the inner side of a wall that has two",
               .minimum = 1},
              {.name = "self_intersections",
               .type = Flag,

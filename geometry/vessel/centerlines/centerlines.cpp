@@ -31,8 +31,9 @@ constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels n
 constexpr double kSmallestComponent = 0.01;
 constexpr int kAttempts = 3;
 /// A blind end's least distance beyond its furcation [voxels]: of a thin branch, and of a wider
-/// one. Thin vessels have radii of 2 voxels, and short branches of them hardly rise.
-constexpr double kLeastRise = 2.0;
+/// one. Thin vessels have radii of 2 voxels, and short branches of them hardly rise, least of all
+/// those that lean along their parent. Lower summits are bumps of the voxels.
+constexpr double kLeastRise = 1.0;
 constexpr double kUsualRise = 4.0;
 
 void check(const CenterlineParameters& p) {

@@ -14,9 +14,12 @@
 namespace vesselbench {
 namespace {
 
-constexpr double kPlane = 0.9994;     ///< cosine of 2 degrees: normals of one plane
-constexpr double kUneven = 0.866;     ///< cosine of 30 degrees: normals of an uneven disc
-constexpr double kFlatRim = 0.0524;   ///< tangent of 3 degrees: height over radius of a flat rim
+constexpr double kPlane = 0.9994;    ///< cosine of 2 degrees: normals of one plane
+constexpr double kUneven = 0.866;    ///< cosine of 30 degrees: normals of an uneven disc
+constexpr double kFlatRim = 0.0524;  ///< tangent of 3 degrees: height over radius of a flat rim
+/// Tangent of half a degree: a rim that a plane has cut. Around it, the wall of a flaring mouth may
+/// turn by no more than around a disc in one plane.
+constexpr double kCutRim = 0.0087;
 constexpr double kFlatDisc = 0.1405;  ///< tangent of 8 degrees: the same inside an uneven disc
 constexpr int kGrowths = 6;           ///< rounds after which a disc has found its size
 constexpr double kRim = 0.77;         ///< cosine of 40 degrees: the wall turns away by more
@@ -161,10 +164,11 @@ public:
     }
 
     /// True if the rim lies in its plane.
-    bool has_flat_rim(const std::vector<TriangleId>& region) const {
+    /// \param most height over radius
+    bool has_flat_rim(const std::vector<TriangleId>& region, double most) const {
         const Heights rim = rim_heights(region);
         return rim.high - rim.low <=
-               2.0 * kFlatRim * std::sqrt(disc_of(region).area / std::numbers::pi);
+               2.0 * most * std::sqrt(disc_of(region).area / std::numbers::pi);
     }
 
     /// The parts of the surface that edges with a turn outward of a crease bound.
@@ -188,9 +192,11 @@ public:
         return parts;
     }
 
-    /// True if a part between creases closes a vessel: only its rim is flat.
-    bool is_dented_cap(const std::vector<TriangleId>& part, const SurfaceDistance& surface) const {
-        if (part.size() < kOnKnob || !is_disc(part, kRim) || !has_flat_rim(part)) return false;
+    /// True if a part between creases is a disc of which only the rim is flat.
+    bool is_dented_disc(const std::vector<TriangleId>& part) const {
+        if (part.size() < kOnKnob) return false;
+        const bool sharp = is_disc(part, kRim) && has_flat_rim(part, kFlatRim);
+        if (!sharp && !(is_disc(part, kPlanarRim) && has_flat_rim(part, kCutRim))) return false;
         const auto [centre, normal, area] = disc_of(part);
         const double planar = enclosed_area(part), radius = std::sqrt(planar / std::numbers::pi);
         const Heights rim = rim_heights(part);
@@ -201,7 +207,7 @@ public:
                 if (std::max(rim.low - height, height - rim.high) > kDeepestDent * radius)
                     return false;
             }
-        return lumen_behind(part, surface) < kWidestLumen;
+        return true;
     }
 
     /// The area inside the rim, whatever the triangles between do.
@@ -305,22 +311,29 @@ private:
     std::uint32_t visit_ = 0;
 };
 
-/// Caps that are not flat, but whose sharp rims are.
-/// \param found by triangle: in a disc; on return also in one of these
-std::vector<std::vector<TriangleId>> dented_caps(const Search& search,
-                                                 const SurfaceDistance& surface,
-                                                 std::vector<bool>& found) {
-    std::vector<std::vector<TriangleId>> caps;
+/// Adds closures and mouths that are not flat, but whose sharp rims are. A dome's rim is none: the
+/// wall turns inward at the neck of an aneurysm.
+/// \param found by triangle: in a closure; on return also in one of those added
+void add_dented_discs(const Search& search, const SurfaceDistance& surface, FlatDiscs& discs,
+                      std::vector<bool>& found) {
+    std::vector<bool> taken = found;
+    for (const auto& mouth : discs.mouths)
+        for (const TriangleId t : mouth) taken[t] = true;
     const double least = kLeastShare * search.whole_area();
     for (const double turn : kCreases)
         for (auto& part : search.parts_between_creases(turn)) {
-            if (search.enclosed_area(part) < least || !search.is_dented_cap(part, surface))
+            if (search.enclosed_area(part) < least || !search.is_dented_disc(part)) continue;
+            const double lumen = search.lumen_behind(part, surface);
+            const bool closes = lumen < kWidestLumen;
+            const std::vector<bool>& others = closes ? found : taken;
+            if (!std::isfinite(lumen) ||
+                std::ranges::any_of(part, [&](TriangleId t) { return others[t]; }))
                 continue;
-            if (std::ranges::any_of(part, [&](TriangleId t) { return found[t]; })) continue;
-            for (const TriangleId t : part) found[t] = true;
-            caps.push_back(std::move(part));
+            for (const TriangleId t : part) taken[t] = true;
+            if (closes)
+                for (const TriangleId t : part) found[t] = true;
+            (closes ? discs.closures : discs.mouths).push_back(std::move(part));
         }
-    return caps;
 }
 
 /// Drops the mouths that became part of a closure or are much smaller than all of them.
@@ -345,7 +358,6 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
     // smooth wall, thousands of smaller ones would grow over the same patches.
     std::vector<double> tried(triangles.size(), 0.0);
     FlatDiscs discs;
-    double flat = 0.0;
     for (TriangleId t = 0; t < triangles.size(); ++t) {
         if (taken[t]) continue;
         auto region = search.grow(t, taken);
@@ -360,19 +372,17 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
             region = search.settled(std::move(region));
             const bool known = std::ranges::any_of(region, [&](TriangleId r) { return found[r]; });
             if (known || !search.closes_vessel(region, kRim, surface) ||
-                !search.has_flat_rim(region)) {
+                !search.has_flat_rim(region, kFlatRim)) {
                 for (const TriangleId r : region) tried[r] = std::max(tried[r], planar);
                 continue;
             }
         }
         for (const TriangleId r : region) taken[r] = found[r] = true;
-        flat += search.area(region);
         discs.closures.push_back(std::move(region));
     }
-    for (auto& cap : dented_caps(search, surface, found)) {
-        flat += search.area(cap);
-        discs.closures.push_back(std::move(cap));
-    }
+    add_dented_discs(search, surface, discs, found);
+    double flat = 0.0;
+    for (const auto& disc : discs.closures) flat += search.area(disc);
     if (flat > kMostFlat * whole || discs.closures.empty()) return {};
     keep_mouths(search, discs, found);
     return discs;

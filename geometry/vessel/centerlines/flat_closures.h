@@ -17,8 +17,8 @@ struct FlatDiscs {
     /// are planar, or dented by up to half a radius.
     std::vector<std::vector<TriangleId>> closures;
     /// They close the mouths of something wider beside such vessels, as a valve's of a heart's
-    /// chamber: the same, but narrower than the lumen, and not much smaller than the smallest
-    /// closure.
+    /// chamber: the same, planar or dented, but narrower than the lumen, and not much smaller than
+    /// the smallest closure.
     std::vector<std::vector<TriangleId>> mouths;
 };
 

@@ -17,6 +17,10 @@ namespace vesselbench {
 
 namespace {
 
+/// What the openings lead into is a chamber if it is wider than them by this factor: a vessel at
+/// its furcation is not, nor beside an aneurysm.
+constexpr double kChamber = 2.0;
+
 /// The ends one to a line; of very many, the widest.
 std::string ends_text(const OpeningPlan& plan) {
     constexpr std::size_t kMostListed = 20;
@@ -71,6 +75,18 @@ bool is_large_rim(const OpeningPlan& plan, const EndRecord& end) {
     return end.rim && !end.shared && end.diameter >= kLargeEnd * widest_opening(plan);
 }
 
+/// The rest of a chamber, such as a heart's: a wide mouth may have been closed there, but it may be
+/// a giant aneurysm as well.
+bool is_end_of_chamber(const OpeningPlan& plan, const EndRecord& end) {
+    return end.rest_of > 0.0 && std::ranges::all_of(plan.openings, [&](const PlannedOpening& o) {
+               return end.rest_of >= kChamber * o.place.diameter;
+           });
+}
+
+bool is_excused(const OpeningPlan& plan, const EndRecord& end) {
+    return (end.sac || end.unlined) && !is_end_of_chamber(plan, end);
+}
+
 /// Empty text: there is none.
 FlowProblem flow_problem(const OpeningPlan& plan) {
     FlowProblem problem{.text = "", .ends = unwanted(plan)};
@@ -81,7 +97,7 @@ FlowProblem flow_problem(const OpeningPlan& plan) {
     }
     std::erase_if(problem.ends, [&](const EndRecord& end) {
         return !is_large_rim(plan, end) &&
-               (end.sac || end.unlined || !is_wider_than_all_openings(plan, end));
+               (is_excused(plan, end) || !is_wider_than_all_openings(plan, end));
     });
     if (problem.ends.empty()) return problem;
     const EndRecord& end = problem.ends.front();
@@ -90,6 +106,9 @@ FlowProblem flow_problem(const OpeningPlan& plan) {
                    place_text(end.place) + " with a diameter of " + formatted(end.diameter) +
                    " mm, is " + to_string(end.fate) + " (" + end.why + "): blood would " +
                    (largest ? "enter" : "leave") + " elsewhere";
+    if (is_end_of_chamber(plan, end))
+        problem.text += "; the vessels lead into a space " + formatted(end.rest_of) +
+                        " mm wide, whose mouth may be closed";
     return problem;
 }
 

@@ -12,7 +12,8 @@ namespace vesselbench {
 
 /// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
 /// needs two openings, and no end without one, unless it is a sac, has no centerline or is asked
-/// for, that is wider than all of them (kAsLarge), or an open rim that is large (kLargeEnd).
+/// for, that is wider than all of them (kAsLarge), nor an open rim that is large (kLargeEnd), nor
+/// the rest of a chamber that is twice as wide as all of them: its mouth may be closed there.
 [[nodiscard]] std::string why_no_flow(const OpeningPlan& plan);
 
 /// \param options that made the plan

@@ -59,6 +59,7 @@ struct EndRecord {
     bool tried = false;    ///< closed since it could not be cut
     bool offered = false;  ///< closed by a rule: `open` may open it, as `why` says
     bool unlined = false;  ///< it has no centerline yet (unlined_ends): `open` needs one
+    double rest_of = 0.0;  ///< diameter of the vessel that it is the rest of (unlined_ends) [mm]
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
 };
 

@@ -40,7 +40,8 @@ EndRecord record_of(const UnlinedEnd& end, bool asked) {
             .sac = end.sac,
             .asked = asked,
             .offered = true,
-            .unlined = true};
+            .unlined = true,
+            .rest_of = end.rest_of};
 }
 
 /// A rim, or an image's border, where no vessel ends: the vessel passes it. A cap that has a

@@ -21,6 +21,8 @@ constexpr double kSameEnd = 1.0;
 /// its parent, as sacs with a line are (surface_ends.cpp).
 constexpr double kSacSections = 1.2;
 constexpr double kSacToParent = 1.4;
+/// What is narrower beside its parent is not the rest of it.
+constexpr double kLeastRest = 0.8;
 /// A point this far from a stub's tip does not mean it [lengths of the stub].
 constexpr double kFarthest = 2.0;
 constexpr int kSections = 10;
@@ -113,10 +115,12 @@ std::optional<UnlinedEnd> end_of(const Stub& stub, const std::vector<Width>& wid
     const double parent = 2.0 * stub.parent;
     if (widths.empty() || stub.length < kLeastLength * round || round < kLeastWidth * parent)
         return std::nullopt;
+    const bool rest = rise <= kSacSections && round >= kLeastRest * parent;
     return UnlinedEnd{.place = stub.tip,
                       .diameter = round,
                       .length = stub.length,
-                      .sac = rise > kSacSections || widest > kSacToParent * parent};
+                      .sac = rise > kSacSections || widest > kSacToParent * parent,
+                      .rest_of = rest ? parent : 0.0};
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ struct UnlinedEnd {
     double diameter = 0.0;      ///< of the largest circle in its sections [mm]
     double length = 0.0;        ///< beyond them [mm]
     bool sac = false;           ///< it is wider than its neck, or than its parent: an aneurysm
+    /// Diameter of the vessel that it is the rest of, without a neck and about as wide [mm]; 0: it
+    /// is narrower, or has a neck.
+    double rest_of = 0.0;
 };
 
 /// The stubs that may be vessels' ends: at least a quarter as long as they are wide beyond their

@@ -11,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/point_welder.h"
+#include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
 
@@ -18,6 +19,12 @@ namespace {
 
 /// A surface whose largest piece has less than this fraction of the area [-] is scattered.
 constexpr double kSmallestMainPart = 0.1;
+/// A piece inside another one is the inner side of its wall if it has this fraction of its area
+/// [-]; a calcification or a thrombus has less.
+constexpr double kInnerWall = 0.3;
+/// Inside is this fraction of its vertices [-]: those at open ends are in between.
+constexpr double kNested = 0.8;
+constexpr std::size_t kNestedSamples = 200;
 
 std::size_t weld_equal_points(TriangleSoup& mesh) {
     PointWelder welder(mesh.points.size());
@@ -91,6 +98,33 @@ void check_main_part(const std::vector<Part>& order, double whole) {
         " unconnected pieces, the largest of which has only " +
         std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
         " % of the area: this is not a connected surface; export it again with shared points");
+}
+
+/// True if a part lies inside another one.
+bool is_nested(const TriangleSoup& mesh, const Components& parts, std::size_t inner,
+               std::size_t outer) {
+    std::vector<Triangle> around;
+    std::vector<VertexId> within;
+    for (TriangleId t = 0; t < mesh.triangles.size(); ++t) {
+        if (parts.of_triangle[t] == outer) around.push_back(mesh.triangles[t]);
+        if (parts.of_triangle[t] == inner) within.push_back(mesh.triangles[t][0]);
+    }
+    const SurfaceDistance surface(mesh.points, around);
+    const std::size_t step = within.size() / kNestedSamples + 1;
+    std::size_t samples = 0, inside = 0;
+    for (std::size_t i = 0; i < within.size(); i += step, ++samples)
+        if (std::abs(surface.winding_number(mesh.points[within[i]])) > 0.5) ++inside;
+    return static_cast<double>(inside) >= kNested * static_cast<double>(samples);
+}
+
+/// Puts the inner side of a vessel's wall, where the blood flows, before the outer one.
+/// \return true if there are both
+bool put_lumen_first(const TriangleSoup& mesh, const Components& parts, std::vector<Part>& order) {
+    if (order[1].area < kInnerWall * order[0].area ||
+        !is_nested(mesh, parts, order[1].number, order[0].number))
+        return false;
+    std::swap(order[0], order[1]);
+    return true;
 }
 
 /// Of the parts behind the first `count`, the longest vessel.
@@ -168,9 +202,11 @@ void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report) {
 void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report) {
     const Components parts = connected_components(Topology(mesh.triangles, mesh.points.size()));
     if (parts.count() <= 1) return;
-    const std::vector<Part> order = parts_by_area(mesh, parts);
+    std::vector<Part> order = parts_by_area(mesh, parts);
     check_main_part(order, area_of(mesh));
-    note_vessel(mesh, parts, order, count, report);
+    const bool walls = count == 1 && put_lumen_first(mesh, parts, order);
+    report.removed_outer_wall = report.removed_outer_wall || walls;
+    note_vessel(mesh, parts, order, walls ? 2 : count, report);
     std::vector<std::uint8_t> drop(parts.count(), 0);
     for (std::size_t i = count; i < order.size(); ++i) {
         drop[order[i].number] = 1;

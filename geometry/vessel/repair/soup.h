@@ -21,7 +21,8 @@ void weld(TriangleSoup& mesh, double tolerance, RepairReport& report);
 /// vertices.
 void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report);
 
-/// Keeps the `count` components of largest area.
+/// Keeps the `count` components of largest area. Of a vessel's wall with an outer and an inner
+/// side, unconnected, a count of 1 keeps the inner one.
 /// \throw AlgorithmFailure if the largest one is only a small part of the surface: scattered
 ///        triangles are no surface
 void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report);
