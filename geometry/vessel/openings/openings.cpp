@@ -152,11 +152,14 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
     return *tip;
 }
 
+LinesWithoutFrays planning_lines(const Surface& surface, const CenterlineGraph& graph,
+                                 const OpeningPlanOptions& options) {
+    return options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph);
+}
+
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                           const OpeningPlanOptions& options, const Progress& progress) {
-    return plan_openings(surface,
-                         options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph),
-                         options, progress);
+    return plan_openings(surface, planning_lines(surface, graph, options), options, progress);
 }
 
 OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines,

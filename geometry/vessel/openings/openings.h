@@ -131,8 +131,12 @@ inline constexpr double kEndReach = 1.5;
                                         const OpeningPlanOptions& options = {},
                                         const Progress& progress = {});
 
-/// The same by lines whose frays are taken out already, for several plans of a surface.
-/// \param lines with `tip`, all of the surface's lines
+/// The lines by which a plan is made: without frays, or with `tip` all of them, since a single end
+/// is not judged beside others.
+[[nodiscard]] LinesWithoutFrays planning_lines(const Surface& surface, const CenterlineGraph& graph,
+                                               const OpeningPlanOptions& options);
+
+/// The same by planning_lines() that were made already, for several plans of a surface.
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines,
                                         const OpeningPlanOptions& options,
                                         const Progress& progress = {});

@@ -100,7 +100,7 @@ void check_main_part(const std::vector<Part>& order, double whole) {
         " % of the area: this is not a connected surface; export it again with shared points");
 }
 
-/// True if a part lies inside another one.
+/// True if a part lies inside another one, whichever way that one faces.
 bool is_nested(const TriangleSoup& mesh, const Components& parts, std::size_t inner,
                std::size_t outer) {
     std::vector<Triangle> around;

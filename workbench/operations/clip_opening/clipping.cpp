@@ -8,7 +8,6 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/flow_check.h"
-#include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/planned_cut.h"
@@ -88,9 +87,9 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
 }
 
 /// The lines that a plan needs; the ends without one go into its options.
-std::shared_ptr<const CenterlineGraph> planning_lines(const Surface& surface,
-                                                      OpeningPlanOptions& options,
-                                                      const Progress& progress) {
+std::shared_ptr<const CenterlineGraph> lines_and_stubs(const Surface& surface,
+                                                       OpeningPlanOptions& options,
+                                                       const Progress& progress) {
     if (options.tip) return lines_for_openings(surface, options.tip, progress);
     Positions wanted = options.open;
     wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
@@ -130,11 +129,9 @@ Positions stored_inlets(const OpeningPlan& plan, const Surface& clipped,
 Clipping decide_openings(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
-    const auto graph = planning_lines(surface, options, progress.part(0.0, 0.5));
+    const auto graph = lines_and_stubs(surface, options, progress.part(0.0, 0.5));
     if (!options.tip) require_tube(surface, *graph);
-    // A single end is not judged beside others: threads stay ends of their own.
-    const LinesWithoutFrays lines =
-        options.tip ? LinesWithoutFrays{*graph, {}} : without_frays(surface, *graph);
+    const LinesWithoutFrays lines = planning_lines(surface, *graph, options);
     const bool for_flow = !options.tip && arguments.text("check") == "flow";
     const bool chosen = !options.distance && !options.radii && !options.strict;
     for (int plans = 1;; ++plans) {

@@ -27,15 +27,11 @@ std::string small_ends_text(const std::vector<EndRecord>& small) {
     std::vector<std::string> places;
     for (const EndRecord& end : small)
         if (end.offered && !end.sac) places.push_back(coordinates_argument(end.place));
-    std::string text = counted(small.size(), "smaller end") + " stayed closed: see the report";
+    const std::string text =
+        counted(small.size(), "smaller end") + " stayed closed: see the report";
     if (places.empty() || places.size() > kMostNamed) return text;
-    const char* before = "; open=";
-    for (const std::string& place : places) {
-        text += before + place;
-        before = ",";
-    }
-    return text + " opens " + (places.size() == 1 ? "one" : std::to_string(places.size())) +
-           " of them";
+    return text + "; open=" + joined(places, ",") + " opens " +
+           (places.size() == 1 ? "one" : std::to_string(places.size())) + " of them";
 }
 
 /// A cap at an image's border that is as wide as other openings: the vessel goes on behind it.
@@ -81,11 +77,9 @@ std::string tilt_warning(const ordered_json& openings) {
 std::string further_inlets(const Surface& surface) {
     const std::vector<std::size_t> likely = likely_inlets(surface);
     if (likely.empty()) return "";
-    std::vector<std::string> names;
-    std::string command = "inlet=";
+    std::vector<std::string> names, places;
     const auto add = [&](std::size_t patch) {
-        command += command.back() == '=' ? "" : ",";
-        command += to_text(Value(rounded_place(patch_shape(surface, patch).plane.point)));
+        places.push_back(to_text(Value(rounded_place(patch_shape(surface, patch).plane.point))));
     };
     for (std::size_t p = 0; p < surface.patches.size(); ++p)
         if (surface.patches[p].kind == PatchKind::Inlet) add(p);
@@ -94,7 +88,8 @@ std::string further_inlets(const Surface& surface) {
         add(p);
     }
     return enumerated(names) + (names.size() == 1 ? " faces" : " face") +
-           " the same way as the inlet: if blood flows in there as well, give " + command;
+           " the same way as the inlet: if blood flows in there as well, give inlet=" +
+           joined(places, ",");
 }
 
 }  // namespace vesselbench

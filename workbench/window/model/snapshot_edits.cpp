@@ -8,17 +8,28 @@
 
 namespace vesselbench {
 
+namespace {
+
+/// The newest edit that a condition holds for; null: none.
+const LogEntry* newest_of(const Snapshot& snapshot, const auto& condition) {
+    const LogEntry* newest = nullptr;
+    for (const LogEntry& entry : snapshot.log)
+        if (condition(entry.edit) &&
+            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
+            newest = &entry;
+    return newest;
+}
+
+}  // namespace
+
 bool same_edits(const Snapshot& a, const Snapshot& b) {
     return a.history == b.history && a.past == b.past && a.project == b.project &&
            a.read_only_reason == b.read_only_reason;
 }
 
 std::string newest_variant(const Snapshot& snapshot) {
-    const LogEntry* newest = nullptr;
-    for (const LogEntry& entry : snapshot.log)
-        if (!entry.edit.place.variant.empty() &&
-            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
-            newest = &entry;
+    const LogEntry* newest =
+        newest_of(snapshot, [](const EditRecord& edit) { return !edit.place.variant.empty(); });
     return newest == nullptr ? kDefaultVariant : newest->edit.place.variant;
 }
 
@@ -39,12 +50,7 @@ std::vector<LogEntry> run_since(const Snapshot& before, const Snapshot& now) {
 }
 
 const LogEntry* newest_edit(const Snapshot& snapshot, const std::string& operation) {
-    const LogEntry* newest = nullptr;
-    for (const LogEntry& entry : snapshot.log)
-        if (entry.edit.operation == operation &&
-            (newest == nullptr || newest->edit.edit.id < entry.edit.edit.id))
-            newest = &entry;
-    return newest;
+    return newest_of(snapshot, [&](const EditRecord& edit) { return edit.operation == operation; });
 }
 
 std::string edits_between(const Snapshot& a, const Snapshot& b) {
