@@ -17,7 +17,7 @@ compile_apart(vb_kernel geometry/kernel one_rings vertex_corners)
 compile_apart(vb_image geometry/image histogram resample)
 compile_apart(vb_editing geometry/editing flat_cap)
 compile_apart(vb_vessel geometry/vessel centerlines/strands centerlines/thin_vessels openings/cut_trial
-  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut openings/unlined_ends
+  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut openings/stub_lines
   openings/vessel_tube openings/wall_axis repair/sheets repair/soup repair/stray_holes)
 compile_apart(vb_formats geometry/formats legacy_vtk meta_image nifti nrrd obj off ply vtk_xml_check)
 compile_apart(vb_filters smoothing/filters sweep_schedule)
@@ -27,7 +27,7 @@ compile_apart(vb_tetrahedra meshing/tetrahedra tetgen_guard)
 compile_apart(vb_remeshing meshing/remeshing decimate decimater surface_walk)
 compile_apart(vb_project workbench/project part_store schema)
 if(VESSELBENCH_TESTS)
-  compile_apart(test_geometry tests/geometry centerlines_test editable_surface_test end_ladder_test extract_surface_test
+  compile_apart(test_geometry tests/geometry centerlines_test editable_surface_test end_choice_test extract_surface_test
     extrude_test formats_test good_rims_test openings_test phantom_test remove_branch_test thin_vessels_test)
   compile_apart(test_smoothing tests/smoothing filters_test staircases_as_printed_test staircases_test)
   compile_apart(test_meshing tests/meshing tetrahedralize_test)

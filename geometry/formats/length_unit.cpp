@@ -16,13 +16,14 @@ namespace {
 constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre};
 
 /// Ranges for models of vessels [mm]: typical radius from an intracranial artery to an atrium, the
-/// thinnest lumen resolved by images, the extent from the smallest excerpt to a whole body.
+/// thinnest lumen resolved by images, the widest valve of a heart, the extent from the smallest excerpt to a whole body.
 constexpr double kSmallestRadius = 1.3;
 constexpr double kLargestRadius = 20.0;
 /// Of what is longer than kSlender of its radii, and therefore no chamber or excerpt.
 constexpr double kLargestTube = 14.0;
 constexpr double kSlender = 8.0;
 constexpr double kThinnestOpening = 0.5;
+constexpr double kWidestOpening = 25.0;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
 
@@ -39,6 +40,7 @@ struct Figures {
     double extent = 0.0;
     double radius = 0.0;
     double opening = 0.0;  ///< radius of the smallest round opening; 0: none
+    double mouth = 0.0;    ///< of the largest one
 };
 
 double too_small(double value, double limit) {
@@ -76,6 +78,7 @@ Figures figures_of(const Surface& surface) {
         const double radius = round_radius(surface.points(), loop);
         if (radius > 0.0 && (figures.opening == 0.0 || radius < figures.opening))
             figures.opening = radius;
+        figures.mouth = std::max(figures.mouth, radius);
     }
     return figures;
 }
@@ -86,6 +89,7 @@ double implausibility(const Figures& figures, double factor) {
     return too_small(factor * figures.radius, kSmallestRadius) +
            too_large(factor * figures.radius, slender ? kLargestTube : kLargestRadius) +
            too_small(factor * figures.opening, kThinnestOpening) +
+           too_large(factor * figures.mouth, kWidestOpening) +
            too_small(factor * figures.extent, kSmallestExtent) +
            too_large(factor * figures.extent, kLargestExtent);
 }

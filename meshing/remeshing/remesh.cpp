@@ -92,20 +92,39 @@ void run_rounds(Remesher& remesher, int first, int rounds, const Progress& progr
     }
 }
 
-/// A count far beyond what can be made is known from the surface's area.
-void check_count(const Surface& surface, const std::vector<double>& sizes, double edge) {
+/// The most triangles that are made without being asked for: a tetrahedral mesh has ten times as
+/// many.
+constexpr double kMostChosen = 3e6;
+
+/// Triangles that target edges would make, by the surface's area.
+double expected_count(const Surface& surface, const std::vector<double>& sizes) {
     double count = 0.0;
     for (const auto& [a, b, c] : surface.triangles()) {
         const double size = (sizes[a] + sizes[b] + sizes[c]) / 3.0;
         count += 0.5 * area_normal(surface.points(), {a, b, c}).norm() /
                  (std::sqrt(3.0) / 4.0 * size * size);
     }
+    return count;
+}
+
+/// A count far beyond what can be made is known before.
+void check_count(const Surface& surface, const std::vector<double>& sizes, double edge) {
+    const double count = expected_count(surface, sizes);
     const auto most = static_cast<double>(Remesher::kMostTriangles);
     if (count <= most) return;
     throw AlgorithmFailure(
         formatted(edge, "edges of %.3g mm would make about ") + formatted(count / 1e6, "%.3g") +
         formatted(most / 1e6, " million triangles, more than %.0f million; use edge=") +
         formatted(1.1 * edge * std::sqrt(count / most), "%.2g") + " or more");
+}
+
+/// Edges that were not asked for become longer where they would make too many triangles.
+void limit_count(const Surface& surface, std::vector<double>& sizes, RemeshReport& report) {
+    const double factor = std::sqrt(expected_count(surface, sizes) / kMostChosen);
+    if (factor <= 1.0) return;
+    for (double& size : sizes) size *= factor;
+    for (double* edge : {&report.edge, &report.min_edge, &report.max_edge}) *edge *= factor;
+    report.limited = true;
 }
 
 std::vector<double> target_lengths(std::vector<double> sizes) {
@@ -265,6 +284,7 @@ Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshR
                                               .gradation = parameters.gradation,
                                               .resolution = parameters.resolution},
                                              progress.part(0.0, 0.2));
+    if (!parameters.edge) limit_count(surface, sizes, report);
     return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, report,
                                 progress.part(0.2, 1.0));
 }

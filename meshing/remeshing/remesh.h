@@ -28,6 +28,7 @@ struct RemeshReport {
     double usual_radius = 0.0;              ///< [mm]
     double edge = 0.0;                      ///< [mm]
     double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
+    bool limited = false;  ///< edges are longer than usual: there would be too many triangles
     std::size_t triangles_before = 0, triangles_after = 0;
     double volume_change = 0.0;  ///< of the enclosed volume, relative to that before [-]
     TriangleShape wall, caps;

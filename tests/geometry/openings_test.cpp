@@ -386,7 +386,7 @@ SCENARIO("A cut that would remove another vessel's end is refused", "[geometry][
     const auto ends = find_surface_ends(tube, graph);
     REQUIRE(ends.size() == 2);
     const std::size_t upper = ends[0].centre.z() > 15.0 ? 0 : 1;
-    CutTrials trials(tube, graph, ends);
+    CutTrials trials(tube, graph, ends, std::vector<double>(ends.size(), 0.0));
     OpeningPlace place{.tip = ends[upper].centre,
                        .plane = {Vec3(0, 0, 25.1), Vec3::UnitZ()},
                        .distance = 5.0,

@@ -262,7 +262,7 @@ std::string told(const OpeningPlan& plan) {
 }  // namespace
 
 SCENARIO("A stub without a whole section is removed", "[geometry][openings]") {
-    const Surface with_stub = without(branched(Vec3(6, 0, 20), 2.0, 0.9, 0.3), [](const Vec3& p) {
+    const Surface with_stub = without(branched(Vec3(6, 0, 20), 2.0, 0.7, 0.3), [](const Vec3& p) {
         return p.x() > 2.45 + 0.35 * std::sin(2.0 * std::atan2(p.y(), p.z() - 20.0));
     });
     const auto graph = centerlines_of(with_stub);

@@ -171,18 +171,42 @@ struct InputArguments {
     std::string units;
 };
 
+/// What the caller says about vessel ends: each text is numbers of `ends`, "1" or "4,7", or a place
+/// "x,y,z" [mm].
+struct EndArguments {
+    std::vector<std::string> inlets, open, close;
+    bool accept_doubts = false;
+};
+
 struct PrepareArguments {
     InputArguments input;
     std::string purpose;
     std::string recipe;
     std::vector<std::string> settings;  ///< "operation.parameter=value"
+    EndArguments ends;
     std::string out;
     bool resume = false;
     bool json = false;
 };
 
+/// Settings with those that name vessel ends.
+/// \throw UsageError if a text names no end
+[[nodiscard]] std::vector<std::string> with_ends(std::vector<std::string> settings,
+                                                 const EndArguments& ends);
+
 /// Turns the input into a CFD or print model.
 void prepare_case(const PrepareArguments& arguments, const Progress& progress);
+
+struct EndsOptions {
+    InputArguments input;  ///< a project as well
+    std::vector<std::string> settings;  ///< "operation.parameter=value"
+    EndArguments ends;
+    std::string picture;  ///< PNG file; empty: none
+    bool json = false;
+};
+
+/// Lists the vessel ends and what would become of them, without making a model.
+void list_ends(const EndsOptions& options, const Progress& progress);
 
 struct NewArguments {
     std::string project;

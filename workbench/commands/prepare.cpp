@@ -13,6 +13,7 @@
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/end_settings.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/edit_place.h"
 #include "workbench/session/stored_texts.h"
@@ -47,6 +48,15 @@ InputOptions input_options(const InputArguments& arguments) {
 
 }  // namespace
 
+std::vector<std::string> with_ends(std::vector<std::string> settings, const EndArguments& ends) {
+    for (const auto& [what, texts] : {std::pair{"inlet", &ends.inlets}, {"open", &ends.open},
+                                      {"close", &ends.close}})
+        for (std::string& setting : end_settings(what, *texts))
+            settings.push_back(std::move(setting));
+    if (ends.accept_doubts) settings.emplace_back("clip-opening.accept_doubts=true");
+    return settings;
+}
+
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
@@ -55,7 +65,7 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const PrepareSummary made = prepare({.input = input_options(arguments.input),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,
-                                         .arguments = arguments.settings,
+                                         .arguments = with_ends(arguments.settings, arguments.ends),
                                          .out = arguments.out,
                                          .resume = arguments.resume},
                                         tell, progress);

@@ -60,6 +60,18 @@ void add_input(CLI::App& command, InputArguments& input) {
         ->type_name("UNIT");
 }
 
+void add_end_options(CLI::App& command, EndArguments& ends) {
+    const auto add = [&](const char* name, std::vector<std::string>& texts, const char* help) {
+        command.add_option(name, texts, help)->allow_extra_args(false)->type_name("N|X,Y,Z");
+    };
+    add("--inlet", ends.inlets,
+        "A vessel end where blood enters, by its number (see ends) or place; may be repeated");
+    add("--open", ends.open, "Vessel ends that are opened: numbers N,N or a place; may be repeated");
+    add("--close", ends.close, "Vessel ends that stay closed, likewise");
+    command.add_flag("--accept-doubts", ends.accept_doubts,
+                     "Where the odds do not decide about a vessel end, take the likelier choice");
+}
+
 void add_prepare(CommandLine& line) {
     const auto options = std::make_shared<PrepareArguments>();
     CLI::App& command =
@@ -79,9 +91,27 @@ void add_prepare(CommandLine& line) {
                     "operation.parameter=value: change an argument of the recipe")
         ->allow_extra_args(false)
         ->type_name("OPERATION.PARAMETER=VALUE");
+    add_end_options(command, options->ends);
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
+    add_json(command, options->json);
+}
+
+void add_ends(CommandLine& line) {
+    const auto options = std::make_shared<EndsOptions>();
+    CLI::App& command = add_command(
+        line, "ends", "List the vessel ends, and what prepare --for cfd would make of each",
+        [options, &line] { return list_ends(*options, line.progress), 0; });
+    add_input(command, options->input);
+    command
+        .add_option("--set", options->settings,
+                    "operation.parameter=value: change an argument of the recipe")
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+    add_end_options(command, options->ends);
+    command.add_option("--picture", options->picture, "Draw the vessels with the ends' numbers")
+        ->type_name("FILE.png");
     add_json(command, options->json);
 }
 
@@ -99,6 +129,7 @@ void add_new(CommandLine& line) {
 
 void add_preparing_commands(CommandLine& line) {
     add_prepare(line);
+    add_ends(line);
     add_new(line);
 }
 

@@ -26,6 +26,18 @@ void add_flow_warnings(const Arguments& arguments, const Clipping& made,
         if (!text.empty()) outcome.warnings.push_back(text);
 }
 
+/// Replays do not depend on the numbers of ends.
+void store_places(const Arguments& given, const OpeningPlanOptions& used, Arguments& resolved) {
+    for (const NumberParameter& parameter : kNumberParameters) {
+        if (!given.has(parameter.numbers)) continue;
+        std::vector<double> places;
+        for (const Vec3& place : used.*parameter.into)
+            places.insert(places.end(), {place.x(), place.y(), place.z()});
+        resolved.set(parameter.places, places);
+        resolved.remove(parameter.numbers);
+    }
+}
+
 Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progress& progress) {
     check_clip_arguments(arguments);
     const Surface& surface = surface_of(scene);
@@ -34,6 +46,7 @@ Outcome clipped_by(const Arguments& arguments, const Scene& scene, const Progres
     const ClippingRecord record = record_of(surface, made, !arguments.has("planes"));
     Outcome outcome;
     outcome.resolved = arguments;
+    store_places(arguments, made.options, outcome.resolved);
     outcome.resolved.set("planes", record.planes);
     outcome.resolved.set("names", record.names);
     if (!made.plan.closings.empty())

@@ -66,6 +66,9 @@ std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outco
     return nullptr;
 }
 
+/// An opening shows with so many edges to its diameter.
+constexpr double kEdgesAcross = 4.0;
+
 /// \throw AlgorithmFailure if a cap collapsed: its vessel's end would be wall
 void require_openings(const Surface& before, const Remeshed& after) {
     for (std::size_t p = 0; p < before.patches.size(); ++p) {
@@ -78,7 +81,7 @@ void require_openings(const Surface& before, const Remeshed& after) {
             formatted(after.report.edge, "edges of %.3g mm are too coarse for the opening ") +
             before.patches[p].name +
             formatted(patch_shape(before, p).diameter(), ", %.3g mm wide, which would be lost: ") +
-            "use a smaller edge or min_edge");
+            formatted(patch_shape(before, p).diameter() / kEdgesAcross, "use min_edge=%.2g or less"));
     }
 }
 
@@ -106,6 +109,10 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         outcome.resolved.set("max_edge", figures.max_edge);
     }
     outcome.report = report_from(figures, features);
+    if (figures.limited)
+        outcome.warnings.push_back(
+            formatted(figures.edge, "edges of %.3g mm, the finest that make no more than ") +
+            "3 million triangles; edge= makes them finer or coarser");
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back("walls that almost touch near " + place_text(figures.crossing) +
                                    " crossed after remeshing and were separated there: the wall "

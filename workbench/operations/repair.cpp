@@ -150,9 +150,11 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     ordered_json report = report_json(repaired.report);
     outcome.warnings =
         warnings_of(repaired.report, surface, parameters.close_holes_up_to.has_value());
-    if (arguments.flag("caps") && !scene.image) {
+    if (arguments.flag("caps")) {
+        repaired.surface = without_stray_labels(repaired.surface);
         const std::size_t before = repaired.surface.patches.size();
-        repaired.surface = label_flat_caps(repaired.surface);
+        if (!scene.image) repaired.surface = label_flat_caps(repaired.surface);
+        repaired.surface = label_flat_faces(repaired.surface, progress.silent());
         add_caps(report, repaired.surface.patches.size() - before);
     }
     outcome.report = std::make_shared<ordered_json>(std::move(report));

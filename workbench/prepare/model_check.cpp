@@ -83,7 +83,8 @@ std::string remedy_for(Session& session, const std::vector<LogEntry>& edits,
                        const BeforeOpenings& before, const CenterlineGraph& lines) {
     for (const LogEntry& entry : edits) {
         const Surface after = surface_of(session.scene_after(entry.edit.edit.id));
-        const std::vector<LostVessel> lost = lost_vessels(lines, after, before.asked);
+        std::vector<LostVessel> lost = lost_vessels(lines, after, before.asked);
+        std::erase_if(lost, [](const LostVessel& vessel) { return !vessel.matters(); });
         if (lost.empty()) continue;
         const Operation& operation = find_operation(entry.edit.operation);
         const std::string edge = formatted(lost.back().diameter / kEdgesAcross, "%.2g");
@@ -129,12 +130,22 @@ void require_ends_opened(const std::vector<LogEntry>& edits, const BeforeOpening
                            (cutter ? without_end(cutter->entry, cutter->tip) : ""));
 }
 
+/// What is missing of vessels that carry little of the flow; empty: nothing.
+std::string lost_text(const std::vector<LostVessel>& lost) {
+    if (lost.empty()) return "";
+    return "the model misses " + counted(lost.size(), "thin vessel") + " of at most " +
+           formatted(lost.front().diameter) + " mm, the widest at " +
+           place_text(lost.front().place) + ", with " +
+           formatted(100.0 * lost.front().share, "%.3g %% of the flow");
+}
+
 /// \throw AlgorithmFailure that lists the vessels and names the edit that lost them
 [[noreturn]] void refuse_lost(Session& session, const std::vector<LogEntry>& edits,
                               const BeforeOpenings& before, const VesselCheck& check) {
     std::string text;
     for (const LostVessel& vessel : check.lost)
-        text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
+        if (vessel.matters())
+            text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
                 ", diameter " + formatted(vessel.diameter) + " mm";
     throw AlgorithmFailure("the model has lost vessels:" + text +
                            remedy_for(session, edits, before, check.lines));
@@ -197,9 +208,9 @@ void ModelChecks::check_whole(const LogEntry& edit, const std::optional<BeforeOp
     if (before) {
         const VesselCheck check =
             compared_vessels(*before, surface_of(session_.scene_after(id)), progress);
-        if (!check.lost.empty())
+        if (std::ranges::any_of(check.lost, &LostVessel::matters))
             refuse_lost(session_, edits_from_first_cut(session_, variant_, id), *before, check);
-        warning_ = check.warning;
+        warning_ = check.warning.empty() ? lost_text(check.lost) : check.warning;
     }
     whole_ = edit.result->id;
 }

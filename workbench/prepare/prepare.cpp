@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
@@ -17,6 +17,7 @@
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/recipe_warnings.h"
+#include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/session/stored_texts.h"
 
@@ -277,6 +278,13 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         throw;
     } catch (const UsageError&) {
         if (!any_edit) clear_away(project, new_folder);
+        throw;
+    } catch (const DiagnosedFailure& failure) {
+        PendingFiles files;
+        files.add_text(options.out / "report.json", refusal_json(options, failure).dump(2) + "\n");
+        files.commit();
+        tell("the completed edits are kept in " + project.filename().string() +
+             "; report.json has what was found; --resume goes on there, also after an edit by hand");
         throw;
     } catch (const std::exception&) {
         if (!any_edit)

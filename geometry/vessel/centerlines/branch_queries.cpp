@@ -92,6 +92,27 @@ bool overlaps(const CenterlineBranch& branch, const Vec3& centre, double radius)
     return false;
 }
 
+/// Arc length from a node at which a branch's spheres, with radii so many times as large, overlap
+/// none of the other branches there.
+double clear_of_others(const CenterlineGraph& graph, std::size_t branch, std::size_t node,
+                       double scale) {
+    const CenterlineBranch& own = graph.branches[branch];
+    const bool from_start = starts_at(graph, branch, node);
+    if (graph.nodes[node].branches.size() < 3) return 0.0;
+    const auto s = abscissas(own);
+    const auto meets_another = [&](std::size_t i) {
+        for (const std::size_t other : graph.nodes[node].branches)
+            if (other != branch && overlaps(graph.branches[other], own.points[i], scale * own.radii[i]))
+                return true;
+        return false;
+    };
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        const std::size_t i = from_start ? k : s.size() - 1 - k;
+        if (!meets_another(i)) return from_start ? s[i] : s.back() - s[i];
+    }
+    return s.back();
+}
+
 }  // namespace
 
 std::vector<double> abscissas(const CenterlineBranch& branch) {
@@ -240,23 +261,11 @@ BranchPlace place_from_node(const CenterlineGraph& graph, std::size_t branch, st
 }
 
 double furcation_zone_end(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
-    const CenterlineBranch& own = graph.branches[branch];
-    const bool from_start = starts_at(graph, branch, node);
-    if (graph.nodes[node].branches.size() < 3) return 0.0;
-    const auto s = abscissas(own);
-    const auto meets_another = [&](std::size_t i) {
-        for (const std::size_t other : graph.nodes[node].branches) {
-            if (other != branch && overlaps(graph.branches[other], own.points[i], own.radii[i])) {
-                return true;
-            }
-        }
-        return false;
-    };
-    for (std::size_t k = 0; k < s.size(); ++k) {
-        const std::size_t i = from_start ? k : s.size() - 1 - k;
-        if (!meets_another(i)) return from_start ? s[i] : s.back() - s[i];
-    }
-    return s.back();
+    return clear_of_others(graph, branch, node, 1.0);
+}
+
+double parents_exit(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
+    return clear_of_others(graph, branch, node, 0.0);
 }
 
 }  // namespace vesselbench

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/triangle_neighbours.h"
 
 namespace vesselbench {
 namespace {
@@ -47,48 +48,13 @@ constexpr double kLeastShare = 1e-5;
 /// Area of a mouth over that of the smallest closure: only coarse walls have smaller flat places.
 constexpr double kLeastMouth = 0.5;
 
-constexpr TriangleId kNone = static_cast<TriangleId>(-1);
-
-/// The triangle across each of a triangle's edges; kNone unless there is exactly one.
-std::vector<std::array<TriangleId, 3>> neighbours_of(std::span<const Triangle> triangles) {
-    struct Side {
-        VertexId a, b;
-        TriangleId triangle;
-        std::uint8_t edge;
-    };
-
-    std::vector<Side> sides;
-    for (TriangleId t = 0; t < triangles.size(); ++t) {
-        for (std::uint8_t k = 0; k < 3; ++k) {
-            const auto [a, b] = std::minmax(triangles[t][k], triangles[t][(k + 1U) % 3]);
-            sides.push_back({a, b, t, k});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-        return std::tie(x.a, x.b, x.triangle, x.edge) < std::tie(y.a, y.b, y.triangle, y.edge);
-    });
-    std::vector<std::array<TriangleId, 3>> near(triangles.size(), {kNone, kNone, kNone});
-    for (std::size_t i = 0; i < sides.size();) {
-        std::size_t end = i;
-        while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b) {
-            ++end;
-        }
-        if (end - i == 2) {
-            near[sides[i].triangle][sides[i].edge] = sides[i + 1].triangle;
-            near[sides[i + 1].triangle][sides[i + 1].edge] = sides[i].triangle;
-        }
-        i = end;
-    }
-    return near;
-}
-
 /// Finds planar regions and classifies them.
 class Search {
 public:
     Search(const Positions& points, std::span<const Triangle> triangles)
         : points_(points),
           triangles_(triangles),
-          near_(neighbours_of(triangles)),
+          near_(edge_neighbours(triangles)),
           visited_(triangles.size(), 0) {
         for (const Triangle& t : triangles) {
             const Vec3 a = 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
@@ -103,7 +69,7 @@ public:
         taken[seed] = true;
         for (std::size_t i = 0; i < region.size(); ++i) {
             for (const TriangleId t : near_[region[i]]) {
-                if (t == kNone || taken[t]) continue;
+                if (t == kNoTriangle || taken[t]) continue;
                 if (areas_[t] > 0.0 && normals_[t].dot(normals_[seed]) < kPlane) continue;
                 taken[t] = true;
                 region.push_back(t);
@@ -140,13 +106,13 @@ public:
         for (const TriangleId t : region) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const TriangleId other = near_[t][k];
-                if (other != kNone && std::binary_search(region.begin(), region.end(), other)) {
+                if (other != kNoTriangle && std::binary_search(region.begin(), region.end(), other)) {
                     continue;
                 }
                 const double length =
                     (points_[triangles_[t][(k + 1) % 3]] - points_[triangles_[t][k]]).norm();
                 rim += length;
-                if (other != kNone && normals_[other].dot(normal) < turn) sharp += length;
+                if (other != kNoTriangle && normals_[other].dot(normal) < turn) sharp += length;
             }
         }
         return sharp >= kSharpRim * rim && 4.0 * std::numbers::pi * area >= kRoundness * rim * rim;
@@ -182,7 +148,7 @@ public:
             taken[seed] = true;
             for (std::size_t i = 0; i < part.size(); ++i)
                 for (const TriangleId t : near_[part[i]])
-                    if (t != kNone && !taken[t] && !is_crease(part[i], t, turn)) {
+                    if (t != kNoTriangle && !taken[t] && !is_crease(part[i], t, turn)) {
                         taken[t] = true;
                         part.push_back(t);
                     }
@@ -294,7 +260,7 @@ private:
         for (const TriangleId t : region) visited_[t] = visit_;
         for (std::size_t i = 0; i < region.size(); ++i)
             for (const TriangleId t : near_[region[i]])
-                if (t != kNone && visited_[t] != visit_ && lies_in(t)) {
+                if (t != kNoTriangle && visited_[t] != visit_ && lies_in(t)) {
                     visited_[t] = visit_;
                     region.push_back(t);
                 }

@@ -22,8 +22,10 @@ namespace {
 
 /// A kept cap that is less flat is flattened [diameters].
 constexpr double kKeptFlatness = 1e-5;
-/// A rim or cap that was not edited is within this distance of where it was planned [mm].
+/// A rim that was not edited is within this distance of where it was planned [mm], a cap within
+/// this fraction of its diameter.
 constexpr double kSamePlace = 1e-6;
+constexpr double kSameCap = 0.2;  // diameters
 
 /// Patches of planned openings are found again by these names while the surface is edited.
 std::string mark_of(std::size_t opening) {
@@ -255,9 +257,11 @@ private:
 
     std::optional<std::size_t> opening_at(const Vec3& centre) const {
         const auto patch = nearest_opening(result_, centre);
-        if (!patch || (patch_shape(result_, *patch).plane.point - centre).norm() > kSamePlace)
-            return std::nullopt;
-        return patch;
+        if (!patch) return std::nullopt;
+        const PatchShape shape = patch_shape(result_, *patch);
+        // A neighbour that was flattened may have moved some of its vertices.
+        const bool same = (shape.plane.point - centre).norm() < kSameCap * shape.diameter();
+        return same && !result_.patches[*patch].name.starts_with('\x01') ? patch : std::nullopt;
     }
 
     void make_wall(std::size_t patch) {

@@ -18,6 +18,8 @@ namespace {
 /// A cut through a vessel's side is longer than its own vessel is wide, or a slit.
 constexpr double kWidestSection = 2.0;  ///< diameter over that of the inscribed circle
 constexpr double kLeastRoundness = 0.3;
+/// A cut of a closed end is at least so wide beside its vessel [-].
+constexpr double kLeastWidth = 0.4;
 /// What a cut may remove beyond its tip [diameters].
 constexpr double kLongestLoss = 3.0;
 /// An open rim this wide beside a cut [-] is an end of its own, unless both were torn off one end:
@@ -25,16 +27,19 @@ constexpr double kLongestLoss = 3.0;
 constexpr double kWideRim = 0.5;
 constexpr double kOneEndDeg = 60.0;
 constexpr double kOneEndReach = 0.75;
+/// A thread beside an end, by the diameters of their vessels [-]: 2 % of its flow.
+constexpr double kThread = 0.27;
 /// Tips this close together may belong to one ragged end [diameters of the cut].
 constexpr double kSameEnd = 2.0;
 
 }  // namespace
 
 CutTrials::CutTrials(const Surface& surface, const CenterlineGraph& graph,
-                     const std::vector<SurfaceEnd>& ends)
+                     const std::vector<SurfaceEnd>& ends, std::vector<double> courses)
     : surface_(surface),
       graph_(graph),
       ends_(ends),
+      courses_(std::move(courses)),
       use_(surface.vertex_count(), Use::Free),
       seen_(surface.vertex_count(), 0) {}
 
@@ -52,13 +57,12 @@ std::string CutTrials::shape_problem(const SectionCurve& curve, const OpeningPla
     return "";
 }
 
-/// A speck of noise on a vessel's closed end is no vessel: the line runs through it to its tip.
-std::string CutTrials::pimple_problem(const OpeningPlace& place, std::size_t end) const {
-    if (!ends_[end].tip || ends_[end].is_visible()) return "";
-    const auto pimple = pimple_at(graph_, *ends_[end].tip, place.distance);
-    return pimple ? "a cut there would open a pimple of a vessel " +
-                        formatted(2.0 * pimple->radius) + " mm wide"
-                  : "";
+/// A thread at a vessel's closed end, such as a speck of noise, is no vessel: the line runs through
+/// it to its tip, but the end is that of the vessel.
+std::string CutTrials::width_problem(const OpeningPlace& place, std::size_t end) const {
+    if (ends_[end].is_visible() || !(place.diameter < kLeastWidth * courses_[end])) return "";
+    return "a cut there would be " + formatted(place.diameter) + " mm wide, but the vessel is " +
+           formatted(courses_[end]) + " mm wide";
 }
 
 std::string CutTrials::flood(const SectionCurve& curve) {
@@ -112,11 +116,18 @@ bool CutTrials::is_ragged_tip(const OpeningPlace& place, std::size_t other) cons
     return blind && blind->length < kLongestLoss * end.diameter;
 }
 
+/// A vessel that carries next to nothing beside the end's own must not cost the end.
+bool CutTrials::is_thread(const OpeningPlace& place, std::size_t end, std::size_t other) const {
+    return !ends_[other].is_visible() && courses_[other] > 0.0 &&
+           courses_[other] < kThread * courses_[end] &&
+           (ends_[other].centre - place.tip).norm() < kSameEnd * courses_[end];
+}
+
 std::string CutTrials::lost_problem(const OpeningPlace& place, std::size_t end) {
     taken_along_.clear();
     for (std::size_t e = 0; e < ends_.size(); ++e) {
         if (e == end || seen_[ends_[e].vertex] != trial_) continue;
-        if (is_own_rim(place, end, e) || !is_ragged_tip(place, e))
+        if (is_own_rim(place, end, e) || !(is_ragged_tip(place, e) || is_thread(place, end, e)))
             return "a cut there would remove the vessel's end at " + place_text(ends_[e].centre) +
                    ", too";
         taken_along_.push_back(e);
@@ -142,7 +153,7 @@ std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
         }
     }
     std::string problem = shape_problem(*curve, place);
-    if (problem.empty()) problem = pimple_problem(place, end);
+    if (problem.empty()) problem = width_problem(place, end);
     if (problem.empty()) problem = flood(*curve);
     if (problem.empty()) problem = lost_problem(place, end);
     return problem;

@@ -13,8 +13,9 @@ namespace vesselbench {
 /// another one. Not thread-safe.
 class CutTrials {
 public:
+    /// \param courses diameters of the ends' vessels along their courses [mm], #ends; 0: unknown
     CutTrials(const Surface& surface, const CenterlineGraph& graph,
-              const std::vector<SurfaceEnd>& ends);
+              const std::vector<SurfaceEnd>& ends, std::vector<double> courses);
 
     /// Why an end cannot be cut at a place; empty if it can. A cut must not remove another end,
     /// except the short tips and narrow rims that a ragged end has; nor vessels beside its own
@@ -38,16 +39,19 @@ private:
 
     [[nodiscard]] std::string shape_problem(const SectionCurve& curve,
                                             const OpeningPlace& place) const;
-    [[nodiscard]] std::string pimple_problem(const OpeningPlace& place, std::size_t end) const;
+    [[nodiscard]] std::string width_problem(const OpeningPlace& place, std::size_t end) const;
     [[nodiscard]] std::string flood(const SectionCurve& curve);
     [[nodiscard]] std::string lost_problem(const OpeningPlace& place, std::size_t end);
     [[nodiscard]] bool is_own_rim(const OpeningPlace& place, std::size_t end,
                                   std::size_t other) const;
+    [[nodiscard]] bool is_thread(const OpeningPlace& place, std::size_t end,
+                                 std::size_t other) const;
     [[nodiscard]] bool is_ragged_tip(const OpeningPlace& place, std::size_t other) const;
 
     const Surface& surface_;
     const CenterlineGraph& graph_;
     const std::vector<SurfaceEnd>& ends_;
+    std::vector<double> courses_;
     std::vector<Use> use_;             ///< #V
     std::vector<std::uint32_t> seen_;  ///< #V: the last trial that reached the vertex
     std::uint32_t trial_ = 0;

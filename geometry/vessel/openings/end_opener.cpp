@@ -16,6 +16,8 @@ namespace {
 /// A cut farther from its tip [diameters], or the removal of a longer stub, would lose a vessel
 /// (lost_vessels).
 constexpr double kMostGivenUp = 2.8;
+/// A narrower rim beside its vessel is a hole in the end [-].
+constexpr double kLeastKept = 0.5;
 /// A branch that is longer than this [diameters] is cut on its own side of the furcation only.
 constexpr double kLongestAcross = 3.0;
 
@@ -44,13 +46,6 @@ std::optional<double> distance_asked(const PlanDraft& draft, std::size_t tip) {
     return std::nullopt;
 }
 
-/// True for a rim that may not vanish (kLargeEnd).
-bool is_large_rim(const PlanDraft& draft, std::size_t e) {
-    const SurfaceEnd& end = draft.ends()[e];
-    return !end.rim.empty() &&
-           rim_shape(draft.surface(), end.rim).diameter() > kLargeEnd * draft.widest_beside(e);
-}
-
 std::string fray_text(const FrayedTrunk& trunk) {
     double widest = 0.0;
     for (const ThinEnd& thread : trunk.ends) widest = std::max(widest, thread.diameter);
@@ -61,12 +56,14 @@ std::string fray_text(const FrayedTrunk& trunk) {
 }  // namespace
 
 EndOpener::EndOpener(PlanDraft& draft, const Progress& progress)
-    : draft_(draft), progress_(progress), trials_(draft.surface(), draft.graph(), draft.ends()) {}
+    : draft_(draft), progress_(progress), trials_(draft.surface(), draft.graph(), draft.ends(), draft.courses()) {}
 
 bool EndOpener::keep(std::size_t e) {
-    if (draft_.is_fixed() || draft_.stays_side(e)) return false;
+    if (draft_.is_fixed()) return false;
     const auto place = kept_place(draft_, e);
-    if (!place || has_failed(draft_, e, place->plane.point)) return false;
+    if (!place || has_failed(draft_, e, place->plane.point) ||
+        (!draft_.ends()[e].patch && place->diameter < kLeastKept * draft_.ends()[e].diameter))
+        return false;
     const bool cap = draft_.ends()[e].patch.has_value();
     std::string why = cap ? "its flat cap was kept" : "its flat rim was capped as it is";
     if (const std::string tilt = tilt_text(*place); !tilt.empty()) why += ", " + tilt;
@@ -78,7 +75,7 @@ bool EndOpener::keep(std::size_t e) {
 
 bool EndOpener::cut(std::size_t e) {
     if (cut_across(e)) return true;
-    if (draft_.options().strict || draft_.is_fixed() || (is_stub(e) && !is_large_rim(draft_, e)))
+    if (draft_.options().strict || draft_.is_fixed() || (is_stub(e) && !draft_.has_share(e)))
         return false;
     const std::string why = draft_.record(e).why;
     const auto place = place_along_rim(draft_, e);

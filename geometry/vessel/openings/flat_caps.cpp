@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/flat_closures.h"
+#include "geometry/vessel/ends/flat_faces.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/patch_rim.h"
 
 namespace vesselbench {
@@ -22,18 +26,38 @@ namespace {
 constexpr double kParallel = 0.99996;
 /// Staircases of voxels have 3.5 % of their wall parallel to a step, and more.
 constexpr double kMostParallel = 0.02;
+/// Faces at the same height within this many mean edges are of one plane.
+/// A disc has at least as many triangles as a hexagon.
+constexpr std::size_t kFewestOfCap = 4;
+constexpr double kOnePlane = 0.1;
+constexpr std::size_t kCapPlanes = 2;
 
-/// Fraction of the wall's area that is parallel to a direction.
+/// Fraction of the wall's area that is parallel to a direction, without that in the two planes that
+/// have most of it: opposite ends of a vessel may be parallel, but a staircase has many steps.
 double parallel_share(const Surface& surface, const Vec3& direction) {
-    double parallel = 0.0, whole = 0.0;
+    std::vector<std::pair<double, double>> parallel;  // height, area
+    double whole = 0.0, edges = 0.0;
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         if ((*surface.patch_labels)[t] != 0) continue;
-        const Vec3 normal = area_normal(surface.points(), surface.triangles()[t]);
+        const Triangle& corners = surface.triangles()[t];
+        const Vec3 normal = area_normal(surface.points(), corners);
         const double size = normal.norm();
         whole += size;
-        if (std::abs(normal.dot(direction)) > kParallel * size) parallel += size;
+        edges += std::sqrt(size);
+        if (std::abs(normal.dot(direction)) > kParallel * size)
+            parallel.emplace_back(surface.points()[corners[0]].dot(direction), size);
     }
-    return whole > 0.0 ? parallel / whole : 1.0;
+    const double apart = kOnePlane * edges / static_cast<double>(surface.triangle_count());
+    std::ranges::sort(parallel);
+    std::vector<double> planes;
+    for (std::size_t i = 0; i < parallel.size(); ++i) {
+        if (i == 0 || parallel[i].first - parallel[i - 1].first > apart) planes.push_back(0.0);
+        planes.back() += parallel[i].second;
+    }
+    std::ranges::sort(planes, std::greater{});
+    double steps = 0.0;
+    for (std::size_t i = kCapPlanes; i < planes.size(); ++i) steps += planes[i];
+    return whole > 0.0 ? steps / whole : 1.0;
 }
 
 /// True if the triangles, connected along edges, have one simple rim.
@@ -49,8 +73,10 @@ bool is_disc(const Surface& surface, const std::vector<TriangleId>& triangles) {
     return vertices.size() + triangles.size() == edges.size() + 1;
 }
 
-/// With the vertices inside a patch moved into the plane of its rim.
-Surface flattened(const Surface& surface, std::size_t patch) {
+enum class RimVertices { Stay, Move };
+
+/// With the vertices inside a patch, and perhaps on its rim, moved into the plane of its rim.
+Surface flattened(const Surface& surface, std::size_t patch, RimVertices rim_vertices) {
     const Vec3 normal = patch_shape(surface, patch).plane.normal;
     const std::vector<VertexId> rim = patch_rim(surface, patch).loop;
     std::vector<bool> on_rim(surface.vertex_count(), false);
@@ -64,20 +90,28 @@ Surface flattened(const Surface& surface, std::size_t patch) {
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
         if ((*surface.patch_labels)[t] == patch)
             for (const VertexId v : surface.triangles()[t])
-                if (!on_rim[v]) points[v] = plane.projected(surface.points()[v]);
+                if (!on_rim[v] || rim_vertices == RimVertices::Move) points[v] = plane.projected(surface.points()[v]);
     return surface.with_positions(std::move(points));
 }
 
 /// With discs as patches of kind Cut.
 Surface with_caps(const Surface& surface, const std::vector<std::vector<TriangleId>>& discs) {
-    PatchLabels labels(surface.triangle_count(), 0);
+    PatchLabels labels = *surface.patch_labels;
     std::vector<Patch> patches = surface.patches;
     for (const auto& disc : discs) {
         const auto label = static_cast<std::uint16_t>(patches.size());
         for (const TriangleId t : disc) labels[t] = label;
-        patches.push_back({"cut_" + std::to_string(label), PatchKind::Cut});
+        patches.push_back({free_patch_name("cut", 1, patches), PatchKind::Cut});
     }
     return surface.with_patches(std::move(labels), std::move(patches));
+}
+
+bool has_one_rim(const Surface& surface, std::size_t patch) {
+    try {
+        return !patch_rim(surface, patch).loop.empty();
+    } catch (const AlgorithmFailure&) {
+        return false;
+    }
 }
 
 bool is_step(const Surface& surface, std::size_t patch) {
@@ -102,7 +136,35 @@ Surface label_flat_caps(const Surface& surface) {
     for (std::size_t p = caps.size(); p > closures; --p)
         if (is_step(all, p)) caps.erase(caps.begin() + static_cast<std::ptrdiff_t>(p) - 1);
     Surface found = with_caps(surface, caps);
-    for (std::size_t p = 1; p < found.patches.size(); ++p) found = flattened(found, p);
+    for (std::size_t p = 1; p < found.patches.size(); ++p) found = flattened(found, p, RimVertices::Stay);
+    return found;
+}
+
+Surface without_stray_labels(const Surface& surface) {
+    std::vector<std::size_t> counts(surface.patches.size(), 0);
+    for (const std::uint16_t label : *surface.patch_labels) ++counts[label];
+    std::vector<Patch> patches;
+    std::vector<std::uint16_t> now(surface.patches.size(), 0);
+    for (std::size_t p = 0; p < surface.patches.size(); ++p) {
+        if (p > 0 && counts[p] < kFewestOfCap) continue;
+        now[p] = static_cast<std::uint16_t>(patches.size());
+        patches.push_back(surface.patches[p]);
+    }
+    if (patches.size() == surface.patches.size()) return surface;
+    PatchLabels labels = *surface.patch_labels;
+    for (std::uint16_t& label : labels) label = now[label];
+    return surface.with_patches(std::move(labels), std::move(patches));
+}
+
+Surface label_flat_faces(const Surface& surface, const Progress& progress) {
+    if (surface.empty()) return surface;
+    Surface found = surface;
+    for (const FlatFace& face : find_flat_faces(found, progress)) {
+        const std::size_t patch = found.patches.size();
+        const Surface labelled = with_caps(found, {face.triangles});
+        if (has_one_rim(labelled, patch) && !is_step(labelled, patch))
+            found = flattened(labelled, patch, RimVertices::Move);
+    }
     return found;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -10,5 +11,12 @@ namespace vesselbench {
 /// Some of a vessel's ends may be capped and the others open.
 /// \return the surface itself if it has openings with names already, or no such caps
 [[nodiscard]] Surface label_flat_caps(const Surface& surface);
+
+/// Without the patches of a few stray triangles: no plane has cut them.
+[[nodiscard]] Surface without_stray_labels(const Surface& surface);
+
+/// Labels planar faces that close vessels (find_flat_faces) likewise, also beside other caps and
+/// open rims, and where their rims are rounded. \throw Cancelled
+[[nodiscard]] Surface label_flat_faces(const Surface& surface, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -3,23 +3,22 @@
 #include <algorithm>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/cut_trial.h"
 #include "geometry/vessel/openings/surface_ends.h"
-#include "geometry/vessel/openings/unlined_ends.h"
+#include "geometry/vessel/openings/stub_lines.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// What the openings lead into is a chamber if it is wider than them by this factor: a vessel at
-/// its furcation is not, nor beside an aneurysm.
-constexpr double kChamber = 2.0;
+/// An end beside a cut at least this wide [-], within this many of its diameters, is a part of it.
+constexpr double kPartWidth = 0.9;
+constexpr double kPartReach = 2.0;
 
 /// The ends one to a line; of very many, the widest.
 std::string ends_text(const OpeningPlan& plan) {
@@ -32,7 +31,8 @@ std::string ends_text(const OpeningPlan& plan) {
     }
     std::string text;
     for (const EndRecord& end : ends)
-        text += "\n  " + to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
+        text += "\n  " + (end.number > 0 ? std::to_string(end.number) + " " : std::string()) +
+                to_string(end.fate) + " at " + place_text(end.place) + ", diameter " +
                 formatted(end.diameter) + " mm" + (end.why.empty() ? "" : ": " + end.why);
     if (more > 0) text += "\n  and " + std::to_string(more) + " more, which are no wider";
     return text;
@@ -41,74 +41,79 @@ std::string ends_text(const OpeningPlan& plan) {
 /// Why a plan is none for a flow, and the ends that something has to be done about.
 struct FlowProblem {
     std::string text;
-    std::vector<EndRecord> ends;  ///< sacs last, the widest first
+    std::vector<EndRecord> ends;  ///< the largest share first
+    bool doubts = false;          ///< nothing is wrong if the likelier choice is right
 };
 
 bool has_opening(const EndRecord& end) {
     return end.opening.has_value();
 }
 
-/// Ends without an opening that nobody wanted so.
-std::vector<EndRecord> unwanted(const OpeningPlan& plan) {
-    std::vector<EndRecord> ends;
-    for (const EndRecord& end : plan.ends)
-        if (!has_opening(end) && !end.asked) ends.push_back(end);
-    std::ranges::stable_sort(
-        ends, {}, [](const EndRecord& end) { return std::tuple(end.sac, -end.diameter); });
-    return ends;
+/// It is certain that no blood flows there.
+bool is_certainly_closed(const EndRecord& end) {
+    return end.verdict && end.verdict->odds.for_opening() < 1.0 / kCertain;
 }
 
-/// An end that went with the cut of another one is no wider than that cut.
-double width_beside(const OpeningPlan& plan, const EndRecord& opened, EndFate fate) {
-    const double cut = plan.openings[*opened.opening].place.diameter;
-    return fate == EndFate::Removed ? std::max(opened.diameter, cut) : opened.diameter;
-}
-
-bool is_wider_than_all_openings(const OpeningPlan& plan, const EndRecord& end) {
-    return std::ranges::none_of(plan.ends, [&](const EndRecord& other) {
-        return has_opening(other) && end.diameter <= kAsLarge * width_beside(plan, other, end.fate);
-    });
-}
-
-/// An open rim that would vanish: the surface ends there, and blood flowed through it.
-bool is_large_rim(const OpeningPlan& plan, const EndRecord& end) {
-    return end.rim && !end.shared && end.diameter >= kLargeEnd * widest_opening(plan);
-}
-
-/// The rest of a chamber, such as a heart's: a wide mouth may have been closed there, but it may be
-/// a giant aneurysm as well.
-bool is_end_of_chamber(const OpeningPlan& plan, const EndRecord& end) {
-    return end.rest_of > 0.0 && std::ranges::all_of(plan.openings, [&](const PlannedOpening& o) {
-               return end.rest_of >= kChamber * o.place.diameter;
+/// An end that went with the cut of another one as wide, or cannot be cut beside it, is a part of it.
+bool is_part_of_cut(const OpeningPlan& plan, const EndRecord& end) {
+    return (end.shared || end.tried) && std::ranges::any_of(plan.openings, [&](const PlannedOpening& opening) {
+               return (opening.place.plane.point - end.place).norm() <
+                          kPartReach * opening.place.diameter &&
+                      opening.place.diameter >= kPartWidth * end.diameter;
            });
 }
 
-bool is_excused(const OpeningPlan& plan, const EndRecord& end) {
-    return (end.sac || end.unlined) && !is_end_of_chamber(plan, end);
+/// An end whose flow would be missing, though nobody asked for it.
+bool is_missing(const OpeningPlan& plan, const EndRecord& end) {
+    return !has_opening(end) && !end.asked && end.verdict && end.share() > kLeastShare &&
+           !is_certainly_closed(end) && !is_part_of_cut(plan, end);
+}
+
+bool is_doubtful(const EndRecord& end) {
+    return end.verdict && end.verdict->doubtful && !end.asked && !end.wanted;
+}
+
+std::string numbered(const EndRecord& end) {
+    return "end " + std::to_string(end.number) + " at " + place_text(end.place) + ", " +
+           formatted(end.diameter) + " mm wide with " +
+           formatted(100.0 * end.share(), "%.3g %% of the flow");
 }
 
 /// Empty text: there is none.
-FlowProblem flow_problem(const OpeningPlan& plan) {
-    FlowProblem problem{.text = "", .ends = unwanted(plan)};
+FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
+    FlowProblem problem;
+    const auto collect = [&](const auto& test) {
+        for (const EndRecord& end : plan.ends)
+            if (test(end)) problem.ends.push_back(end);
+        std::ranges::stable_sort(problem.ends, std::greater{},
+                                 [](const EndRecord& end) { return end.share(); });
+    };
     if (plan.openings.size() < 2) {
+        collect([](const EndRecord& end) { return !has_opening(end) && !end.asked; });
         problem.text = "a flow needs two openings, and there " +
                        std::string(plan.openings.empty() ? "is none" : "is one only");
         return problem;
     }
-    std::erase_if(problem.ends, [&](const EndRecord& end) {
-        return !is_large_rim(plan, end) &&
-               (is_excused(plan, end) || !is_wider_than_all_openings(plan, end));
+    collect([&](const EndRecord& end) {
+        return is_missing(plan, end) && !(is_doubtful(end) && !end.tried);
     });
+    if (!problem.ends.empty()) {
+        const EndRecord& end = problem.ends.front();
+        problem.text = numbered(end) + ", is " + to_string(end.fate) + " (" + end.why +
+                       "): its flow would be missing";
+        return problem;
+    }
+    if (accept_doubts) return problem;
+    collect(is_doubtful);
     if (problem.ends.empty()) return problem;
-    const EndRecord& end = problem.ends.front();
-    const bool largest = is_wider_than_all_openings(plan, end);
-    problem.text = std::string(largest ? "the largest end" : "a wide open rim") + ", at " +
-                   place_text(end.place) + " with a diameter of " + formatted(end.diameter) +
-                   " mm, is " + to_string(end.fate) + " (" + end.why + "): blood would " +
-                   (largest ? "enter" : "leave") + " elsewhere";
-    if (is_end_of_chamber(plan, end))
-        problem.text += "; the vessels lead into a space " + formatted(end.rest_of) +
-                        " mm wide, whose mouth may be closed";
+    problem.doubts = true;
+    problem.text = "it is not certain that ";
+    for (std::size_t i = 0; i < problem.ends.size(); ++i) {
+        const EndRecord& end = problem.ends[i];
+        problem.text += (i == 0 ? "" : ", and that ") + numbered(end) + ", is " +
+                        (has_opening(end) ? "an opening" : "none") + " (" +
+                        formatted(100.0 * end.verdict->odds.opening, "%.0f %% likely)");
+    }
     return problem;
 }
 
@@ -118,10 +123,52 @@ std::string points_text(const Positions& points) {
     return joined(texts, ",");
 }
 
-/// An argument for clip-opening, typed alone or in a recipe.
-std::string advice(const std::string& argument, const std::string& effect) {
-    return "\nclip-opening " + argument + " " + effect +
-           " (with prepare: --resume --set clip-opening." + argument + ")";
+/// A remedy and what it does.
+struct Advice {
+    std::string argument, value, effect;  ///< of clip-opening; empty: there is none
+    std::string distance = {};            ///< with the argument tip
+
+    [[nodiscard]] std::string text() const {
+        if (argument.empty())
+            return "\nnone of these ends can be opened: clip-opening check=none makes a model that "
+                   "is not for flow (with prepare: --for rp)";
+        const std::string given = argument + "=" + value;
+        if (!distance.empty())
+            return "\nvesselbench apply project.vbench clip-opening " + given +
+                   " distance=" + distance + " " + effect + " (then, with prepare: --resume)";
+        return "\nclip-opening " + given + " " + effect +
+               " (with prepare: --resume --set clip-opening." + given + ")";
+    }
+
+    [[nodiscard]] std::vector<Remedy> remedies() const {
+        if (argument.empty()) return {};
+        Remedy remedy{.operation = "clip-opening", .arguments = {{argument, value}}};
+        if (!distance.empty()) remedy.arguments["distance"] = distance;
+        return {remedy};
+    }
+};
+
+Advice closing(const Positions& closed) {
+    return {"closed", points_text(closed),
+            closed.size() == 1 ? "leaves it closed on purpose" : "leaves them closed on purpose"};
+}
+
+std::vector<Diagnostic> diagnostics_of(const FlowProblem& problem, std::size_t openings,
+                                       const std::vector<Remedy>& remedies) {
+    const std::string code = problem.doubts ? "end-in-doubt"
+                             : openings < 2 ? "too-few-openings"
+                                            : "flow-missing";
+    std::vector<Diagnostic> diagnostics;
+    for (const EndRecord& end : problem.ends)
+        diagnostics.push_back({.code = code,
+                               .place = end.place,
+                               .figures = {{"number", end.number},
+                                           {"diameter_mm", end.diameter},
+                                           {"flow_share", end.share()},
+                                           {"opening", end.verdict ? end.verdict->odds.opening : 0.0}},
+                               .remedies = remedies});
+    if (diagnostics.empty()) diagnostics.push_back({.code = code, .remedies = remedies});
+    return diagnostics;
 }
 
 /// Looks for arguments that solve a problem, by planning with them.
@@ -135,15 +182,12 @@ public:
           problem_(problem),
           cancel_(std::move(cancel)) {}
 
-    [[nodiscard]] std::string text(std::size_t openings) const {
-        std::string text = by_opening();
-        if (text.empty() && (openings == 1 || problem_.ends.size() == 1)) text = by_hand();
-        if (text.empty() && openings >= 2) text = by_closing();
-        if (text.empty())
-            text =
-                "\nnone of these ends can be opened: clip-opening check=none makes a model that is "
-                "not for flow (with prepare: --for rp)";
-        return text;
+    [[nodiscard]] Advice advice(std::size_t openings) const {
+        Advice found = by_opening();
+        if (found.argument.empty() && (openings == 1 || problem_.ends.size() == 1))
+            found = by_hand();
+        if (found.argument.empty() && openings >= 2) found = by_closing();
+        return found;
     }
 
 private:
@@ -154,7 +198,8 @@ private:
             if (!options.stubs.empty() && options.open.size() > options_.open.size())
                 return judgement_with_lines(options);
             const OpeningPlan plan = plan_openings(surface_, graph_, options, cancel_);
-            return flow_problem(plan).text.empty() ? Judgement::Good : Judgement::Insufficient;
+            return flow_problem(plan, true).text.empty() ? Judgement::Good
+                                                         : Judgement::Insufficient;
         } catch (const AlgorithmFailure&) {
             return Judgement::Impossible;
         }
@@ -167,45 +212,44 @@ private:
         LinesAndStubs lines = lines_to_ends(surface_, wanted, cancel_);
         options.stubs = std::move(lines.stubs);
         const OpeningPlan plan = plan_openings(surface_, *lines.graph, options, cancel_);
-        return flow_problem(plan).text.empty() ? Judgement::Good : Judgement::Insufficient;
+        return flow_problem(plan, true).text.empty() ? Judgement::Good : Judgement::Insufficient;
     }
 
     /// Opens one end after the other until it is enough.
-    [[nodiscard]] std::string by_opening() const {
+    [[nodiscard]] Advice by_opening() const {
         OpeningPlanOptions options = options_;
         int tries = 0;
         for (const EndRecord& end : problem_.ends) {
-            if (end.tried) continue;
+            if (end.tried || is_certainly_closed(end)) continue;
             if (++tries > kMostTries) break;
             options.open.push_back(end.place);
             const Judgement found = judgement(options);
             if (found == Judgement::Good)
-                return advice("open=" + points_text(options.open),
-                              options.open.size() == 1 ? "opens it" : "opens them");
+                return {"open", points_text(options.open),
+                        options.open.size() == 1 ? "opens it" : "opens them"};
             if (found == Judgement::Impossible) options.open.pop_back();
         }
-        return "";
+        return {};
     }
 
     /// A cut farther from the tip than the plan may make one.
-    [[nodiscard]] std::string by_hand() const {
+    [[nodiscard]] Advice by_hand() const {
         const std::vector<SurfaceEnd> ends = find_surface_ends(surface_, graph_);
-        CutTrials trials(surface_, graph_, ends);
+        CutTrials trials(surface_, graph_, ends, std::vector<double>(ends.size(), 0.0));
         for (const EndRecord& end : problem_.ends) {
             cancel_.check_cancelled();
             const auto e = end_near(ends, end.place);
-            if (end.sac || end.unlined || !e || !ends[*e].tip) continue;
+            if (is_certainly_closed(end) || end.stub || !e || !ends[*e].tip) continue;
             const auto place =
                 nearest_opening_place(surface_, graph_, *ends[*e].tip, [&](const OpeningPlace& at) {
                     cancel_.check_cancelled();
                     return !has_failed(at) && trials.problem_of(at, *e).empty();
                 });
             if (!place) continue;
-            return "\nvesselbench apply project.vbench clip-opening tip=" +
-                   coordinates_argument(place->tip) + " distance=" + formatted(place->distance) +
-                   " cuts it there (then, with prepare: --resume)";
+            return {"tip", coordinates_argument(place->tip), "cuts it there",
+                    formatted(place->distance)};
         }
-        return "";
+        return {};
     }
 
     [[nodiscard]] bool has_failed(const OpeningPlace& place) const {
@@ -214,10 +258,10 @@ private:
         });
     }
 
-    [[nodiscard]] std::string by_closing() const {
+    [[nodiscard]] Advice by_closing() const {
         OpeningPlanOptions options = options_;
         for (const EndRecord& end : problem_.ends) options.closed.push_back(end.place);
-        return judgement(options) == Judgement::Good ? closing_advice(options.closed) : "";
+        return judgement(options) == Judgement::Good ? closing(options.closed) : Advice{};
     }
 
     /// A large tree takes seconds to plan.
@@ -232,31 +276,27 @@ private:
 
 }  // namespace
 
-double widest_opening(const OpeningPlan& plan) {
-    double widest = 0.0;
-    for (const EndRecord& end : plan.ends)
-        if (end.opening) widest = std::max(widest, end.diameter);
-    return widest;
-}
-
-std::string why_no_flow(const OpeningPlan& plan) {
-    const std::string text = flow_problem(plan).text;
+std::string why_no_flow(const OpeningPlan& plan, bool accept_doubts) {
+    const std::string text = flow_problem(plan, accept_doubts).text;
     return text.empty() ? "" : text + ". The ends found:" + ends_text(plan);
 }
 
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
                 const OpeningPlanOptions& options, const Progress& progress) {
-    const FlowProblem problem = flow_problem(plan);
+    const FlowProblem problem = flow_problem(plan, options.accept_doubts);
     if (problem.text.empty()) return;
-    progress.report(0.0, "looking for a way on");
-    const WayOn way_on(surface, graph, options, problem, progress.silent());
-    throw AlgorithmFailure(why_no_flow(plan) + way_on.text(plan.openings.size()));
+    Advice advice{"accept_doubts", "true", "goes on with the likelier choice"};
+    if (!problem.doubts) {
+        progress.report(0.0, "looking for a way on");
+        advice = WayOn(surface, graph, options, problem, progress.silent())
+                     .advice(plan.openings.size());
+    }
+    throw DiagnosedFailure(why_no_flow(plan, options.accept_doubts) + advice.text(),
+                           diagnostics_of(problem, plan.openings.size(), advice.remedies()));
 }
 
 std::string closing_advice(const Positions& closed) {
-    return advice("closed=" + points_text(closed), closed.size() == 1
-                                                       ? "leaves it closed on purpose"
-                                                       : "leaves them closed on purpose");
+    return closing(closed).text();
 }
 
 }  // namespace vesselbench

@@ -7,17 +7,13 @@
 
 namespace vesselbench {
 
-/// Diameter of the widest end with an opening [mm]; 0: there is none.
-[[nodiscard]] double widest_opening(const OpeningPlan& plan);
-
 /// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
-/// needs two openings, and no end without one, unless it is a sac, has no centerline or is asked
-/// for, that is wider than all of them (kAsLarge), nor an open rim that is large (kLargeEnd), nor
-/// the rest of a chamber that is twice as wide as all of them: its mouth may be closed there.
-[[nodiscard]] std::string why_no_flow(const OpeningPlan& plan);
+/// needs two openings. An end with a share of the flow (kLeastShare) must not be missing, unless it
+/// is asked for or certain to be a sac or a bump; nor may the odds of one be in doubt (kCertain).
+[[nodiscard]] std::string why_no_flow(const OpeningPlan& plan, bool accept_doubts = false);
 
 /// \param options that made the plan
-/// \throw AlgorithmFailure that says why_no_flow and names the arguments of clip-opening that go on;
+/// \throw DiagnosedFailure that says why_no_flow and names the arguments of clip-opening that go on;
 /// they were tried, which takes as long as several plans; Cancelled
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
                 const OpeningPlanOptions& options, const Progress& progress = {});

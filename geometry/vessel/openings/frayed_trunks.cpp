@@ -16,6 +16,7 @@ constexpr std::size_t kLeastThreads = 3;
 constexpr double kWidestThread = 0.25;   ///< diameter beside the trunk's [-]
 constexpr double kThreadsSection = 0.1;  ///< of all of them, beside the trunk's [-]
 constexpr double kReach = 2.8;           ///< of a fray [diameters of the trunk]
+constexpr double kOwnEnd = 0.4;  ///< a stub's diameter beside the trunk's, if it is its end [-]
 constexpr double kEvenTrunk = 0.7;       ///< its least radius beside the median [-]
 /// The stretch that shows the trunk, behind its rounded end [largest radii there].
 constexpr double kFrom = 1.0, kTo = 2.5;
@@ -34,8 +35,8 @@ struct Side {
 
 class FraySearch {
 public:
-    FraySearch(const Surface& surface, const CenterlineGraph& graph)
-        : surface_(surface), graph_(graph) {}
+    FraySearch(const Surface& surface, const CenterlineGraph& graph, const std::vector<Stub>& stubs)
+        : surface_(surface), graph_(graph), stubs_(stubs) {}
 
     /// Disjoint sides, each a fray.
     [[nodiscard]] std::vector<Side> frays() const {
@@ -111,7 +112,7 @@ private:
     }
 
     [[nodiscard]] bool is_fray(const Side& side) const {
-        if (side.tips.size() < kLeastThreads) return false;
+        if (side.tips.size() < kLeastThreads || has_own_end(side)) return false;
         double section = 0.0;
         for (const std::size_t tip : side.tips) {
             const double ratio = 2.0 * tip_radius(graph_, tip) / side.diameter;
@@ -137,8 +138,18 @@ private:
         });
     }
 
+    /// The trunk itself ends there.
+    [[nodiscard]] bool has_own_end(const Side& side) const {
+        const Vec3& node = graph_.nodes[side.node].position;
+        return std::ranges::any_of(stubs_, [&](const Stub& stub) {
+            return 2.0 * stub.widest > kOwnEnd * side.diameter &&
+                   (stub.tip - node).norm() < kReach * side.diameter;
+        });
+    }
+
     const Surface& surface_;
     const CenterlineGraph& graph_;
+    const std::vector<Stub>& stubs_;
 };
 
 /// The lines without some branches, and the nodes that keep none.
@@ -181,8 +192,9 @@ private:
 
 }  // namespace
 
-LinesWithoutFrays without_frays(const Surface& surface, const CenterlineGraph& graph) {
-    const std::vector<Side> frays = FraySearch(surface, graph).frays();
+LinesWithoutFrays without_frays(const Surface& surface, const CenterlineGraph& graph,
+                                const std::vector<Stub>& stubs) {
+    const std::vector<Side> frays = FraySearch(surface, graph, stubs).frays();
     if (frays.empty()) return {graph, {}};
     Pruning pruning(graph, frays);
     LinesWithoutFrays lines;

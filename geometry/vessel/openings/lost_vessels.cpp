@@ -1,15 +1,17 @@
 #include "geometry/vessel/openings/lost_vessels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/ends/end_choice.h"
+#include "geometry/vessel/ends/flow_tree.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/rim_shape.h"
-#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
@@ -73,7 +75,7 @@ public:
             if (missing[b].empty()) continue;
             if (!missing[b].front()) places_[branch.start_node].is_root = true;
             if (!missing[b].back()) places_[branch.end_node].is_root = true;
-            add_stretches(branch, missing[b], widths_of(graph, branch));
+            add_stretches(branch, missing[b]);
         }
         stretches_at_.resize(places_.size());
         for (std::size_t s = 0; s < stretches_.size(); ++s) {
@@ -101,24 +103,7 @@ private:
         bool is_root = false;  ///< next to what is left
     };
 
-    /// Radii along a branch [mm]; a pimple at its tip is no vessel of its own.
-    static std::vector<double> widths_of(const CenterlineGraph& graph,
-                                         const CenterlineBranch& branch) {
-        std::vector<double> widths = branch.radii;
-        const std::vector<double> s = abscissas(branch);
-        for (const std::size_t tip : {branch.start_node, branch.end_node}) {
-            if (!graph.nodes[tip].is_tip()) continue;
-            const auto pimple = pimple_at(graph, tip);
-            for (std::size_t i = 0; pimple && i < s.size(); ++i)
-                if ((tip == branch.start_node ? s[i] : s.back() - s[i]) <= pimple->length)
-                    widths[i] = pimple->radius;
-        }
-        return widths;
-    }
-
-    /// \param widths radii [mm]
-    void add_stretches(const CenterlineBranch& branch, const Flags& missing,
-                       const std::vector<double>& widths) {
+    void add_stretches(const CenterlineBranch& branch, const Flags& missing) {
         const std::vector<double> s = abscissas(branch);
         for (std::size_t i = 0; i < s.size(); ++i) {
             std::size_t end = i;
@@ -131,7 +116,7 @@ private:
                                             ? static_cast<std::uint32_t>(branch.end_node)
                                             : root_at(branch.points[last]),
                                   .length = s[last] - s[i],
-                                  .diameter = 2.0 * widths[middle],
+                                  .diameter = 2.0 * branch.radii[middle],
                                   .middle = branch.points[middle]});
             i = last;
         }
@@ -226,6 +211,10 @@ bool had(const Surface& before, const Surface& after, std::size_t patch) {
 
 }  // namespace
 
+bool LostVessel::matters() const {
+    return share > kLeastShare;
+}
+
 std::vector<LostVessel> lost_vessels(const CenterlineGraph& before, const Surface& after,
                                      std::span<const Removal> asked) {
     std::vector<LostVessel> lost =
@@ -234,6 +223,10 @@ std::vector<LostVessel> lost_vessels(const CenterlineGraph& before, const Surfac
         return !(vessel.length > kLongestLoss * vessel.diameter);
     });
     std::ranges::stable_sort(lost, std::greater{}, &LostVessel::diameter);
+    if (lost.empty()) return lost;
+    const double widest = std::ranges::max(course_diameters(before));
+    for (LostVessel& vessel : lost)
+        vessel.share = std::min(1.0, std::pow(vessel.diameter / widest, 3.0));
     return lost;
 }
 

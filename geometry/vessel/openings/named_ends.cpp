@@ -11,7 +11,7 @@ namespace vesselbench {
 namespace {
 
 /// A point this far from an end without a centerline does not mean it [diameters].
-constexpr double kUnlinedReach = 1.5;
+constexpr double kStubReach = 1.5;
 
 std::size_t end_meant(const std::vector<SurfaceEnd>& ends, const Vec3& point,
                       const std::string& parameter) {
@@ -33,14 +33,14 @@ void name_inlets(PlanDraft& draft) {
 }
 
 /// The end without a line that a point means: it is near, and nearer than all others.
-EndRecord* unlined_near(PlanDraft& draft, const Vec3& point) {
+EndRecord* stub_near(PlanDraft& draft, const Vec3& point) {
     const auto end = end_near(draft.ends(), point);
     double least =
         end ? (draft.ends()[*end].centre - point).norm() : std::numeric_limits<double>::infinity();
     EndRecord* found = nullptr;
-    for (EndRecord& record : draft.unlined())
+    for (EndRecord& record : draft.stubs())
         if (const double d = (record.place - point).norm();
-            d < least && d <= kUnlinedReach * record.diameter) {
+            d < least && d <= kStubReach * record.diameter) {
             least = d;
             found = &record;
         }
@@ -49,9 +49,9 @@ EndRecord* unlined_near(PlanDraft& draft, const Vec3& point) {
 
 void leave_closed(PlanDraft& draft) {
     for (const Vec3& point : draft.options().closed) {
-        if (EndRecord* unlined = unlined_near(draft, point)) {
-            unlined->asked = true;
-            unlined->why = "left closed as asked";
+        if (EndRecord* stub = stub_near(draft, point)) {
+            stub->asked = true;
+            stub->why = "left closed as asked";
             continue;
         }
         const auto end = end_near(draft.ends(), point);
@@ -68,6 +68,8 @@ void decide_named_ends(PlanDraft& draft) {
     name_inlets(draft);
     for (const Vec3& point : draft.options().open)
         draft.want(end_meant(draft.ends(), point, "open"));
+    for (std::size_t e = 0; e < draft.ends().size(); ++e)
+        draft.record(e).wanted = draft.is_wanted(e);
     leave_closed(draft);
 }
 

@@ -7,8 +7,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/blind_ends.h"
 #include "geometry/vessel/openings/end_opener.h"
+#include "geometry/vessel/openings/end_texts.h"
 #include "geometry/vessel/openings/named_ends.h"
 #include "geometry/vessel/openings/plan_draft.h"
 
@@ -35,32 +35,29 @@ public:
         decide_named_ends(draft_);
         for (std::size_t e = 0; e < draft_.ends().size(); ++e) {
             report_decided();
-            if (!draft_.is_decided(e) && draft_.ends()[e].is_visible()) opener_.keep(e);
+            if (!draft_.is_decided(e) && draft_.ends()[e].is_visible() && is_to_open(e))
+                opener_.keep(e);
         }
-        plan_others();
+        for (const std::size_t e : by_share()) {
+            report_decided();
+            if (!draft_.is_decided(e)) plan_end(e);
+        }
         require_wanted();
     }
 
 private:
-    /// The ends that could not be kept: rims and caps first, doubtful ends last, wider ones before
-    /// narrow ones.
-    void plan_others() {
-        const std::vector<SurfaceEnd>& ends = draft_.ends();
-        const bool blind_too = opens_blind_ends(draft_);
-        std::vector<std::size_t> order(ends.size());
+    [[nodiscard]] bool is_to_open(std::size_t e) const {
+        return draft_.is_wanted(e) || draft_.verdict(e).open;
+    }
+
+    /// Rims and caps first, the largest share of the flow first: each cut limits the later ones.
+    [[nodiscard]] std::vector<std::size_t> by_share() const {
+        std::vector<std::size_t> order(draft_.ends().size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::stable_sort(order, std::greater{},
-                                 [&](std::size_t e) { return ends[e].diameter; });
-        const std::vector<std::string> doubts = doubts_about_ends(draft_);
-        const auto rank = [&](std::size_t e) {
-            return ends[e].is_visible() ? 0 : doubts[e].empty() ? 1 : 2;
-        };
-        for (const int turn : {0, 1, 2})
-            for (const std::size_t e : order) {
-                report_decided();
-                if (!draft_.is_decided(e) && rank(e) == turn)
-                    plan_end(e, blind_too || draft_.is_wanted(e), doubts[e]);
-            }
+        std::ranges::stable_sort(order, std::greater{}, [&](std::size_t e) {
+            return std::pair(draft_.ends()[e].is_visible(), draft_.verdict(e).profile.diameter);
+        });
+        return order;
     }
 
     /// \throw Cancelled if the user cancels
@@ -68,42 +65,22 @@ private:
         progress_.report(draft_.decided_share(), "deciding about the ends");
     }
 
-    /// \param doubt why the end may be none; may be empty
-    void plan_end(std::size_t e, bool blind_too, const std::string& doubt) {
+    void plan_end(std::size_t e) {
         const SurfaceEnd& end = draft_.ends()[e];
-        if (draft_.stays_side(e) && !draft_.options().strict)
-            return draft_.close(e, "it lies in the side of a vessel that passes there");
-        if (!end.is_visible() && leaves_closed(e, blind_too)) return;
-        if (!doubt.empty() && is_spare(draft_, e)) return draft_.close_offering(e, doubt);
+        if (draft_.options().leave_closed && !end.is_visible() && !draft_.is_wanted(e)) {
+            draft_.record(e).asked = true;
+            return draft_.close(e, "closed ends are left as they are");
+        }
+        if (!is_to_open(e)) return draft_.close(e, closed_text(draft_.verdict(e)));
         if (opener_.cut(e)) return;
         if (draft_.options().strict)
             throw AlgorithmFailure(
                 "the end at " + place_text(end.centre) + " cannot be cut: " + draft_.record(e).why +
                 "; closed=" + coordinates_argument(end.centre) + " leaves it closed on purpose");
-        if (!draft_.is_fixed() && opener_.is_stub(e)) return draft_.remove_stub(e);
+        if (!draft_.is_fixed() && opener_.is_stub(e))
+            return draft_.remove_stub(e);
         draft_.record(e).tried = true;
         draft_.close(e, draft_.record(e).why);
-    }
-
-    /// Closes a blind end if the caller, the surface's other ends or its own shape say so.
-    bool leaves_closed(std::size_t e, bool blind_too) {
-        if (draft_.options().leave_closed && !draft_.is_wanted(e)) {
-            draft_.record(e).asked = true;
-            draft_.close_offering(e, "closed ends are left as they are");
-            return true;
-        }
-        if (!blind_too && !is_wider_than_all(draft_, e)) {
-            const auto blind = blind_branch(draft_.graph(), *draft_.ends()[e].tip);
-            draft_.record(e).sac = blind && blind->is_sac();
-            draft_.close_offering(e, "a closed end: the surface's own rims are its openings");
-            return true;
-        }
-        if (draft_.is_wanted(e) || draft_.frays(e)) return false;
-        const auto look = looks_closed(draft_, e);
-        if (!look) return false;
-        draft_.record(e).sac = look->sac;
-        draft_.close_offering(e, look->why);
-        return true;
     }
 
     /// \throw AlgorithmFailure if an end that was named is not open
@@ -154,7 +131,17 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 
 LinesWithoutFrays planning_lines(const Surface& surface, const CenterlineGraph& graph,
                                  const OpeningPlanOptions& options) {
-    return options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph);
+    return options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph, options.stubs);
+}
+
+Positions stubs_to_open(const Surface& surface, const CenterlineGraph& graph,
+                        const OpeningPlanOptions& options, const Progress& progress) {
+    const LinesWithoutFrays lines = planning_lines(surface, graph, options);
+    PlanDraft draft(surface, lines, options, progress);
+    Positions places;
+    for (const EndRecord& stub : draft.stubs())
+        if (stub.verdict->open && !stub.asked) places.push_back(stub.place);
+    return places;
 }
 
 OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,

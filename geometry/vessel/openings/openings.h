@@ -7,7 +7,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "geometry/vessel/centerlines/stubs.h"
-#include "geometry/vessel/openings/fading_ends.h"
+#include "geometry/vessel/ends/end_choice.h"
 #include "geometry/vessel/openings/frayed_trunks.h"
 #include "geometry/vessel/openings/opening_place.h"
 
@@ -49,18 +49,21 @@ struct EndRecord {
     Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
     double diameter = 0.0;      ///< of the vessel there [mm]
     EndFate fate = EndFate::Closed;
-    std::string why;       ///< may be empty: opened at the chosen place
-    bool rim = false;      ///< an open border of the surface
-    bool border = false;   ///< a cap where an image's border cuts a vessel
-    bool shared = false;   ///< removed with the cut of another end, of which it is a part
-    bool plain = false;    ///< kept, or opened at the chosen place
-    bool sac = false;      ///< it looks like an aneurysm: closed, however wide
-    bool asked = false;    ///< closed since the caller wants it so
-    bool tried = false;    ///< closed since it could not be cut
-    bool offered = false;  ///< closed by a rule: `open` may open it, as `why` says
-    bool unlined = false;  ///< it has no centerline yet (unlined_ends): `open` needs one
-    double rest_of = 0.0;  ///< diameter of the vessel that it is the rest of (unlined_ends) [mm]
+    std::string why;      ///< may be empty: opened at the chosen place
+    bool rim = false;     ///< an open border of the surface
+    bool border = false;  ///< a cap where an image's border cuts a vessel
+    bool shared = false;  ///< removed with the cut of another end, of which it is a part
+    bool plain = false;   ///< kept, or opened at the chosen place
+    bool asked = false;   ///< closed since the caller wants it so
+    bool wanted = false;  ///< open since the caller wants it so
+    bool tried = false;   ///< closed since it could not be cut
+    bool stub = false;    ///< it has no centerline yet: one is made when it is opened
+    std::optional<EndVerdict> verdict = std::nullopt;  ///< none: it was not judged
+    int number = 0;  ///< by falling share of the flow, from 1; 0: it has none
     std::optional<std::size_t> opening = std::nullopt;  ///< of the plan
+
+    /// Its share of the flow [-]; 0: it was not judged.
+    [[nodiscard]] double share() const { return verdict ? verdict->share : 0.0; }
 };
 
 struct OpeningPlan {
@@ -68,7 +71,8 @@ struct OpeningPlan {
     std::vector<PlannedClosing> closings;
     std::vector<EndRecord> ends;        ///< every end found, worst first
     std::vector<std::string> warnings;  ///< about the places of openings: bends, doubtful axes
-    std::vector<std::size_t> inlets;    ///< the openings that were named as inlets
+    std::vector<std::size_t> inlets;    ///< the openings that are inlets; empty: chosen by width
+    std::vector<std::size_t> other_inlets;  ///< ends that may be the inlet as well, by record
 };
 
 /// A place where a cut was tried without success.
@@ -91,7 +95,9 @@ struct OpeningPlanOptions {
     bool border_cuts = false;
     /// Ends that are closed stay as they are, except those named in `open` or `inlets`.
     bool leave_closed = false;
-    /// Of the image that the surface was made from: ends thinner than these are left closed.
+    /// Of ends that may be openings or not, the likelier choice is made (check_flow).
+    bool accept_doubts = false;
+    /// Of the image that the surface was made from.
     std::optional<VoxelEdges> voxels;
     Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]
     Positions open;    ///< near ends that have to be opened, though they may look closed [mm]
@@ -99,12 +105,6 @@ struct OpeningPlanOptions {
     std::vector<FailedCut> failed;  ///< places to be avoided
     std::vector<Stub> stubs;        ///< without a line: they stay closed (lines_to_ends)
 };
-
-/// Ends at least this wide beside the largest opening count as large [-].
-inline constexpr double kAsLarge = 1.1;
-
-/// Ends at least this wide, in diameters of the widest opening, do not vanish unnoticed [-].
-inline constexpr double kLargeEnd = 0.5;
 
 /// A border or a cap belongs to a tip within this many of its diameters [-].
 inline constexpr double kEndReach = 1.5;
@@ -115,18 +115,13 @@ inline constexpr double kEndReach = 1.5;
 /// \throw AlgorithmFailure if there is none; the text names the nearest one
 [[nodiscard]] std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point);
 
-/// Decides what becomes of the vessel ends. All ends: the open borders and known caps; if there are
-/// fewer than two of these, or only cuts at an image's border, every other tip as well, except an
-/// aneurysm's sac (a branch no longer than its width, behind a neck). A flat rim or a flat cap is
-/// kept as it is. A closed end that fades from the image, thinner than its voxels (width_at_tip),
-/// that faces another one across a gap (facing_ends), or that hardly protrudes, stays closed if two
-/// others are open and one of them is wider. A trunk that frays is one end (without_frays), unless
-/// `tip` is given. Every other end is cut at the chosen place
-/// (choose_opening_place); else at the nearest place with a whole section; else its branch is
-/// removed if it is a stub, shorter than its parent is wide; else it is closed as wall. Ends
-/// without a centerline are listed as closed. \throw
-/// AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip` or one
-/// of `inlets` or `open` cannot be opened; Cancelled if the user cancels
+/// Decides what becomes of the vessel ends by their profiles and odds (choose_ends). Of those that
+/// are to be open, a flat rim or a flat cap is kept as it is; the others are cut at the chosen place
+/// (choose_opening_place), the largest share of the flow first; else at the nearest place with a
+/// whole section; else the branch is removed if it is a stub, shorter than its parent is wide; else
+/// it is closed as wall. A trunk that frays is one end (without_frays), unless `tip` is given.
+/// \throw AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip`
+/// or one of `inlets` or `open` cannot be opened; Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,
                                         const OpeningPlanOptions& options = {},
                                         const Progress& progress = {});
@@ -135,6 +130,12 @@ inline constexpr double kEndReach = 1.5;
 /// is not judged beside others.
 [[nodiscard]] LinesWithoutFrays planning_lines(const Surface& surface, const CenterlineGraph& graph,
                                                const OpeningPlanOptions& options);
+
+/// Places of blind branches without a line that are to be opened [mm].
+/// \param options with the `stubs` of the lines
+[[nodiscard]] Positions stubs_to_open(const Surface& surface, const CenterlineGraph& graph,
+                                      const OpeningPlanOptions& options,
+                                      const Progress& progress = {});
 
 /// The same by planning_lines() that were made already, for several plans of a surface.
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines,

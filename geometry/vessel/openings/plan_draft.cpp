@@ -1,21 +1,21 @@
 #include "geometry/vessel/openings/plan_draft.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/end_texts.h"
 #include "geometry/vessel/openings/place_warnings.h"
-#include "geometry/vessel/openings/unlined_ends.h"
+#include "geometry/vessel/openings/stub_lines.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// A rim or cap this wide beside the widest other end is an end, whatever it looks like [-].
-constexpr double kAsWide = 0.8;
-/// An end's own vessel, beyond the others, is at least this long [diameters of the end].
-constexpr double kLeastOwnVessel = 0.1;
+/// A blind branch without a line that is so likely a bump is no end [-].
+constexpr double kMostBump = 0.5;
 
 /// A torn rim is longer than it is wide; a hole in a vessel's side is narrower than the vessel.
 EndRecord record_of(const SurfaceEnd& end, const Surface& surface, bool border_cuts) {
@@ -28,38 +28,6 @@ EndRecord record_of(const SurfaceEnd& end, const Surface& surface, bool border_c
     return {.place = end.centre,
             .diameter = end.tip ? std::min(end.diameter, width) : width,
             .rim = true};
-}
-
-EndRecord record_of(const UnlinedEnd& end, bool asked) {
-    return {.place = end.place,
-            .diameter = end.diameter,
-            .why = std::string(end.sac ? "it looks like an aneurysm, and is" : "it is") +
-                   " too short for a centerline, " + formatted(end.length) +
-                   " mm beyond the vessels around; open=" + coordinates_argument(end.place) +
-                   " opens it",
-            .sac = end.sac,
-            .asked = asked,
-            .offered = true,
-            .unlined = true,
-            .rest_of = end.rest_of};
-}
-
-/// A rim, or an image's border, where no vessel ends: the vessel passes it. A cap that has a
-/// name was meant by whoever gave it, as was a surface's own rim or cap that is as wide as the
-/// widest other end: a trunk cut close to its furcation looks as if the vessel passed.
-bool lies_in_side(const PlanDraft& draft, std::size_t e) {
-    const Surface& surface = draft.surface();
-    const SurfaceEnd& end = draft.ends()[e];
-    if (end.patch ? surface.patches[*end.patch].kind != PatchKind::Cut : end.rim.empty())
-        return false;
-    const auto rim = end.patch ? rim_shape_of_cap(surface, *end.patch)
-                               : std::optional(rim_shape(surface, end.rim));
-    if (!rim || !rim->is_graze()) return false;
-    if (!draft.options().border_cuts && rim->diameter() > kAsWide * draft.widest_beside(e))
-        return false;
-    if (!end.tip) return true;
-    const auto blind = blind_branch(draft.graph(), *end.tip);
-    return blind && blind->length < kLeastOwnVessel * rim->diameter();
 }
 
 }  // namespace
@@ -76,11 +44,27 @@ PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
     for (std::size_t e = 0; e < ends_.size(); ++e) {
         progress.check_cancelled();
         records_[e] = record_of(ends_[e], surface, options.border_cuts);
-        in_side_.push_back(lies_in_side(*this, e));
     }
-    if (options.tip) return;
-    for (const UnlinedEnd& end : unlined_ends(surface, lines.graph, options.stubs, ends_))
-        unlined_.push_back(record_of(end, options.leave_closed));
+    if (options.tip) {
+        choice_.ends.resize(ends_.size());
+        return;
+    }
+    const std::vector<Stub> stubs = stubs_apart(options.stubs, lines.graph, ends_);
+    choice_ = choose_ends({.surface = surface,
+                           .graph = lines.graph,
+                           .voxels = options.voxels,
+                           .border_cuts = options.border_cuts},
+                          ends_, stubs, progress);
+    for (std::size_t e = 0; e < ends_.size(); ++e) records_[e].verdict = choice_.ends[e];
+    for (std::size_t s = 0; s < stubs.size(); ++s)
+        if (const EndVerdict& verdict = choice_.stubs[s];
+            verdict.open || verdict.odds.bump < kMostBump)
+            stubs_.push_back({.place = stubs[s].tip,
+                              .diameter = verdict.profile.diameter,
+                              .why = closed_text(verdict),
+                              .asked = options.leave_closed,
+                              .stub = true,
+                              .verdict = verdict});
 }
 
 double PlanDraft::decided_share() const {
@@ -88,8 +72,10 @@ double PlanDraft::decided_share() const {
            static_cast<double>(decided_.size());
 }
 
-bool PlanDraft::stays_side(std::size_t e) const {
-    return in_side_[e] && (options_.border_cuts || !is_wanted(e));
+std::vector<double> PlanDraft::courses() const {
+    std::vector<double> courses;
+    for (const EndVerdict& verdict : choice_.ends) courses.push_back(verdict.profile.diameter);
+    return courses;
 }
 
 const FrayedTrunk* PlanDraft::frays(std::size_t e) const {
@@ -102,13 +88,6 @@ const FrayedTrunk* PlanDraft::frays(std::size_t e) const {
 Vec3 PlanDraft::tip_place(std::size_t e) const {
     const SurfaceEnd& end = ends_[e];
     return end.tip ? graph().nodes[*end.tip].position : end.centre;
-}
-
-double PlanDraft::widest_beside(std::size_t e) const {
-    double widest = 0.0;
-    for (std::size_t other = 0; other < ends_.size(); ++other)
-        if (other != e) widest = std::max(widest, ends_[other].diameter);
-    return widest;
 }
 
 bool PlanDraft::is_inlet(std::size_t e) const {
@@ -143,11 +122,6 @@ void PlanDraft::close(std::size_t e, const std::string& why) {
             {end.centre, end.patch ? ClosingWay::WallCap : ClosingWay::FillRim});
 }
 
-void PlanDraft::close_offering(std::size_t e, const std::string& why) {
-    records_[e].offered = true;
-    close(e, why + "; open=" + coordinates_argument(ends_[e].centre) + " opens it");
-}
-
 void PlanDraft::remove_stub(std::size_t e) {
     decided_[e] = true;
     records_[e].fate = EndFate::Removed;
@@ -172,17 +146,38 @@ OpeningPlan PlanDraft::finished() {
     for (std::size_t e = 0; e < made_.size(); ++e) {
         if (!made_[e]) continue;
         records_[e].opening = plan_.openings.size();
-        if (is_inlet(e)) plan_.inlets.push_back(plan_.openings.size());
         plan_.openings.push_back(*made_[e]);
     }
+    choose_inlet();
     plan_.ends = records_;
     add_threads();
-    plan_.ends.insert(plan_.ends.end(), unlined_.begin(), unlined_.end());
+    plan_.ends.insert(plan_.ends.end(), stubs_.begin(), stubs_.end());
+    number_ends();
     const auto rank = [](const EndRecord& end) {
         return std::tuple(end.plain, end.fate, -end.diameter);
     };
     std::ranges::stable_sort(plan_.ends, {}, rank);
     return std::move(plan_);
+}
+
+/// Those that were named; else the likeliest, unless the surface names one.
+void PlanDraft::choose_inlet() {
+    const bool named = std::ranges::count(surface_.patches, PatchKind::Inlet, &Patch::kind) > 0;
+    if (inlets_.empty() && !named && choice_.inlet && made_[*choice_.inlet])
+        inlets_.push_back(*choice_.inlet);
+    for (const std::size_t e : inlets_)
+        if (made_[e]) plan_.inlets.push_back(*records_[e].opening);
+}
+
+void PlanDraft::number_ends() {
+    std::vector<EndRecord*> judged;
+    for (EndRecord& end : plan_.ends)
+        if (end.verdict) judged.push_back(&end);
+    std::ranges::stable_sort(judged, std::greater{}, [](const EndRecord* end) {
+        return std::pair(end->verdict->share, end->verdict->profile.diameter);
+    });
+    int number = 0;
+    for (EndRecord* end : judged) end->number = ++number;
 }
 
 /// The report has every end found.

@@ -27,9 +27,12 @@ public:
     [[nodiscard]] const std::vector<SurfaceEnd>& ends() const { return ends_; }
 
     /// The ends without a centerline; they are reported only.
-    [[nodiscard]] std::vector<EndRecord>& unlined() { return unlined_; }
+    [[nodiscard]] std::vector<EndRecord>& stubs() { return stubs_; }
 
     [[nodiscard]] EndRecord& record(std::size_t e) { return records_[e]; }
+
+    /// By measure and odds (choose_ends).
+    [[nodiscard]] const EndVerdict& verdict(std::size_t e) const { return choice_.ends[e]; }
 
     [[nodiscard]] bool is_decided(std::size_t e) const { return decided_[e]; }
 
@@ -37,11 +40,13 @@ public:
 
     [[nodiscard]] double decided_share() const;  ///< of all ends [-]
 
-    /// True for a rim, or an image's border, that a vessel passes: none ends there.
-    [[nodiscard]] bool in_side(std::size_t e) const { return in_side_[e]; }
+    /// Diameters of the ends' vessels along their courses [mm]; 0: not measured.
+    [[nodiscard]] std::vector<double> courses() const;
 
-    /// A side at an image's border is no end; a rim of a surface may be one if the caller says so.
-    [[nodiscard]] bool stays_side(std::size_t e) const;
+    /// So much of the flow leaves there that it may not vanish (kLeastShare).
+    [[nodiscard]] bool has_share(std::size_t e) const {
+        return choice_.ends[e].share > kLeastShare;
+    }
 
     /// The place of the cuts was given.
     [[nodiscard]] bool is_fixed() const { return options_.distance || options_.radii; }
@@ -52,9 +57,6 @@ public:
     /// The end of its centerline, else its centre [mm].
     [[nodiscard]] Vec3 tip_place(std::size_t e) const;
 
-    /// Diameter of the widest other end [mm]; 0: there is none.
-    [[nodiscard]] double widest_beside(std::size_t e) const;
-
     [[nodiscard]] bool is_inlet(std::size_t e) const;
     [[nodiscard]] bool is_wanted(std::size_t e) const;  ///< named by the caller: it has to be open
 
@@ -64,9 +66,6 @@ public:
 
     void open(std::size_t e, const OpeningPlace& place, OpeningWay way, const std::string& why);
     void close(std::size_t e, const std::string& why);
-
-    /// Closes an end that may be one: the reason says how to open it nevertheless.
-    void close_offering(std::size_t e, const std::string& why);
 
     /// Removes the branch of a stub, which cannot be cut for the reason in its record.
     void remove_stub(std::size_t e);
@@ -82,6 +81,9 @@ public:
 
 private:
     void add_threads();
+    void add_stubs();
+    void choose_inlet();
+    void number_ends();
 
     const Surface& surface_;
     const LinesWithoutFrays& lines_;
@@ -90,8 +92,8 @@ private:
     std::vector<std::optional<PlannedOpening>> made_;  ///< by end
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
-    std::vector<bool> in_side_;                        ///< by end
-    std::vector<EndRecord> unlined_;
+    EndChoice choice_;
+    std::vector<EndRecord> stubs_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened
     OpeningPlan plan_;

@@ -24,19 +24,13 @@ constexpr double kSacLength = 2.5;
 /// What is longer beyond the vessels around is a vessel, however it widens behind its furcation
 /// [radii].
 constexpr double kLongestSac = 4.0;
-/// What is this long and has no neck may be a trunk as well [radii].
-constexpr double kLeastTrunk = 1.5;
 /// A ball on a narrower neck that the image has widened: it rises behind its neck by this factor,
 /// in at most this many radii beyond the vessels around it.
 constexpr double kBallToNeck = 1.15;
 constexpr double kBallLength = 1.5;
-/// Its sections' diameters rise by this factor; those of short vessels in voxels by at most 1.13.
-constexpr double kBallSections = 1.2;
+/// A trunk is about as wide as the widest end: within this factor [-].
+constexpr double kAsWide = 1.1;
 constexpr int kSections = 20;
-/// What is narrower by this factor up to its tip, and ends within the vessel's own diameter, is a
-/// pimple of the vessel [-].
-constexpr double kPimple = 3.0;
-constexpr int kPimpleSteps = 200;
 /// A stub is shorter than this many of its parent's diameters.
 constexpr double kStubShare = 1.0;
 
@@ -48,6 +42,7 @@ std::vector<SurfaceEnd> visible_ends(const Surface& surface) {
         const Vec3 centre = loop_centre(surface, loop);
         ends.push_back({.centre = centre,
                         .diameter = length / std::numbers::pi,
+                        .closure = length / std::numbers::pi,
                         .patch = std::nullopt,
                         .rim = std::move(loop),
                         .tip = std::nullopt,
@@ -62,6 +57,7 @@ std::vector<SurfaceEnd> visible_ends(const Surface& surface) {
         const PatchShape shape = patch_shape(surface, p);
         ends.push_back({.centre = shape.plane.point,
                         .diameter = shape.diameter(),
+                        .closure = shape.diameter(),
                         .patch = p,
                         .rim = {},
                         .tip = std::nullopt,
@@ -82,7 +78,7 @@ void match_tips(std::vector<SurfaceEnd>& ends, const CenterlineGraph& graph) {
         for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
             if (!graph.nodes[n].is_tip()) continue;
             const double distance = (graph.nodes[n].position - ends[e].centre).norm();
-            if (distance < kEndReach * ends[e].diameter) pairs.push_back({distance, e, n});
+            if (distance < kEndReach * std::max(ends[e].diameter, 2.0 * tip_radius(graph, n))) pairs.push_back({distance, e, n});
         }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
@@ -139,29 +135,6 @@ bool is_shared(const CenterlineGraph& graph, std::size_t branch, std::size_t nod
     return false;
 }
 
-/// The same by the diameters of the wall's sections: the line may run beside a ball's middle, where
-/// the inscribed circles are small.
-double section_rise(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
-    const std::size_t index = branch_of_tip(graph, tip);
-    const std::size_t root = other_node(graph, index, tip);
-    const double whole = branch_length(graph.branches[index]), from = graph.nodes[root].radius;
-    const Surface near = part_near(surface, graph.nodes[tip].position, whole + 2.0 * from);
-    double neck = std::numeric_limits<double>::infinity(), rise = 1.0;
-    for (int k = 0; k <= kSections; ++k) {
-        const double inward = std::max(0.0, whole - from) * (kSections - k) / kSections;
-        const BranchPlace place = place_from_node(graph, index, tip, inward);
-        const Plane plane{point_at(graph.branches[index], place.abscissa),
-                          outward_direction(graph, tip, inward)};
-        const auto curve = cross_section_at(near, plane);
-        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point) ||
-            is_shared(graph, index, root, *curve, plane))
-            continue;
-        neck = std::min(neck, curve->diameter());
-        rise = std::max(rise, curve->diameter() / neck);
-    }
-    return rise;
-}
-
 }  // namespace
 
 std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const CenterlineGraph& graph) {
@@ -175,37 +148,14 @@ std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const Centerli
         }
     for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
         if (!graph.nodes[n].is_tip() || taken.contains(n)) continue;
-        const auto pimple = pimple_at(graph, n);
         ends.push_back({.centre = graph.nodes[n].position,
-                        .diameter = 2.0 * (pimple ? pimple->radius : tip_radius(graph, n)),
+                        .diameter = 2.0 * tip_radius(graph, n),
                         .patch = std::nullopt,
                         .rim = {},
                         .tip = n,
                         .vertex = nearest_vertex(surface, graph.nodes[n].position)});
     }
     return ends;
-}
-
-std::optional<Pimple> pimple_at(const CenterlineGraph& graph, std::size_t tip, double from) {
-    const std::size_t index = branch_of_tip(graph, tip);
-    const CenterlineBranch& branch = graph.branches[index];
-    const double whole = branch_length(branch);
-    const double own = whole - furcation_zone_end(graph, index, other_node(graph, index, tip));
-    const double step = own / kPimpleSteps;
-    std::vector<double> radii;
-    for (int k = 0; k <= kPimpleSteps; ++k)
-        radii.push_back(radius_at(branch, place_from_node(graph, index, tip, k * step).abscissa));
-    Pimple found;
-    double widest = 0.0;  // so far
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-        widest = std::max(widest, radii[i]);
-        const double length = static_cast<double>(i) * step;
-        if (length < from) continue;
-        for (std::size_t j = i + 1; j < radii.size(); ++j)
-            if (radii[j] > kPimple * widest && static_cast<double>(j - i) * step < 2.0 * radii[j])
-                found = {.radius = std::max(found.radius, radii[j]), .length = length};
-    }
-    return found.radius > 0.0 ? std::optional(found) : std::nullopt;
 }
 
 std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends, const Vec3& point) {
@@ -224,16 +174,8 @@ bool BlindBranch::is_short() const {
     return length < kSacLength * widest;
 }
 
-bool BlindBranch::is_sac() const {
-    return bulges && (necked || length < kLeastTrunk * widest);
-}
-
 bool BlindBranch::is_stub() const {
     return length < kStubShare * 2.0 * parent;
-}
-
-bool BlindBranch::is_knob() const {
-    return is_stub() && length < 2.0 * widest;
 }
 
 std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_t tip) {
@@ -265,10 +207,25 @@ std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph, std::size_
     return found;
 }
 
-bool is_ball(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
-    const auto blind = blind_branch(graph, tip);
-    return blind && blind->length < kBallLength * blind->widest &&
-           section_rise(surface, graph, tip) > kBallSections;
+double section_rise(const Surface& surface, const CenterlineGraph& graph, std::size_t tip) {
+    const std::size_t index = branch_of_tip(graph, tip);
+    const std::size_t root = other_node(graph, index, tip);
+    const double whole = branch_length(graph.branches[index]), from = graph.nodes[root].radius;
+    const Surface near = part_near(surface, graph.nodes[tip].position, whole + 2.0 * from);
+    double neck = std::numeric_limits<double>::infinity(), rise = 1.0;
+    for (int k = 0; k <= kSections; ++k) {
+        const double inward = std::max(0.0, whole - from) * (kSections - k) / kSections;
+        const BranchPlace place = place_from_node(graph, index, tip, inward);
+        const Plane plane{point_at(graph.branches[index], place.abscissa),
+                          outward_direction(graph, tip, inward)};
+        const auto curve = cross_section_at(near, plane);
+        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point) ||
+            is_shared(graph, index, root, *curve, plane))
+            continue;
+        neck = std::min(neck, curve->diameter());
+        rise = std::max(rise, curve->diameter() / neck);
+    }
+    return rise;
 }
 
 bool is_trunk(const CenterlineGraph& graph, std::size_t tip) {
@@ -276,7 +233,7 @@ bool is_trunk(const CenterlineGraph& graph, std::size_t tip) {
     if (!blind || blind->necked || (blind->bulges && blind->is_short())) return false;
     const double radius = tip_radius(graph, tip);
     const double widest = tip_radius(graph, tips_by_radius(graph).front());
-    return kAsLarge * radius >= widest && radius > kAsLarge * blind->narrowest;
+    return kAsWide * radius >= widest && radius > kAsWide * blind->narrowest;
 }
 
 }  // namespace vesselbench

@@ -13,6 +13,7 @@ namespace vesselbench {
 struct SurfaceEnd {
     Vec3 centre = Vec3::Zero();        ///< of its rim or cap; else the tip [mm]
     double diameter = 0.0;             ///< of the vessel there [mm]
+    double closure = 0.0;              ///< of its rim or cap [mm]; 0: it has none
     std::optional<std::size_t> patch;  ///< its cap
     std::vector<VertexId> rim;         ///< its open border, as from Topology::boundary_loops
     std::optional<std::size_t> tip;    ///< node of the graph
@@ -41,37 +42,20 @@ struct BlindBranch {
     /// Not longer than a sac may be.
     [[nodiscard]] bool is_short() const;
 
-    /// It bulges, and is no trunk that was cut off before its furcation: it has a neck, or is
-    /// shorter than three quarters of its width.
-    [[nodiscard]] bool is_sac() const;
-
     /// So short that removing it changes little: shorter than its parent is wide.
     [[nodiscard]] bool is_stub() const;
-
-    /// A stub that is hardly more than a bump: shorter than it is wide.
-    [[nodiscard]] bool is_knob() const;
 };
 
 /// Empty for a vessel without a furcation.
 [[nodiscard]] std::optional<BlindBranch> blind_branch(const CenterlineGraph& graph,
                                                       std::size_t tip);
 
-/// A thread of the lumen at a vessel's closed end, such as a speck of noise or the groove around a
-/// dent: the line runs through it to its tip, but the end is that of the vessel.
-struct Pimple {
-    double radius = 0.0;  ///< of the vessel behind it [mm]
-    double length = 0.0;  ///< from the tip [mm]
-};
-
-/// A stretch at a closed tip that is thinner by a factor of 3 than the vessel within the vessel's
-/// own diameter; empty if there is none.
-/// \param from inner end of the shortest stretch looked at, from the tip [mm]
-[[nodiscard]] std::optional<Pimple> pimple_at(const CenterlineGraph& graph, std::size_t tip,
-                                              double from = 0.0);
-
-/// True for a sac that hardly protrudes, by its sections: at most 1.5 radii of it lie beyond the
-/// vessels around, and it is wider than its neck.
-[[nodiscard]] bool is_ball(const Surface& surface, const CenterlineGraph& graph, std::size_t tip);
+/// How much wider a tip's branch becomes behind its neck, by the diameters of the wall's sections
+/// [-]: the line may run beside a ball's middle, where the inscribed circles are small. 1: it does
+/// not, or has no sections of its own.
+/// \param tip of a branch with a furcation
+[[nodiscard]] double section_rise(const Surface& surface, const CenterlineGraph& graph,
+                                  std::size_t tip);
 
 /// True for a vessel that others leave: none of the ends is clearly wider, it is clearly wider than
 /// one of the vessels at its furcation, and it is no sac.

@@ -23,7 +23,20 @@ constexpr std::size_t kMostLoops = 100;
 constexpr std::size_t kTrianglesPerLoop = 500;
 constexpr double kShortestTube = 1.5;  // diameters
 
-/// With its open borders closed [mm^3].
+/// True if a branch is a tube without the furcations at its ends.
+bool is_tube(const CenterlineGraph& graph, std::size_t index) {
+    const CenterlineBranch& branch = graph.branches[index];
+    const double from = furcation_zone_end(graph, index, branch.start_node);
+    const double to = branch_length(branch) - furcation_zone_end(graph, index, branch.end_node);
+    const std::vector<double> s = abscissas(branch);
+    double widest = 0.0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s[i] >= from && s[i] <= to) widest = std::max(widest, branch.radii[i]);
+    return widest > 0.0 && to - from > kShortestTube * 2.0 * widest;
+}
+
+}  // namespace
+
 double closed_volume(const Surface& surface) {
     const Positions& x = surface.points();
     const Vec3 origin = x[surface.triangles()[0][0]];
@@ -39,20 +52,6 @@ double closed_volume(const Surface& surface) {
     }
     return std::abs(volume);
 }
-
-/// True if a branch is a tube without the furcations at its ends.
-bool is_tube(const CenterlineGraph& graph, std::size_t index) {
-    const CenterlineBranch& branch = graph.branches[index];
-    const double from = furcation_zone_end(graph, index, branch.start_node);
-    const double to = branch_length(branch) - furcation_zone_end(graph, index, branch.end_node);
-    const std::vector<double> s = abscissas(branch);
-    double widest = 0.0;
-    for (std::size_t i = 0; i < s.size(); ++i)
-        if (s[i] >= from && s[i] <= to) widest = std::max(widest, branch.radii[i]);
-    return widest > 0.0 && to - from > kShortestTube * 2.0 * widest;
-}
-
-}  // namespace
 
 void require_lumen(const Surface& surface) {
     if (surface.empty()) return;

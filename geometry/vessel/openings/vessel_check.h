@@ -10,6 +10,9 @@ namespace vesselbench {
 /// \throw InvalidInput; the text says which it is, with its figures
 void require_lumen(const Surface& surface);
 
+/// Volume enclosed by a surface whose open borders are closed by fans [mm^3].
+[[nodiscard]] double closed_volume(const Surface& surface);
+
 /// True if a branch is a tube: longer than 1.5 of its widest diameters, without its furcations. An
 /// organ or a box has centerlines, too, but none that long.
 [[nodiscard]] bool has_tube(const CenterlineGraph& graph);

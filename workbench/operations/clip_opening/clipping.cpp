@@ -11,7 +11,7 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/planned_cut.h"
-#include "geometry/vessel/openings/unlined_ends.h"
+#include "geometry/vessel/openings/stub_lines.h"
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/clip_opening/wrong_cuts.h"
@@ -86,6 +86,9 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
     throw AlgorithmFailure(failed.why + closing_advice(closed));
 }
 
+/// A branch that gets a line may show further ones without.
+constexpr int kMostRounds = 3;
+
 /// The lines that a plan needs; the ends without one go into its options.
 std::shared_ptr<const CenterlineGraph> lines_and_stubs(const Surface& surface,
                                                        OpeningPlanOptions& options,
@@ -93,9 +96,38 @@ std::shared_ptr<const CenterlineGraph> lines_and_stubs(const Surface& surface,
     if (options.tip) return lines_for_openings(surface, options.tip, progress);
     Positions wanted = options.open;
     wanted.insert(wanted.end(), options.inlets.begin(), options.inlets.end());
-    LinesAndStubs lines = lines_to_ends(surface, wanted, progress);
-    options.stubs = std::move(lines.stubs);
-    return lines.graph;
+    for (int round = 0;; ++round) {
+        LinesAndStubs lines = lines_to_ends(surface, wanted, progress);
+        options.stubs = std::move(lines.stubs);
+        if (round == kMostRounds) return lines.graph;
+        const Positions more = stubs_to_open(surface, *lines.graph, options, progress);
+        if (more.empty()) return lines.graph;
+        wanted.insert(wanted.end(), more.begin(), more.end());
+    }
+}
+
+/// Adds the places of ends that are named by their numbers, which are those of the plan that is made
+/// without these names.
+/// \throw UsageError if there is no such end
+void name_by_numbers(const Surface& surface, const Arguments& arguments,
+                     OpeningPlanOptions& options, const Progress& progress) {
+    if (!names_numbers(arguments)) return;
+    OpeningPlanOptions plain = options;
+    const auto graph = lines_and_stubs(surface, plain, progress);
+    const OpeningPlan plan =
+        plan_openings(surface, planning_lines(surface, *graph, plain), plain, progress);
+    for (const NumberParameter& parameter : kNumberParameters) {
+        if (!arguments.has(parameter.numbers)) continue;
+        for (const double number : arguments.list(parameter.numbers)) {
+            const auto end = std::ranges::find_if(
+                plan.ends, [&](const EndRecord& e) { return e.number > 0 && e.number == number; });
+            if (end == plan.ends.end())
+                throw UsageError("clip-opening: " + std::string(parameter.numbers) +
+                                 ": there is no end " + formatted(number) +
+                                 "; vesselbench ends lists them");
+            (options.*parameter.into).push_back(end->place);
+        }
+    }
 }
 
 /// The plan resolved by an earlier run.
@@ -129,6 +161,7 @@ Positions stored_inlets(const OpeningPlan& plan, const Surface& clipped,
 Clipping decide_openings(const Scene& scene, const Arguments& arguments, const Progress& progress) {
     const Surface& surface = surface_of(scene);
     OpeningPlanOptions options = plan_options(arguments, scene.image);
+    name_by_numbers(surface, arguments, options, progress.silent());
     const auto graph = lines_and_stubs(surface, options, progress.part(0.0, 0.5));
     if (!options.tip) require_tube(surface, *graph);
     const LinesWithoutFrays lines = planning_lines(surface, *graph, options);
@@ -136,7 +169,8 @@ Clipping decide_openings(const Scene& scene, const Arguments& arguments, const P
     const bool chosen = !options.distance && !options.radii && !options.strict;
     for (int plans = 1;; ++plans) {
         Clipping made{.plan = plan_openings(surface, lines, options, progress.part(0.5, 0.8)),
-                      .surface = {}};
+                      .surface = {},
+                      .options = options};
         if (for_flow) check_flow(made.plan, surface, *graph, options, progress.part(0.8, 0.81));
         name_opening(made.plan, arguments);
         ClippedSurface clipped =
@@ -158,9 +192,19 @@ Clipping decide_openings(const Scene& scene, const Arguments& arguments, const P
     }
 }
 
+OpeningPlan planned_openings(const Scene& scene, const Arguments& arguments,
+                             const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    OpeningPlanOptions options = plan_options(arguments, scene.image);
+    name_by_numbers(surface, arguments, options, progress.silent());
+    const auto graph = lines_and_stubs(surface, options, progress.part(0.0, 0.6));
+    return plan_openings(surface, planning_lines(surface, *graph, options), options,
+                         progress.part(0.6, 1.0));
+}
+
 Clipping repeat_openings(const Surface& surface, const Arguments& arguments,
                          const Progress& progress) {
-    Clipping made{.plan = stored_plan(arguments), .surface = {}};
+    Clipping made{.plan = stored_plan(arguments), .surface = {}, .options = {}};
     const bool stubs =
         std::ranges::count(made.plan.closings, ClosingWay::RemoveStub, &PlannedClosing::way) > 0;
     const auto graph = stubs ? lines_for_openings(surface, std::nullopt, progress.part(0.0, 0.7))

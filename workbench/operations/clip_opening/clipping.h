@@ -10,6 +10,7 @@ namespace vesselbench {
 struct Clipping {
     OpeningPlan plan;
     Surface surface;
+    OpeningPlanOptions options;  ///< with the places of ends that were named by their numbers
 };
 
 /// Plans and cuts as the arguments ask; where a cut fails, plans again without it.
@@ -17,6 +18,11 @@ struct Clipping {
 /// flow could not enter and leave; Cancelled
 [[nodiscard]] Clipping decide_openings(const Scene& scene, const Arguments& arguments,
                                        const Progress& progress);
+
+/// The ends and what would become of them, without cutting or checking anything.
+/// \throw AlgorithmFailure if there is no end, or one that has to be open cannot be; Cancelled
+[[nodiscard]] OpeningPlan planned_openings(const Scene& scene, const Arguments& arguments,
+                                           const Progress& progress);
 
 /// Makes the openings that an earlier run resolved: `planes`, `names` and `closings`.
 /// \throw UsageError if these are incomplete; AlgorithmFailure if a cut fails; Cancelled

@@ -47,20 +47,37 @@ ordered_json doubt_json(const OpeningPlan& plan, const EndRecord& end) {
     return opening.place.doubt_deg;
 }
 
-/// \param names of the plan's openings
-ordered_json ends_json(const OpeningPlan& plan, const std::vector<std::string>& names) {
-    ordered_json list = ordered_json::array();
-    for (const EndRecord& end : plan.ends)
-        list.push_back({{"place_mm", {end.place.x(), end.place.y(), end.place.z()}},
-                        {"diameter_mm", end.diameter},
-                        {"direction_sd_deg", doubt_json(plan, end)},
-                        {"fate", to_string(end.fate)},
-                        {"opening", end.opening ? ordered_json(names[*end.opening]) : nullptr},
-                        {"why", end.why}});
-    return list;
+/// What was measured of an end and what it is likely to be; null where it was not judged.
+ordered_json verdict_json(const EndRecord& end) {
+    if (!end.verdict) return nullptr;
+    const EndVerdict& v = *end.verdict;
+    ordered_json features = ordered_json::object();
+    const EndFeatures values = features_of(v.profile);
+    for (std::size_t f = 0; f < values.size(); ++f)
+        features[std::string(kEndFeatures[f])] = values[f];
+    return {{"opening", v.odds.opening},
+            {"sac", v.odds.sac},
+            {"bump", v.odds.bump},
+            {"doubtful", v.doubtful},
+            {"features", std::move(features)}};
 }
 
 }  // namespace
+
+ordered_json ends_json(const OpeningPlan& plan, const std::vector<std::string>& names) {
+    ordered_json list = ordered_json::array();
+    for (const EndRecord& end : plan.ends)
+        list.push_back({{"number", end.number > 0 ? ordered_json(end.number) : nullptr},
+                        {"place_mm", {end.place.x(), end.place.y(), end.place.z()}},
+                        {"diameter_mm", end.diameter},
+                        {"flow_share", end.verdict ? ordered_json(end.share()) : nullptr},
+                        {"direction_sd_deg", doubt_json(plan, end)},
+                        {"fate", to_string(end.fate)},
+                        {"opening", end.opening ? ordered_json(names[*end.opening]) : nullptr},
+                        {"why", end.why},
+                        {"odds", verdict_json(end)}});
+    return list;
+}
 
 ClippingRecord record_of(const Surface& before, const Clipping& made, bool decided) {
     const Surface& surface = made.surface;

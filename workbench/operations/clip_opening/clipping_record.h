@@ -17,6 +17,11 @@ struct ClippingRecord {
     std::shared_ptr<nlohmann::ordered_json> report;  ///< `openings`; `ends`, if they were decided
 };
 
+/// The ends of a plan, as reports have them.
+/// \param names of the plan's openings
+[[nodiscard]] nlohmann::ordered_json ends_json(const OpeningPlan& plan,
+                                               const std::vector<std::string>& names);
+
 /// \param decided the plan was made by this run (decide_openings): planes that are given say
 /// nothing of the other ends
 [[nodiscard]] ClippingRecord record_of(const Surface& before, const Clipping& made, bool decided);

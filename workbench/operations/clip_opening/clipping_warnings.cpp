@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/openings/flow_check.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "workbench/case/argument_texts.h"
@@ -24,9 +23,11 @@ std::string end_text(const EndRecord& end) {
 /// How many small ends stayed closed, and how to open those that are no sacs, if they are few.
 std::string small_ends_text(const std::vector<EndRecord>& small) {
     constexpr std::size_t kMostNamed = 8;
+    constexpr double kOffered = 0.2;  // less likely openings are not worth naming
     std::vector<std::string> places;
     for (const EndRecord& end : small)
-        if (end.offered && !end.sac) places.push_back(coordinates_argument(end.place));
+        if (end.verdict && end.verdict->odds.opening > kOffered)
+            places.push_back(coordinates_argument(end.place));
     const std::string text =
         counted(small.size(), "smaller end") + " stayed closed: see the report";
     if (places.empty() || places.size() > kMostNamed) return text;
@@ -34,23 +35,14 @@ std::string small_ends_text(const std::vector<EndRecord>& small) {
            (places.size() == 1 ? "one" : std::to_string(places.size())) + " of them";
 }
 
-/// A cap at an image's border that is as wide as other openings: the vessel goes on behind it.
-bool is_lost_at_border(const OpeningPlan& plan, const EndRecord& end) {
-    return end.border && std::ranges::any_of(plan.ends, [&](const EndRecord& other) {
-               return other.opening && end.diameter >= kLargeEnd * other.diameter;
-           });
-}
-
 }  // namespace
 
 std::vector<std::string> end_warnings(const OpeningPlan& plan) {
-    const double widest = widest_opening(plan);
     std::vector<std::string> warnings;
     std::vector<EndRecord> small;
     for (const EndRecord& end : plan.ends) {
         if (end.plain || end.why.empty() || end.asked) continue;
-        if (end.fate == EndFate::Closed && !end.rim && !is_lost_at_border(plan, end) &&
-            end.diameter < kLargeEnd * widest)
+        if (end.fate == EndFate::Closed && !end.rim && end.share() <= kLeastShare)
             small.push_back(end);
         else
             warnings.push_back(end_text(end) + ", was " + to_string(end.fate) + ": " + end.why);

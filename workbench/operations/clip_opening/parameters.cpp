@@ -1,5 +1,6 @@
 #include "workbench/operations/clip_opening/parameters.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
@@ -61,6 +62,22 @@ std::vector<Parameter> choice_parameters() {
              .unit = "mm",
              .help = "ends that stay closed on purpose: x,y,z of each",
              .meaning = Meaning::Tip},
+            {.name = "inlet_ends",
+             .type = List,
+             .unit = "-",
+             .help = "the inlets by their numbers, as vesselbench ends lists them"},
+            {.name = "open_ends",
+             .type = List,
+             .unit = "-",
+             .help = "ends that are opened, by their numbers"},
+            {.name = "close_ends",
+             .type = List,
+             .unit = "-",
+             .help = "ends that stay closed, by their numbers"},
+            {.name = "accept_doubts",
+             .type = Flag,
+             .default_value = false,
+             .help = "where the odds do not decide about an end, go on with the likelier choice"},
             {.name = "strict",
              .type = Flag,
              .default_value = false,
@@ -128,6 +145,11 @@ void check_clip_arguments(const Arguments& arguments) {
                              " needs three numbers for each end");
 }
 
+bool names_numbers(const Arguments& arguments) {
+    return std::ranges::any_of(kNumberParameters,
+                               [&](const auto& p) { return arguments.has(p.numbers); });
+}
+
 Positions points_of(const Arguments& arguments, const char* name) {
     if (!arguments.has(name)) return {};
     const std::vector<double>& numbers = arguments.list(name);
@@ -143,6 +165,7 @@ OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<
                                .radii = arguments.optional_real("radii"),
                                .strict = arguments.flag("strict"),
                                .border_cuts = image.has_value()};
+    options.accept_doubts = arguments.flag("accept_doubts");
     options.leave_closed = arguments.text("closed_ends") == "leave";
     if (options.leave_closed) options.border_cuts = false;
     if (image) options.voxels = voxel_edges(*image);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,20 @@ namespace vesselbench {
 
 /// The operation's parameters: what to open, and what an earlier run decided.
 [[nodiscard]] std::vector<Parameter> clip_opening_parameters();
+
+/// A parameter that names ends by their numbers, and the one that names the same by places.
+struct NumberParameter {
+    const char* numbers;
+    const char* places;
+    Positions OpeningPlanOptions::*into;
+};
+
+inline constexpr std::array<NumberParameter, 3> kNumberParameters = {
+    {{"inlet_ends", "inlet", &OpeningPlanOptions::inlets},
+     {"open_ends", "open", &OpeningPlanOptions::open},
+     {"close_ends", "closed", &OpeningPlanOptions::closed}}};
+
+[[nodiscard]] bool names_numbers(const Arguments& arguments);
 
 /// \throw UsageError if arguments contradict each other, or points have too few numbers
 void check_clip_arguments(const Arguments& arguments);

@@ -65,7 +65,8 @@ std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& 
     }
     const std::vector<LostVessel> lost = lost_vessels(vessels, after);
     if (lost.empty() || !lost_vessels(vessels, before).empty()) return wrong;  // lines lie outside
-    for (const LostVessel& vessel : lost) wrong.push_back(cut_that_lost(plan, vessel));
+    for (const LostVessel& vessel : lost)
+        if (vessel.matters()) wrong.push_back(cut_that_lost(plan, vessel));
     return wrong;
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "geometry/vessel/ends/end_odds.h"
+
+namespace vesselbench {
+
+/// An end or a vessel with a larger share of the inlet's flow is not closed, cut off or lost
+/// without being asked for [-].
+inline constexpr double kLeastShare = 0.05;
+/// Odds beyond this factor, or below its inverse, are no doubt [-].
+inline constexpr double kCertain = 4.0;
+
+/// What was measured of a candidate, and what is to become of it.
+struct EndVerdict {
+    EndProfile profile;
+    EndOdds odds;
+    double share = 0.0;  ///< of the inlet's flow: the cube of its vessel's diameter over the inlet's
+    bool open = false;
+    bool doubtful = false;  ///< it has a share of the flow, and the odds do not decide
+};
+
+/// What is to become of all candidates.
+struct EndChoice {
+    std::vector<EndVerdict> ends;   ///< by end
+    std::vector<EndVerdict> stubs;  ///< by blind branch without a line
+    std::optional<std::size_t> inlet;         ///< the end where the blood enters; none: unknown
+    std::vector<std::size_t> other_inlets;    ///< ends that are about as plausible, likeliest first
+};
+
+/// Opens the ends whose odds say so. Of those with a share of the flow, what is likelier an opening
+/// than not; of the others, what is certain to be one; at least two in any case.
+/// \param ends as from find_surface_ends
+/// \param stubs of the same lines
+/// \throw Cancelled
+[[nodiscard]] EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
+                                    const std::vector<Stub>& stubs, const Progress& progress = {});
+
+}  // namespace vesselbench

@@ -1,0 +1,236 @@
+#include "geometry/vessel/ends/end_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/ends/flow_tree.h"
+#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/stub_sections.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kSamples = 24;
+/// Sections of longer vessels say nothing of a neck [diameters].
+constexpr double kLongestNecked = 4.0;
+/// Shorter branches without a line have no neck [diameters].
+constexpr double kShortestNecked = 0.5;
+/// Lengths, ratios and counts beyond these factors say no more.
+constexpr double kMostRatio = 8.0;
+constexpr double kUsualAcross = 8.0;
+constexpr double kMostNeed = 2.0;
+
+double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+double mean_of(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+/// Mean length of the surface's edges [mm].
+double mean_edge(const Surface& surface) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : surface.triangles())
+        sum += (surface.points()[a] - surface.points()[b]).norm() +
+               (surface.points()[b] - surface.points()[c]).norm() +
+               (surface.points()[c] - surface.points()[a]).norm();
+    return sum / (3.0 * static_cast<double>(std::max<std::size_t>(1, surface.triangle_count())));
+}
+
+/// The widest vessel of the tree, along its course, without one branch.
+double widest_course(const std::vector<double>& courses, std::size_t without) {
+    double widest = 0.0;
+    for (std::size_t b = 0; b < courses.size(); ++b)
+        if (b != without) widest = std::max(widest, courses[b]);
+    return widest;
+}
+
+/// Along the line of a tip's branch. \param courses diameters of all branches [mm]
+void measure_line(const EndScene& scene, const std::vector<double>& courses, std::size_t tip,
+                  EndProfile& profile) {
+    const CenterlineGraph& graph = scene.graph;
+    const std::size_t index = branch_of_tip(graph, tip), root = other_node(graph, index, tip);
+    const CenterlineBranch& branch = graph.branches[index];
+    const double whole = branch_length(branch);
+    const double zone = std::min(furcation_zone_end(graph, index, root), whole);
+    profile.length = whole - parents_exit(graph, index, root);
+    if (!profile.rim && !profile.cap) profile.length += graph.nodes[tip].radius;
+    const double from = std::min(zone, 0.5 * whole);
+    std::vector<double> diameters;
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kSamples; ++k) {
+        const double s = from + (whole - from) * (k + 0.5) / kSamples;
+        const double d = 2.0 * radius_at(branch, place_from_node(graph, index, root, s).abscissa);
+        diameters.push_back(d);
+        narrowest = std::min(narrowest, d);
+        profile.neck = std::max(profile.neck, d / narrowest);
+    }
+    profile.diameter = median_of(diameters);
+    profile.widest = *std::ranges::max_element(diameters);
+    const std::span<const double> all(diameters);
+    const double inner = mean_of(all.first(kSamples / 3));
+    profile.taper = inner > 0.0 ? mean_of(all.last(kSamples / 3)) / inner : 1.0;
+    for (const std::size_t other : graph.nodes[root].branches)
+        if (other != index) profile.add_other(courses[other]);
+    profile.tree = widest_course(courses, index);
+    if (profile.parent > 0.0 && profile.length < kLongestNecked * profile.diameter)
+        profile.neck = std::max(profile.neck, section_rise(scene.surface, graph, tip));
+}
+
+void measure_sections(const EndScene& scene, const Stub& stub, EndProfile& profile) {
+    double narrowest = std::numeric_limits<double>::infinity(), inscribed = 0.0;
+    for (const StubSection& section : stub_sections(scene.surface, scene.graph, stub)) {
+        narrowest = std::min(narrowest, section.diameter);
+        profile.neck = std::max(profile.neck, section.diameter / narrowest);
+        inscribed = std::max(inscribed, section.inscribed);
+        profile.widest = std::max(profile.widest, section.diameter);
+    }
+    if (inscribed > 0.0) profile.diameter = inscribed;
+}
+
+/// Edge of the voxels, or of the surface's triangles [mm].
+double element_size(const EndScene& scene) {
+    return scene.voxels ? std::cbrt(std::abs(scene.voxels->determinant()))
+                        : mean_edge(scene.surface);
+}
+
+/// The vessels that a stub leaves: those at the furcation in whose sphere its root lies, or the one
+/// that passes.
+void add_others(const CenterlineGraph& graph, const std::vector<double>& courses, const Stub& stub,
+                EndProfile& profile) {
+    const auto line = nearest_place(graph, stub.root);
+    if (!line) return;
+    const CenterlineBranch& branch = graph.branches[line->place.branch];
+    for (const std::size_t node : {branch.start_node, branch.end_node}) {
+        const CenterlineNode& at = graph.nodes[node];
+        if (at.is_tip() || (at.position - stub.root).norm() > at.radius) continue;
+        for (const std::size_t other : at.branches) profile.add_other(courses[other]);
+        return;
+    }
+    for (int side = 0; side < 2; ++side) profile.add_other(courses[line->place.branch]);
+}
+
+/// A rim or cap where no line ends is a hole or a label in the side of the vessel that passes.
+void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& courses,
+                      const SurfaceEnd& end, EndProfile& profile) {
+    profile.diameter = profile.widest = end.diameter;
+    profile.tree = widest_course(courses, courses.size());
+    const auto line = nearest_place(graph, end.centre);
+    for (int side = 0; line && side < 2; ++side)
+        profile.add_other(courses[line->place.branch]);
+}
+
+/// Share of the cubes of the diameters that rims and named caps have: somebody has cut them.
+double visible_share(const Surface& surface, const std::vector<SurfaceEnd>& ends,
+                     const std::vector<EndProfile>& profiles) {
+    double visible = 0.0, all = 0.0;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        const double cube = std::pow(profiles[e].diameter, 3.0);
+        all += cube;
+        const auto& patch = ends[e].patch;
+        if (patch ? surface.patches[*patch].kind != PatchKind::Cut : ends[e].is_visible())
+            visible += cube;
+    }
+    return all > 0.0 ? visible / all : 0.0;
+}
+
+double log_ratio(double a, double b) {
+    if (!(a > 0.0 && b > 0.0)) return 0.0;
+    return std::clamp(std::log(a / b), -std::log(kMostRatio), std::log(kMostRatio));
+}
+
+/// How far a furcation of vessels is from Murray's law, |ln(inflow / outflow)|, if the one that
+/// fits best is the inflow.
+double imbalance(const std::vector<double>& cubes) {
+    double sum = 0.0, least = std::numeric_limits<double>::infinity();
+    for (const double cube : cubes) sum += cube;
+    for (const double cube : cubes)
+        if (sum > cube && cube > 0.0)
+            least = std::min(least, std::abs(std::log(cube / (sum - cube))));
+    return std::isfinite(least) ? least : 0.0;
+}
+
+}  // namespace
+
+double EndProfile::need() const {
+    if (others.size() < 2) return 0.0;
+    std::vector<double> all = others;
+    all.push_back(diameter * diameter * diameter);
+    return imbalance(others) - imbalance(all);
+}
+
+EndFeatures features_of(const EndProfile& p) {
+    const bool branch = p.parent > 0.0;
+    // A plane that has cut a vessel shows that it went on there, however short it is.
+    const bool planar = p.rim || p.cap;
+    const double length =
+        branch ? log_ratio(std::max(p.length, 1e-6 * p.diameter), p.diameter) : std::log(kMostRatio);
+    const double surplus =
+        branch ? std::max(0.0, log_ratio(p.diameter, std::cbrt(p.other_flow()))) : 0.0;
+    return {1.0,
+            planar ? 0.0 : length,
+            planar ? 0.0 : std::max(0.0, -length),
+            planar ? 0.0 : log_ratio(p.neck, 1.0),
+            branch ? log_ratio(p.diameter, p.parent) : 0.0,
+            planar ? 0.0 : surplus,
+            log_ratio(p.diameter, p.tree),
+            planar ? 0.0 : std::clamp(p.need(), -kMostNeed, kMostNeed),
+            planar ? 0.0 : log_ratio(p.widest, p.diameter),
+            planar ? 0.0 : log_ratio(p.taper, 1.0),
+            std::min(0.0, log_ratio(p.across, kUsualAcross)),
+            p.rim ? 1.0 : 0.0,
+            p.cap ? 1.0 : 0.0,
+            p.visible_beside};
+}
+
+std::vector<EndProfile> profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
+                                    const Progress& progress) {
+    std::vector<EndProfile> profiles(ends.size());
+    const std::vector<double> courses = course_diameters(scene.graph);
+    const double element = element_size(scene);
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        progress.check_cancelled();
+        const SurfaceEnd& end = ends[e];
+        EndProfile& profile = profiles[e];
+        profile.rim = !end.rim.empty();
+        profile.cap = end.patch.has_value();
+        if (end.tip)
+            measure_line(scene, courses, *end.tip, profile);
+        else
+            measure_lineless(scene.graph, courses, end, profile);
+        profile.across = profile.diameter / element;
+    }
+    const double visible = visible_share(scene.surface, ends, profiles);
+    for (std::size_t e = 0; e < ends.size(); ++e)
+        if (!ends[e].is_visible() && !scene.border_cuts) profiles[e].visible_beside = visible;
+    return profiles;
+}
+
+std::vector<EndProfile> profiles_of(const EndScene& scene, const std::vector<Stub>& stubs,
+                                    const Progress& progress) {
+    std::vector<EndProfile> profiles;
+    const double element = element_size(scene);
+    const std::vector<double> courses = course_diameters(scene.graph);
+    for (const Stub& stub : stubs) {
+        progress.check_cancelled();
+        EndProfile profile{.length = stub.length,
+                           .diameter = 2.0 * stub.widest,
+                           .widest = 2.0 * stub.widest};
+        add_others(scene.graph, courses, stub, profile);
+        profile.tree = widest_course(courses, courses.size());
+        if (profile.length > kShortestNecked * profile.diameter) measure_sections(scene, stub, profile);
+        profile.across = profile.diameter / element;
+        profiles.push_back(profile);
+    }
+    return profiles;
+}
+
+}  // namespace vesselbench

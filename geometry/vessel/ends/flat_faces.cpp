@@ -1,0 +1,281 @@
+#include "geometry/vessel/ends/flat_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include <Eigen/Dense>
+
+#include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/triangle_neighbours.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Cosines: directions of one face, and of those triangles of it from which no other face starts.
+constexpr double kOneFace = 0.94;     // 20 degrees
+constexpr double kMiddle = 0.9945;    // 6 degrees
+/// A face is a filled ellipse of at most this length over width, seen along its normal.
+constexpr double kLongest = 2.0;
+constexpr double kFilled = 0.75;
+/// Smaller ones are triangles of a coarse wall [mean edges].
+constexpr double kSmallest = 2.0;
+/// The vessel is measured so far behind the face, and is so wide there [radii of the face].
+constexpr double kBehind = 0.75;
+constexpr double kNarrowest = 0.8, kWidest = 1.8;
+constexpr int kRays = 16;
+/// One ray may lead into a side branch; others are no longer than this beside their median: a
+/// vessel runs along the wall of a furcation.
+constexpr int kSideBranch = 1;
+constexpr double kLongestRay = 1.8;
+/// The vessel stays as wide within these factors, looked at in steps of so many radii.
+constexpr double kNarrower = 0.7, kWider = 1.35;
+constexpr double kStep = 0.25;
+constexpr double kFarthest = 8.0;
+constexpr double kLeastLength = 1.0;
+
+constexpr int kRounds = 3;
+
+class FaceSearch {
+public:
+    explicit FaceSearch(const Surface& surface)
+        : surface_(surface),
+          distance_(distance_to(surface)),
+          tried_(surface.triangle_count(), false),
+          seen_(surface.triangle_count(), 0) {
+        double edges = 0.0;
+        for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+            normals_.push_back(area_normal(surface.points(), surface.triangles()[t]));
+            edges += std::sqrt(normals_.back().norm());
+        }
+        neighbours_ = edge_neighbours(surface.triangles());
+        edge_ = edges / static_cast<double>(std::max<std::size_t>(1, normals_.size()));
+    }
+
+    [[nodiscard]] std::vector<FlatFace> run(const Progress& progress) {
+        constexpr TriangleId kTurn = 1024;
+        std::vector<FlatFace> faces;
+        for (TriangleId t = 0; t < surface_.triangle_count(); ++t) {
+            if (t % kTurn == 0) progress.check_cancelled();
+            if (tried_[t] || !is_wall(t)) continue;
+            tried_[t] = true;
+            const Vec3 first = mean_normal(grown(t, normals_[t].normalized()));
+            const std::vector<TriangleId> region = grown(t, first);
+            const Vec3 normal = mean_normal(region);
+            const auto face = face_of(region, normal);
+            for (const TriangleId r : region)
+                if (face || normals_[r].dot(normal) > kMiddle * normals_[r].norm())
+                    tried_[r] = true;
+            if (face && !is_known(*face, faces)) faces.push_back(*face);
+        }
+        return faces;
+    }
+
+private:
+    [[nodiscard]] bool is_wall(TriangleId t) const {
+        return surface_.patch_of(t).kind == PatchKind::Wall && normals_[t].norm() > 0.0;
+    }
+
+    [[nodiscard]] std::vector<TriangleId> grown(TriangleId seed, const Vec3& normal) {
+        ++visit_;
+        std::vector<TriangleId> region{seed};
+        seen_[seed] = visit_;
+        for (std::size_t i = 0; i < region.size(); ++i)
+            for (const TriangleId next : neighbours_[region[i]])
+                if (next != kNoTriangle && seen_[next] != visit_ && is_wall(next) &&
+                    normals_[next].dot(normal) >= kOneFace * normals_[next].norm()) {
+                    seen_[next] = visit_;
+                    region.push_back(next);
+                }
+        return region;
+    }
+
+    /// Without the fringes and notches of a region's border.
+    [[nodiscard]] std::vector<TriangleId> even(std::vector<TriangleId> region) const {
+        std::set<TriangleId> in(region.begin(), region.end());
+        const auto beside = [&](TriangleId t) {
+            return std::ranges::count_if(neighbours_[t],
+                                         [&](TriangleId next) { return in.contains(next); });
+        };
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<TriangleId> added, removed;
+            for (const TriangleId t : in) {
+                if (beside(t) < 2) removed.push_back(t);
+                for (const TriangleId next : neighbours_[t])
+                    if (next != kNoTriangle && !in.contains(next) && is_wall(next) && beside(next) >= 2)
+                        added.push_back(next);
+            }
+            for (const TriangleId t : removed) in.erase(t);
+            in.insert(added.begin(), added.end());
+        }
+        return {in.begin(), in.end()};
+    }
+
+    /// With the holes in a region that are smaller than it.
+    [[nodiscard]] std::vector<TriangleId> filled(std::vector<TriangleId> region) const {
+        std::set<TriangleId> in(region.begin(), region.end());
+        std::set<TriangleId> outside;
+        for (const TriangleId t : region)
+            for (const TriangleId beside : neighbours_[t]) {
+                if (beside == kNoTriangle || in.contains(beside) || outside.contains(beside))
+                    continue;
+                std::vector<TriangleId> part{beside};
+                std::set<TriangleId> seen{beside};
+                for (std::size_t i = 0; i < part.size() && part.size() <= region.size(); ++i)
+                    for (const TriangleId next : neighbours_[part[i]])
+                        if (next != kNoTriangle && !in.contains(next) && seen.insert(next).second)
+                            part.push_back(next);
+                const bool hole = part.size() <= region.size();
+                (hole ? in : outside).insert(part.begin(), part.end());
+            }
+        return {in.begin(), in.end()};
+    }
+
+    /// Filled, and where its border touches itself at a vertex, with the triangles around it.
+    [[nodiscard]] std::vector<TriangleId> one_disc(std::vector<TriangleId> region) const {
+        for (int round = 0; round < kRounds; ++round) {
+            region = filled(std::move(region));
+            std::map<VertexId, int> border;  // ends of border edges
+            for (const TriangleId t : region)
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (!std::ranges::binary_search(region, neighbours_[t][k]))
+                        for (const std::size_t end : {k, (k + 1) % 3})
+                            ++border[surface_.triangles()[t][end]];
+            std::set<TriangleId> in(region.begin(), region.end());
+            for (const auto& [vertex, ends] : border)
+                if (ends > 2)
+                    for (const TriangleId t : surface_.topology->triangles_at().row(vertex))
+                        in.insert(t);
+            if (in.size() == region.size()) break;
+            region.assign(in.begin(), in.end());
+        }
+        return region;
+    }
+
+    [[nodiscard]] Vec3 mean_normal(const std::vector<TriangleId>& region) const {
+        Vec3 sum = Vec3::Zero();
+        for (const TriangleId t : region) sum += normals_[t];
+        return sum.normalized();
+    }
+
+    [[nodiscard]] std::optional<FlatFace> face_of(const std::vector<TriangleId>& region,
+                                                  const Vec3& normal) const {
+        double area = 0.0;
+        Vec3 centre = Vec3::Zero();
+        for (const TriangleId t : region) {
+            const double size = 0.5 * normals_[t].dot(normal);
+            area += size;
+            centre += size * middle(t);
+        }
+        centre /= area;
+        const double radius = std::sqrt(area / std::numbers::pi);
+        if (radius < kSmallest * edge_ || !is_disc(region, normal, centre, area))
+            return std::nullopt;
+        const Lumen behind = lumen_at(centre - kBehind * radius * normal, normal);
+        const double lumen = behind.radius;
+        if (lumen < kNarrowest * radius || behind.quartile > kWidest * radius ||
+            behind.most > kLongestRay * lumen)
+            return std::nullopt;
+        FlatFace face{.centre = centre, .normal = normal, .radius = lumen, .triangles = one_disc(even(region))};
+        face.length = length_behind(face);
+        if (face.length <= kLeastLength * lumen) return std::nullopt;
+        return face;
+    }
+
+    static bool is_known(const FlatFace& face, const std::vector<FlatFace>& faces) {
+        return std::ranges::any_of(faces, [&](const FlatFace& other) {
+            return (face.centre - other.centre).norm() < other.radius &&
+                   face.normal.dot(other.normal) > kOneFace;
+        });
+    }
+
+    /// How far the vessel goes on behind a face about as wide [mm]. Sections parallel to the face,
+    /// each around the middle of the last one: those of an oblique vessel are alike.
+    [[nodiscard]] double length_behind(const FlatFace& face) const {
+        const double step = kStep * face.radius;
+        double depth = kBehind * face.radius;
+        Vec3 point = face.centre - depth * face.normal;
+        const Lumen first = lumen_at(point, face.normal);
+        for (; depth < kFarthest * face.radius; depth += step) {
+            const Lumen lumen = lumen_at(point, face.normal);
+            if (lumen.radius < kNarrower * first.radius || lumen.radius > kWider * first.radius ||
+                lumen.quartile > kWider * first.quartile)
+                break;
+            point = lumen.middle - step * face.normal;
+        }
+        return depth;
+    }
+
+    [[nodiscard]] Vec3 middle(TriangleId t) const {
+        const auto& [a, b, c] = surface_.triangles()[t];
+        return (surface_.points()[a] + surface_.points()[b] + surface_.points()[c]) / 3.0;
+    }
+
+    /// By its second moments.
+    [[nodiscard]] bool is_disc(const std::vector<TriangleId>& region, const Vec3& normal,
+                               const Vec3& centre, double area) const {
+        const auto [u, v] = plane_axes(normal);
+        Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+        for (const TriangleId t : region) {
+            const Vec3 p = middle(t) - centre;
+            const Eigen::Vector2d q(p.dot(u), p.dot(v));
+            moments += 0.5 * normals_[t].dot(normal) / area * q * q.transpose();
+        }
+        const Eigen::Vector2d spread =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(moments).eigenvalues();
+        if (!(spread[0] > 0.0) || spread[1] > kLongest * kLongest * spread[0]) return false;
+        return area > kFilled * 4.0 * std::numbers::pi * std::sqrt(spread[0] * spread[1]);
+    }
+
+    /// The vessel's section around a point.
+    struct Lumen {
+        double radius = 0.0;    ///< median over directions [mm]; 0: the point is outside
+        double quartile = 0.0;  ///< a quarter of the directions is longer, as along a flat side [mm]
+        double most = 0.0;      ///< of all but kSideBranch directions [mm]
+        Vec3 middle = Vec3::Zero();
+    };
+
+    [[nodiscard]] Lumen lumen_at(const Vec3& point, const Vec3& across) const {
+        if (!distance_.inside(point)) return {};
+        const auto [u, v] = plane_axes(across);
+        std::array<double, kRays> lengths{};
+        Vec3 moment = Vec3::Zero();
+        double weight = 0.0;
+        for (int k = 0; k < kRays; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / kRays;
+            const Vec3 way = std::cos(angle) * u + std::sin(angle) * v;
+            const auto hit = distance_.first_hit(point, way);
+            const double length = hit ? hit->distance : 0.0;
+            lengths[static_cast<std::size_t>(k)] = length;
+            weight += length * length;
+            moment += length * length * length * way;
+        }
+        std::ranges::sort(lengths);
+        if (!(weight > 0.0)) return {};
+        return {lengths[kRays / 2], lengths[3 * kRays / 4], lengths[kRays - 1 - kSideBranch],
+                point + 2.0 / 3.0 * moment / weight};
+    }
+
+    const Surface& surface_;
+    SurfaceDistance distance_;
+    std::vector<Vec3> normals_;  ///< twice the area [mm^2]
+    std::vector<std::array<TriangleId, 3>> neighbours_;
+    std::vector<bool> tried_;
+    std::vector<std::uint32_t> seen_;
+    std::uint32_t visit_ = 0;
+    double edge_ = 0.0;  ///< [mm]
+};
+
+}  // namespace
+
+std::vector<FlatFace> find_flat_faces(const Surface& surface, const Progress& progress) {
+    return FaceSearch(surface).run(progress);
+}
+
+}  // namespace vesselbench

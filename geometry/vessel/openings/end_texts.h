@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "geometry/vessel/ends/end_choice.h"
+
+namespace vesselbench {
+
+/// Why an end is not opened: what it is taken for, and its odds.
+[[nodiscard]] std::string closed_text(const EndVerdict& verdict);
+
+}  // namespace vesselbench

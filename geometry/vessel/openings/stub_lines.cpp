@@ -1,0 +1,56 @@
+#include "geometry/vessel/openings/stub_lines.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/vessel/centerlines/branch_queries.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// Closer to another end it is a part of it, as a corner of an oblique cap is [diameters of the end,
+/// and of the stub].
+constexpr double kSameEnd = 1.0;
+constexpr double kCorner = 3.0;
+/// A point this far from a stub's tip does not mean it [lengths of the stub].
+constexpr double kFarthest = 2.0;
+
+bool is_part_of(const Stub& stub, const SurfaceEnd& end, const CenterlineGraph& graph) {
+    const Vec3& at = end.tip ? graph.nodes[*end.tip].position : end.centre;
+    return std::min((at - stub.tip).norm(), (end.centre - stub.tip).norm()) <
+           std::min(kSameEnd * std::max(end.diameter, end.closure), kCorner * 2.0 * stub.widest);
+}
+
+}  // namespace
+
+std::vector<Stub> stubs_apart(const std::vector<Stub>& stubs, const CenterlineGraph& graph,
+                              const std::vector<SurfaceEnd>& ends) {
+    std::vector<Stub> apart;
+    for (const Stub& stub : stubs)
+        if (std::ranges::none_of(ends, [&](const auto& e) { return is_part_of(stub, e, graph); }))
+            apart.push_back(stub);
+    return apart;
+}
+
+LinesAndStubs lines_to_ends(const Surface& surface, const Positions& points,
+                            const Progress& progress) {
+    LinesAndStubs lines{centerlines_of(surface, {}, progress), *stubs_of(surface)};
+    Positions ends;
+    for (const Vec3& point : points) {
+        const auto tip = nearest_tip(*lines.graph, point);
+        const double beside = tip ? (lines.graph->nodes[*tip].position - point).norm()
+                                  : std::numeric_limits<double>::infinity();
+        const auto stub = std::ranges::find_if(lines.stubs, [&](const Stub& s) {
+            const double distance = (s.tip - point).norm();
+            return distance < beside && distance <= kFarthest * std::max(s.length, s.widest);
+        });
+        if (stub == lines.stubs.end()) continue;
+        ends.push_back(stub->tip);
+        lines.stubs.erase(stub);
+    }
+    if (!ends.empty()) lines.graph = centerlines_of(surface, {.ends = ends}, progress);
+    return lines;
+}
+
+}  // namespace vesselbench

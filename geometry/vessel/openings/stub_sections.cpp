@@ -1,0 +1,88 @@
+#include "geometry/vessel/openings/stub_sections.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "geometry/kernel/cross_section.h"
+#include "geometry/vessel/openings/opening_axis.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr int kSections = 10;
+/// Within its parent's spheres, sections are a stub's own while they grow inward by no more than
+/// these factors, from one to the next and in all; then they run along the parent.
+constexpr double kOwnStep = 1.1;
+constexpr double kOwnGrowth = 1.25;
+
+/// True if a centerline passes the section: it is that vessel's.
+bool is_passed(const CenterlineGraph& graph, const SectionCurve& section, const Plane& plane) {
+    for (const CenterlineBranch& branch : graph.branches)
+        for (std::size_t i = 0; i + 1 < branch.points.size(); ++i) {
+            const Vec3 &a = branch.points[i], &b = branch.points[i + 1];
+            const double from = plane.distance(a), to = plane.distance(b);
+            if ((from < 0.0) != (to < 0.0) &&
+                encloses(section, plane, a + from / (from - to) * (b - a)))
+                return true;
+        }
+    return false;
+}
+
+class Sections {
+public:
+    Sections(const Surface& surface, const CenterlineGraph& graph, const Stub& stub)
+        : near_(part_near(surface, stub.exit,
+                          2.0 * (stub.tip - stub.root).norm() + 3.0 * stub.parent)),
+          graph_(graph),
+          normal_((stub.tip - stub.root).normalized()) {}
+
+    /// From the innermost one that is the stub's own to its tip. Empty: it has none beyond its
+    /// parent's spheres.
+    [[nodiscard]] std::vector<StubSection> across(const Stub& stub) const {
+        std::vector<StubSection> outward, inward;
+        for (int k = 0; k < kSections; ++k)
+            if (const auto width = at(stub.exit + (stub.tip - stub.exit) * k / kSections))
+                outward.push_back(*width);
+        if (outward.empty()) return {};
+        double last = outward.front().diameter;
+        for (int k = 1; k < kSections; ++k) {
+            const auto width = at(stub.exit + (stub.root - stub.exit) * k / kSections);
+            if (!width || width->diameter > kOwnStep * last ||
+                width->diameter > kOwnGrowth * outward.front().diameter)
+                break;
+            inward.push_back(*width);
+            last = width->diameter;
+        }
+        std::ranges::reverse(inward);
+        inward.insert(inward.end(), outward.begin(), outward.end());
+        return inward;
+    }
+
+private:
+    [[nodiscard]] std::optional<StubSection> at(const Vec3& point) const {
+        const Plane plane{point, normal_};
+        const auto section = cross_section_at(near_, plane);
+        if (!section || !section->closed || !encloses(*section, plane, point) ||
+            is_passed(graph_, *section, plane))
+            return std::nullopt;
+        double least = std::numeric_limits<double>::infinity();
+        for (const Vec3& p : section->points)
+            least = std::min(least, (p - section->centroid).norm());
+        return StubSection{section->diameter(), 2.0 * least};
+    }
+
+    Surface near_;
+    const CenterlineGraph& graph_;
+    Vec3 normal_;
+};
+
+}  // namespace
+
+std::vector<StubSection> stub_sections(const Surface& surface, const CenterlineGraph& graph,
+                                       const Stub& stub) {
+    return Sections(surface, graph, stub).across(stub);
+}
+
+}  // namespace vesselbench

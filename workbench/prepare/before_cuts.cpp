@@ -1,0 +1,65 @@
+#include "workbench/prepare/before_cuts.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/checked_arguments.h"
+#include "workbench/operations/table.h"
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+namespace {
+
+bool cuts_ends(const RecipeEntry& entry) {
+    return entry.given.operation().recipe.cuts_ends;
+}
+
+BeforeCuts of_project(const std::string& project, const Progress& progress) {
+    Session session = Session::open(project, {.find = find_operation});
+    BeforeCuts before;
+    EditId last = 0;
+    for (const LogEntry& entry : session.log()) {
+        if (find_operation(entry.edit.operation).recipe.cuts_ends) {
+            before.cutting = entry.edit.given;
+            break;
+        }
+        if (entry.edit.place.step > Step::Openings) break;
+        last = entry.edit.edit.id;
+    }
+    before.cutting = checked_arguments(find_operation("clip-opening"), before.cutting);
+    if (last == 0) throw UsageError("the project has no surface before its openings");
+    before.scene = session.scene_after(last, progress);
+    return before;
+}
+
+}  // namespace
+
+BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
+                       const std::vector<std::string>& settings, const Teller& tell,
+                       const Progress& progress) {
+    if (options.input.ends_with(".vbench")) return of_project(options.input, progress);
+    const Input input = resolve_input(options, progress.part(0.0, 0.02));
+    const RecipeUse use = recipe_use(input, purpose);
+    const nlohmann::ordered_json own = own_recipe(input, purpose);
+    Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
+    const RecipeEntry loading = loading_entry(input);
+    if (recipe.empty() || &recipe.front().given.operation() != &loading.given.operation())
+        recipe.insert(recipe.begin(), loading);
+    else
+        recipe.front().given.set(loading.given);
+    set_arguments(recipe, settings);
+    const auto cut = std::ranges::find_if(recipe, cuts_ends);
+    BeforeCuts before;
+    if (cut == recipe.end()) throw UsageError("the recipe opens no vessel ends");
+    before.cutting = checked_arguments(cut->given);
+    recipe.erase(cut, recipe.end());
+    Session session = Session::unsaved({.find = find_operation});
+    apply_recipe(session, recipe, purpose, tell, progress.part(0.02, 1.0));
+    before.scene = session.scene(purpose);
+    return before;
+}
+
+}  // namespace vesselbench

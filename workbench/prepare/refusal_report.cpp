@@ -1,0 +1,74 @@
+#include "workbench/prepare/refusal_report.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json resume_command(const PrepareOptions& options) {
+    Json command = {"vesselbench", "prepare", options.input.input};
+    if (!options.input.mask.empty()) command.insert(command.end(), {"--mask", options.input.mask});
+    if (!options.recipe.empty()) command.insert(command.end(), {"--recipe", options.recipe});
+    for (const char* part : {"--for", options.purpose.c_str(), "--out"}) command.push_back(part);
+    command.push_back(options.out.string());
+    command.push_back("--resume");
+    for (const std::string& setting : options.arguments)
+        if (setting.starts_with("clip-opening.")) {
+            command.push_back("--set");
+            command.push_back(setting);
+        }
+    return command;
+}
+
+/// True for an edit of one end by hand, after which the recipe goes on.
+bool is_by_hand(const Remedy& remedy) {
+    return remedy.arguments.contains("tip");
+}
+
+Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
+    Json resume = resume_command(options), commands = Json::array();
+    if (is_by_hand(remedy)) {
+        Json apply = {"vesselbench", "apply", (options.out / "project.vbench").string(),
+                      remedy.operation};
+        for (const auto& [name, value] : remedy.arguments) apply.push_back(name + "=" + value);
+        commands.push_back(std::move(apply));
+    } else {
+        for (const auto& [name, value] : remedy.arguments) {
+            resume.push_back("--set");
+            resume.push_back(remedy.operation + "." + name + "=" + value);
+        }
+    }
+    commands.push_back(std::move(resume));
+    return commands;
+}
+
+Json diagnostic_json(const PrepareOptions& options, const Diagnostic& diagnostic) {
+    Json json = {{"code", diagnostic.code}, {"place_mm", nullptr}, {"figures", diagnostic.figures}};
+    if (const auto& place = diagnostic.place)
+        json["place_mm"] = {place->x(), place->y(), place->z()};
+    json["remedies"] = Json::array();
+    for (const Remedy& remedy : diagnostic.remedies)
+        json["remedies"].push_back({{"operation", remedy.operation},
+                                    {"arguments", remedy.arguments},
+                                    {"commands", commands_of(options, remedy)}});
+    return json;
+}
+
+}  // namespace
+
+Json refusal_json(const PrepareOptions& options, const DiagnosedFailure& failure) {
+    Json diagnostics = Json::array();
+    for (const Diagnostic& diagnostic : failure.diagnostics())
+        diagnostics.push_back(diagnostic_json(options, diagnostic));
+    return {{"purpose", options.purpose},
+            {"stopped", {{"text", failure.what()}, {"diagnostics", std::move(diagnostics)}}}};
+}
+
+}  // namespace vesselbench
