@@ -16,7 +16,8 @@ namespace {
 constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre};
 
 /// Ranges for models of vessels [mm]: typical radius from an intracranial artery to an atrium, the
-/// thinnest lumen resolved by images, the widest valve of a heart, the extent from the smallest excerpt to a whole body.
+/// thinnest lumen resolved by images, the widest valve of a heart, the extent from the smallest
+/// excerpt to a whole body.
 constexpr double kSmallestRadius = 1.3;
 constexpr double kLargestRadius = 20.0;
 /// Of what is longer than kSlender of its radii, and therefore no chamber or excerpt.

@@ -23,7 +23,8 @@ std::vector<std::array<TriangleId, 3>> edge_neighbours(std::span<const Triangle>
     std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
         return std::tie(x.a, x.b, x.triangle, x.edge) < std::tie(y.a, y.b, y.triangle, y.edge);
     });
-    std::vector<std::array<TriangleId, 3>> near(triangles.size(), {kNoTriangle, kNoTriangle, kNoTriangle});
+    std::vector<std::array<TriangleId, 3>> near(triangles.size(),
+                                                {kNoTriangle, kNoTriangle, kNoTriangle});
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i;
         while (end < sides.size() && sides[end].a == sides[i].a && sides[end].b == sides[i].b) {

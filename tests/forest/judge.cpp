@@ -20,8 +20,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Largest angle of a cap off the perpendicular [deg].
+/// Largest angle of a cap off the perpendicular [deg]; voxels and triangles do not show more than
+/// their size beside the vessel's.
 constexpr double kMostTilt = 2.0;
+
+double most_tilt(double resolution, double diameter) {
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    return std::max(kMostTilt, std::atan(resolution / diameter) * kDegrees);
+}
+
 /// The centerline's direction at a cut is known to this fraction of a diameter along it.
 constexpr double kWhere = 0.25;
 /// Vessels longer than this many diameters must not be lost, and how much of them may be.
@@ -252,7 +259,7 @@ private:
         const auto& end = truth_.ends[*opening.end];
         const auto& branch = truth_.branches[end.branch];
         if (end.optional) return;  // it need not be there at all
-        if (opening.tilt > kMostTilt)
+        if (opening.tilt > most_tilt(truth_.resolution, 2.0 * end.radius))
             fail("cap tilted", opening.name + " by " + formatted(opening.tilt, "%.1f") +
                                    " degrees, at " + name_of(*opening.end));
         if (branch.free_length() < kLongBranch * branch.diameter()) return;

@@ -21,8 +21,8 @@
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 #include "geometry/vessel/openings/rim_shape.h"
-#include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/openings/stub_lines.h"
+#include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/iso_surface.h"
@@ -493,8 +493,7 @@ EndVerdict verdict_of(double opening, double share) {
 
 /// An inlet, an outlet, and another end.
 OpeningPlan plan_with(const EndRecord& other) {
-    const EndRecord inlet{
-        .fate = EndFate::Opened, .verdict = verdict_of(0.95, 1.0), .opening = 0};
+    const EndRecord inlet{.fate = EndFate::Opened, .verdict = verdict_of(0.95, 1.0), .opening = 0};
     const EndRecord outlet{.fate = EndFate::Kept, .verdict = verdict_of(0.95, 0.3), .opening = 1};
     return {.openings = {{}, {}}, .ends = {other, inlet, outlet}};
 }

@@ -198,7 +198,7 @@ struct PrepareArguments {
 void prepare_case(const PrepareArguments& arguments, const Progress& progress);
 
 struct EndsOptions {
-    InputArguments input;  ///< a project as well
+    InputArguments input;               ///< a project as well
     std::vector<std::string> settings;  ///< "operation.parameter=value"
     EndArguments ends;
     std::string picture;  ///< PNG file; empty: none

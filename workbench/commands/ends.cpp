@@ -28,9 +28,8 @@ std::vector<std::string> opening_names(const OpeningPlan& plan) {
 
 std::vector<EndRecord> by_number(const OpeningPlan& plan) {
     std::vector<EndRecord> ends = plan.ends;
-    std::ranges::stable_sort(ends, {}, [](const EndRecord& end) {
-        return std::pair(end.number == 0, end.number);
-    });
+    std::ranges::stable_sort(
+        ends, {}, [](const EndRecord& end) { return std::pair(end.number == 0, end.number); });
     return ends;
 }
 

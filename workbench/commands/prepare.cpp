@@ -49,8 +49,8 @@ InputOptions input_options(const InputArguments& arguments) {
 }  // namespace
 
 std::vector<std::string> with_ends(std::vector<std::string> settings, const EndArguments& ends) {
-    for (const auto& [what, texts] : {std::pair{"inlet", &ends.inlets}, {"open", &ends.open},
-                                      {"close", &ends.close}})
+    for (const auto& [what, texts] :
+         {std::pair{"inlet", &ends.inlets}, {"open", &ends.open}, {"close", &ends.close}})
         for (std::string& setting : end_settings(what, *texts))
             settings.push_back(std::move(setting));
     if (ends.accept_doubts) settings.emplace_back("clip-opening.accept_doubts=true");

@@ -66,7 +66,8 @@ void add_end_options(CLI::App& command, EndArguments& ends) {
     };
     add("--inlet", ends.inlets,
         "A vessel end where blood enters, by its number (see ends) or place; may be repeated");
-    add("--open", ends.open, "Vessel ends that are opened: numbers N,N or a place; may be repeated");
+    add("--open", ends.open,
+        "Vessel ends that are opened: numbers N,N or a place; may be repeated");
     add("--close", ends.close, "Vessel ends that stay closed, likewise");
     command.add_flag("--accept-doubts", ends.accept_doubts,
                      "Where the odds do not decide about a vessel end, take the likelier choice");

@@ -81,7 +81,8 @@ void require_openings(const Surface& before, const Remeshed& after) {
             formatted(after.report.edge, "edges of %.3g mm are too coarse for the opening ") +
             before.patches[p].name +
             formatted(patch_shape(before, p).diameter(), ", %.3g mm wide, which would be lost: ") +
-            formatted(patch_shape(before, p).diameter() / kEdgesAcross, "use min_edge=%.2g or less"));
+            formatted(patch_shape(before, p).diameter() / kEdgesAcross,
+                      "use min_edge=%.2g or less"));
     }
 }
 

@@ -18,9 +18,8 @@ std::vector<std::string> parts_of(const std::string& text) {
 }
 
 bool is_number_of_end(const std::string& text) {
-    return !text.empty() && text.size() < 6 && std::ranges::all_of(text, [](char c) {
-        return c >= '0' && c <= '9';
-    });
+    return !text.empty() && text.size() < 6 &&
+           std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 bool is_coordinate(const std::string& text) {

@@ -145,8 +145,8 @@ std::string lost_text(const std::vector<LostVessel>& lost) {
     std::string text;
     for (const LostVessel& vessel : check.lost)
         if (vessel.matters())
-            text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " + place_text(vessel.place) +
-                ", diameter " + formatted(vessel.diameter) + " mm";
+            text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " +
+                    place_text(vessel.place) + ", diameter " + formatted(vessel.diameter) + " mm";
     throw AlgorithmFailure("the model has lost vessels:" + text +
                            remedy_for(session, edits, before, check.lines));
 }

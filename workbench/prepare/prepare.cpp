@@ -283,8 +283,9 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         PendingFiles files;
         files.add_text(options.out / "report.json", refusal_json(options, failure).dump(2) + "\n");
         files.commit();
-        tell("the completed edits are kept in " + project.filename().string() +
-             "; report.json has what was found; --resume goes on there, also after an edit by hand");
+        tell(
+            "the completed edits are kept in " + project.filename().string() +
+            "; report.json has what was found; --resume goes on there, also after an edit by hand");
         throw;
     } catch (const std::exception&) {
         if (!any_edit)

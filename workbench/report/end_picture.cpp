@@ -26,7 +26,8 @@ void write_numbers(Picture& picture, const OpeningPlan& plan, const PictureOptio
     for (const EndRecord& end : plan.ends) {
         if (end.number == 0) continue;
         const Vec3 p = end.place - centre;
-        const Eigen::Vector2d at(0.5 * kSide + scale * p.dot(right), 0.5 * kSide - scale * p.dot(up));
+        const Eigen::Vector2d at(0.5 * kSide + scale * p.dot(right),
+                                 0.5 * kSide - scale * p.dot(up));
         const PixelColour colour = end.opening ? kOpened : kClosed;
         draw_stroke(picture, at, at, 9.0, colour);
         write_text(picture, at.x() + 8.0, at.y() - 6.0, std::to_string(end.number), kDigit, colour);

@@ -102,7 +102,8 @@ double clear_of_others(const CenterlineGraph& graph, std::size_t branch, std::si
     const auto s = abscissas(own);
     const auto meets_another = [&](std::size_t i) {
         for (const std::size_t other : graph.nodes[node].branches)
-            if (other != branch && overlaps(graph.branches[other], own.points[i], scale * own.radii[i]))
+            if (other != branch &&
+                overlaps(graph.branches[other], own.points[i], scale * own.radii[i]))
                 return true;
         return false;
     };

@@ -96,9 +96,9 @@ struct NearestPlace {
 [[nodiscard]] double furcation_zone_end(const CenterlineGraph& graph, std::size_t branch,
                                         std::size_t node);
 
-/// Arc length [mm] from the furcation at which the branch's line leaves the inscribed spheres of the
-/// other branches at this node, before its own spheres do. The whole length if it never does; 0 at
-/// a tip.
+/// Arc length [mm] from the furcation at which the branch's line leaves the inscribed spheres of
+/// the other branches at this node, before its own spheres do. The whole length if it never does; 0
+/// at a tip.
 [[nodiscard]] double parents_exit(const CenterlineGraph& graph, std::size_t branch,
                                   std::size_t node);
 

@@ -106,7 +106,8 @@ public:
         for (const TriangleId t : region) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const TriangleId other = near_[t][k];
-                if (other != kNoTriangle && std::binary_search(region.begin(), region.end(), other)) {
+                if (other != kNoTriangle &&
+                    std::binary_search(region.begin(), region.end(), other)) {
                     continue;
                 }
                 const double length =

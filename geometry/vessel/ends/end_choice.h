@@ -18,17 +18,18 @@ inline constexpr double kCertain = 4.0;
 struct EndVerdict {
     EndProfile profile;
     EndOdds odds;
-    double share = 0.0;  ///< of the inlet's flow: the cube of its vessel's diameter over the inlet's
+    double share =
+        0.0;  ///< of the inlet's flow: the cube of its vessel's diameter over the inlet's
     bool open = false;
     bool doubtful = false;  ///< it has a share of the flow, and the odds do not decide
 };
 
 /// What is to become of all candidates.
 struct EndChoice {
-    std::vector<EndVerdict> ends;   ///< by end
-    std::vector<EndVerdict> stubs;  ///< by blind branch without a line
-    std::optional<std::size_t> inlet;         ///< the end where the blood enters; none: unknown
-    std::vector<std::size_t> other_inlets;    ///< ends that are about as plausible, likeliest first
+    std::vector<EndVerdict> ends;           ///< by end
+    std::vector<EndVerdict> stubs;          ///< by blind branch without a line
+    std::optional<std::size_t> inlet;       ///< the end where the blood enters; none: unknown
+    std::vector<std::size_t> other_inlets;  ///< ends that are about as plausible, likeliest first
 };
 
 /// Opens the ends whose odds say so. Of those with a share of the flow, what is likelier an opening

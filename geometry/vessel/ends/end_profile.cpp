@@ -124,8 +124,7 @@ void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& c
     profile.diameter = profile.widest = end.diameter;
     profile.tree = widest_course(courses, courses.size());
     const auto line = nearest_place(graph, end.centre);
-    for (int side = 0; line && side < 2; ++side)
-        profile.add_other(courses[line->place.branch]);
+    for (int side = 0; line && side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
 /// Share of the cubes of the diameters that rims and named caps have: somebody has cut them.
@@ -171,8 +170,8 @@ EndFeatures features_of(const EndProfile& p) {
     const bool branch = p.parent > 0.0;
     // A plane that has cut a vessel shows that it went on there, however short it is.
     const bool planar = p.rim || p.cap;
-    const double length =
-        branch ? log_ratio(std::max(p.length, 1e-6 * p.diameter), p.diameter) : std::log(kMostRatio);
+    const double length = branch ? log_ratio(std::max(p.length, 1e-6 * p.diameter), p.diameter)
+                                 : std::log(kMostRatio);
     const double surplus =
         branch ? std::max(0.0, log_ratio(p.diameter, std::cbrt(p.other_flow()))) : 0.0;
     return {1.0,
@@ -221,12 +220,12 @@ std::vector<EndProfile> profiles_of(const EndScene& scene, const std::vector<Stu
     const std::vector<double> courses = course_diameters(scene.graph);
     for (const Stub& stub : stubs) {
         progress.check_cancelled();
-        EndProfile profile{.length = stub.length,
-                           .diameter = 2.0 * stub.widest,
-                           .widest = 2.0 * stub.widest};
+        EndProfile profile{
+            .length = stub.length, .diameter = 2.0 * stub.widest, .widest = 2.0 * stub.widest};
         add_others(scene.graph, courses, stub, profile);
         profile.tree = widest_course(courses, courses.size());
-        if (profile.length > kShortestNecked * profile.diameter) measure_sections(scene, stub, profile);
+        if (profile.length > kShortestNecked * profile.diameter)
+            measure_sections(scene, stub, profile);
         profile.across = profile.diameter / element;
         profiles.push_back(profile);
     }

@@ -27,11 +27,12 @@ struct EndProfile {
     double taper = 1.0;     ///< mean diameter of the outer third over that of the inner third [-]
     double parent = 0.0;    ///< of the widest other vessel at its furcation [mm]; 0: there is none
     std::vector<double> others;  ///< cubes of the diameters of the other vessels there [mm^3]
-    double tree = 0.0;      ///< of the widest other vessel of the tree [mm]
-    double across = 0.0;    ///< voxels of the image, or edges of the surface, across it [-]
-    bool rim = false;       ///< an open border of the surface
-    bool cap = false;       ///< a cap with a label
-    double visible_beside = 0.0;  ///< of a blind end: share of the flow through rims and named caps [-]
+    double tree = 0.0;           ///< of the widest other vessel of the tree [mm]
+    double across = 0.0;         ///< voxels of the image, or edges of the surface, across it [-]
+    bool rim = false;            ///< an open border of the surface
+    bool cap = false;            ///< a cap with a label
+    double visible_beside =
+        0.0;  ///< of a blind end: share of the flow through rims and named caps [-]
 
     /// Another vessel at its furcation. \param course its diameter [mm]
     void add_other(double course) {
@@ -51,9 +52,8 @@ struct EndProfile {
 
 /// Dimensionless, in the order of `kEndFeatures`.
 inline constexpr std::array<std::string_view, 14> kEndFeatures = {
-    "one",         "length", "short",    "neck",  "beside_parent", "surplus",
-    "beside_tree", "need",   "widening", "taper", "across",        "rim",
-    "cap",         "visible_beside"};
+    "one",  "length",   "short", "neck",   "beside_parent", "surplus", "beside_tree",
+    "need", "widening", "taper", "across", "rim",           "cap",     "visible_beside"};
 
 using EndFeatures = std::array<double, kEndFeatures.size()>;
 

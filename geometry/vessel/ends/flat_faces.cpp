@@ -19,8 +19,8 @@ namespace vesselbench {
 namespace {
 
 /// Cosines: directions of one face, and of those triangles of it from which no other face starts.
-constexpr double kOneFace = 0.94;     // 20 degrees
-constexpr double kMiddle = 0.9945;    // 6 degrees
+constexpr double kOneFace = 0.94;   // 20 degrees
+constexpr double kMiddle = 0.9945;  // 6 degrees
 /// A face is a filled ellipse of at most this length over width, seen along its normal.
 constexpr double kLongest = 2.0;
 constexpr double kFilled = 0.75;
@@ -108,7 +108,8 @@ private:
             for (const TriangleId t : in) {
                 if (beside(t) < 2) removed.push_back(t);
                 for (const TriangleId next : neighbours_[t])
-                    if (next != kNoTriangle && !in.contains(next) && is_wall(next) && beside(next) >= 2)
+                    if (next != kNoTriangle && !in.contains(next) && is_wall(next) &&
+                        beside(next) >= 2)
                         added.push_back(next);
             }
             for (const TriangleId t : removed) in.erase(t);
@@ -182,7 +183,10 @@ private:
         if (lumen < kNarrowest * radius || behind.quartile > kWidest * radius ||
             behind.most > kLongestRay * lumen)
             return std::nullopt;
-        FlatFace face{.centre = centre, .normal = normal, .radius = lumen, .triangles = one_disc(even(region))};
+        FlatFace face{.centre = centre,
+                      .normal = normal,
+                      .radius = lumen,
+                      .triangles = one_disc(even(region))};
         face.length = length_behind(face);
         if (face.length <= kLeastLength * lumen) return std::nullopt;
         return face;
@@ -235,9 +239,10 @@ private:
 
     /// The vessel's section around a point.
     struct Lumen {
-        double radius = 0.0;    ///< median over directions [mm]; 0: the point is outside
-        double quartile = 0.0;  ///< a quarter of the directions is longer, as along a flat side [mm]
-        double most = 0.0;      ///< of all but kSideBranch directions [mm]
+        double radius = 0.0;  ///< median over directions [mm]; 0: the point is outside
+        double quartile =
+            0.0;            ///< a quarter of the directions is longer, as along a flat side [mm]
+        double most = 0.0;  ///< of all but kSideBranch directions [mm]
         Vec3 middle = Vec3::Zero();
     };
 

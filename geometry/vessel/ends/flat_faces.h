@@ -10,10 +10,10 @@ namespace vesselbench {
 /// A planar face of the wall that closes a vessel, as where a mask, a crop or a capped model ends;
 /// its rim may be rounded by smoothing.
 struct FlatFace {
-    Vec3 centre = Vec3::Zero();         ///< [mm]
-    Vec3 normal = Vec3::UnitZ();        ///< unit, out of the vessel
-    double radius = 0.0;                ///< of the vessel just behind it, the median over directions [mm]
-    double length = 0.0;                ///< how far the vessel behind it stays as wide [mm]
+    Vec3 centre = Vec3::Zero();   ///< [mm]
+    Vec3 normal = Vec3::UnitZ();  ///< unit, out of the vessel
+    double radius = 0.0;          ///< of the vessel just behind it, the median over directions [mm]
+    double length = 0.0;          ///< how far the vessel behind it stays as wide [mm]
     std::vector<TriangleId> triangles;  ///< connected, ascending
 };
 

@@ -56,7 +56,9 @@ std::string fray_text(const FrayedTrunk& trunk) {
 }  // namespace
 
 EndOpener::EndOpener(PlanDraft& draft, const Progress& progress)
-    : draft_(draft), progress_(progress), trials_(draft.surface(), draft.graph(), draft.ends(), draft.courses()) {}
+    : draft_(draft),
+      progress_(progress),
+      trials_(draft.surface(), draft.graph(), draft.ends(), draft.courses()) {}
 
 bool EndOpener::keep(std::size_t e) {
     if (draft_.is_fixed()) return false;

@@ -6,8 +6,8 @@ namespace vesselbench {
 
 std::string closed_text(const EndVerdict& verdict) {
     const EndOdds& odds = verdict.odds;
-    const std::string what = odds.sac >= odds.bump ? "it looks like an aneurysm"
-                                                   : "it looks like a bump of the wall";
+    const std::string what =
+        odds.sac >= odds.bump ? "it looks like an aneurysm" : "it looks like a bump of the wall";
     return (odds.opening > 0.5 ? "it may be an opening" : what) + " (" +
            formatted(100.0 * odds.opening, "%.0f %% likely an opening") + ", " +
            formatted(100.0 * verdict.share, "%.3g %% of the flow)");

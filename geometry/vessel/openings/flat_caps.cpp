@@ -90,7 +90,8 @@ Surface flattened(const Surface& surface, std::size_t patch, RimVertices rim_ver
     for (TriangleId t = 0; t < surface.triangle_count(); ++t)
         if ((*surface.patch_labels)[t] == patch)
             for (const VertexId v : surface.triangles()[t])
-                if (!on_rim[v] || rim_vertices == RimVertices::Move) points[v] = plane.projected(surface.points()[v]);
+                if (!on_rim[v] || rim_vertices == RimVertices::Move)
+                    points[v] = plane.projected(surface.points()[v]);
     return surface.with_positions(std::move(points));
 }
 
@@ -136,7 +137,8 @@ Surface label_flat_caps(const Surface& surface) {
     for (std::size_t p = caps.size(); p > closures; --p)
         if (is_step(all, p)) caps.erase(caps.begin() + static_cast<std::ptrdiff_t>(p) - 1);
     Surface found = with_caps(surface, caps);
-    for (std::size_t p = 1; p < found.patches.size(); ++p) found = flattened(found, p, RimVertices::Stay);
+    for (std::size_t p = 1; p < found.patches.size(); ++p)
+        found = flattened(found, p, RimVertices::Stay);
     return found;
 }
 

@@ -9,8 +9,8 @@
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/cut_trial.h"
-#include "geometry/vessel/openings/surface_ends.h"
 #include "geometry/vessel/openings/stub_lines.h"
+#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
@@ -54,9 +54,11 @@ bool is_certainly_closed(const EndRecord& end) {
     return end.verdict && end.verdict->odds.for_opening() < 1.0 / kCertain;
 }
 
-/// An end that went with the cut of another one as wide, or cannot be cut beside it, is a part of it.
+/// An end that went with the cut of another one as wide, or cannot be cut beside it, is a part of
+/// it.
 bool is_part_of_cut(const OpeningPlan& plan, const EndRecord& end) {
-    return (end.shared || end.tried) && std::ranges::any_of(plan.openings, [&](const PlannedOpening& opening) {
+    return (end.shared || end.tried) &&
+           std::ranges::any_of(plan.openings, [&](const PlannedOpening& opening) {
                return (opening.place.plane.point - end.place).norm() <
                           kPartReach * opening.place.diameter &&
                       opening.place.diameter >= kPartWidth * end.diameter;
@@ -160,13 +162,14 @@ std::vector<Diagnostic> diagnostics_of(const FlowProblem& problem, std::size_t o
                                             : "flow-missing";
     std::vector<Diagnostic> diagnostics;
     for (const EndRecord& end : problem.ends)
-        diagnostics.push_back({.code = code,
-                               .place = end.place,
-                               .figures = {{"number", end.number},
-                                           {"diameter_mm", end.diameter},
-                                           {"flow_share", end.share()},
-                                           {"opening", end.verdict ? end.verdict->odds.opening : 0.0}},
-                               .remedies = remedies});
+        diagnostics.push_back(
+            {.code = code,
+             .place = end.place,
+             .figures = {{"number", end.number},
+                         {"diameter_mm", end.diameter},
+                         {"flow_share", end.share()},
+                         {"opening", end.verdict ? end.verdict->odds.opening : 0.0}},
+             .remedies = remedies});
     if (diagnostics.empty()) diagnostics.push_back({.code = code, .remedies = remedies});
     return diagnostics;
 }
@@ -288,8 +291,8 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     Advice advice{"accept_doubts", "true", "goes on with the likelier choice"};
     if (!problem.doubts) {
         progress.report(0.0, "looking for a way on");
-        advice = WayOn(surface, graph, options, problem, progress.silent())
-                     .advice(plan.openings.size());
+        advice =
+            WayOn(surface, graph, options, problem, progress.silent()).advice(plan.openings.size());
     }
     throw DiagnosedFailure(why_no_flow(plan, options.accept_doubts) + advice.text(),
                            diagnostics_of(problem, plan.openings.size(), advice.remedies()));

@@ -16,8 +16,8 @@ constexpr std::size_t kLeastThreads = 3;
 constexpr double kWidestThread = 0.25;   ///< diameter beside the trunk's [-]
 constexpr double kThreadsSection = 0.1;  ///< of all of them, beside the trunk's [-]
 constexpr double kReach = 2.8;           ///< of a fray [diameters of the trunk]
-constexpr double kOwnEnd = 0.4;  ///< a stub's diameter beside the trunk's, if it is its end [-]
-constexpr double kEvenTrunk = 0.7;       ///< its least radius beside the median [-]
+constexpr double kOwnEnd = 0.4;     ///< a stub's diameter beside the trunk's, if it is its end [-]
+constexpr double kEvenTrunk = 0.7;  ///< its least radius beside the median [-]
 /// The stretch that shows the trunk, behind its rounded end [largest radii there].
 constexpr double kFrom = 1.0, kTo = 2.5;
 /// A trunk this much wider than one nearer to the threads is the whole one [-].

@@ -31,7 +31,8 @@ struct LinesWithoutFrays {
 /// it, they have less than a tenth of its section in common, and all lie within its 2.8 diameters.
 /// The trunk is longer than sacs are, 2.5 of its radii, and over them, but for its rounded end,
 /// nowhere narrower than seven tenths of it. A thread that ends in a rim or cap of the surface was
-/// meant: there is no fray, nor where the trunk itself ends among them, in a stub four tenths as wide.
+/// meant: there is no fray, nor where the trunk itself ends among them, in a stub four tenths as
+/// wide.
 [[nodiscard]] LinesWithoutFrays without_frays(const Surface& surface, const CenterlineGraph& graph,
                                               const std::vector<Stub>& stubs = {});
 

@@ -16,7 +16,8 @@ struct LostVessel {
     double diameter = 0.0;      ///< mean along the way [mm]
     Vec3 root = Vec3::Zero();   ///< where the way begins, next to what is left [mm]
     Vec3 tip = Vec3::Zero();    ///< where it ends [mm]
-    double share = 0.0;  ///< of the flow: the cube of its diameter over that of the widest vessel [-]
+    double share =
+        0.0;  ///< of the flow: the cube of its diameter over that of the widest vessel [-]
 
     /// So much of the flow is lost with it that the model is another one (kLeastShare).
     [[nodiscard]] bool matters() const;

@@ -77,8 +77,7 @@ private:
             throw AlgorithmFailure(
                 "the end at " + place_text(end.centre) + " cannot be cut: " + draft_.record(e).why +
                 "; closed=" + coordinates_argument(end.centre) + " leaves it closed on purpose");
-        if (!draft_.is_fixed() && opener_.is_stub(e))
-            return draft_.remove_stub(e);
+        if (!draft_.is_fixed() && opener_.is_stub(e)) return draft_.remove_stub(e);
         draft_.record(e).tried = true;
         draft_.close(e, draft_.record(e).why);
     }
@@ -131,7 +130,8 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
 
 LinesWithoutFrays planning_lines(const Surface& surface, const CenterlineGraph& graph,
                                  const OpeningPlanOptions& options) {
-    return options.tip ? LinesWithoutFrays{graph, {}} : without_frays(surface, graph, options.stubs);
+    return options.tip ? LinesWithoutFrays{graph, {}}
+                       : without_frays(surface, graph, options.stubs);
 }
 
 Positions stubs_to_open(const Surface& surface, const CenterlineGraph& graph,

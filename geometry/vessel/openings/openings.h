@@ -116,10 +116,11 @@ inline constexpr double kEndReach = 1.5;
 [[nodiscard]] std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point);
 
 /// Decides what becomes of the vessel ends by their profiles and odds (choose_ends). Of those that
-/// are to be open, a flat rim or a flat cap is kept as it is; the others are cut at the chosen place
-/// (choose_opening_place), the largest share of the flow first; else at the nearest place with a
-/// whole section; else the branch is removed if it is a stub, shorter than its parent is wide; else
-/// it is closed as wall. A trunk that frays is one end (without_frays), unless `tip` is given.
+/// are to be open, a flat rim or a flat cap is kept as it is; the others are cut at the chosen
+/// place (choose_opening_place), the largest share of the flow first; else at the nearest place
+/// with a whole section; else the branch is removed if it is a stub, shorter than its parent is
+/// wide; else it is closed as wall. A trunk that frays is one end (without_frays), unless `tip` is
+/// given.
 /// \throw AlgorithmFailure if there is no end, no branch has its tip near `tip`, the end at `tip`
 /// or one of `inlets` or `open` cannot be opened; Cancelled if the user cancels
 [[nodiscard]] OpeningPlan plan_openings(const Surface& surface, const CenterlineGraph& graph,

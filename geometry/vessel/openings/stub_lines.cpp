@@ -9,8 +9,8 @@ namespace vesselbench {
 
 namespace {
 
-/// Closer to another end it is a part of it, as a corner of an oblique cap is [diameters of the end,
-/// and of the stub].
+/// Closer to another end it is a part of it, as a corner of an oblique cap is [diameters of the
+/// end, and of the stub].
 constexpr double kSameEnd = 1.0;
 constexpr double kCorner = 3.0;
 /// A point this far from a stub's tip does not mean it [lengths of the stub].

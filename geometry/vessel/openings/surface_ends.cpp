@@ -78,7 +78,8 @@ void match_tips(std::vector<SurfaceEnd>& ends, const CenterlineGraph& graph) {
         for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
             if (!graph.nodes[n].is_tip()) continue;
             const double distance = (graph.nodes[n].position - ends[e].centre).norm();
-            if (distance < kEndReach * std::max(ends[e].diameter, 2.0 * tip_radius(graph, n))) pairs.push_back({distance, e, n});
+            if (distance < kEndReach * std::max(ends[e].diameter, 2.0 * tip_radius(graph, n)))
+                pairs.push_back({distance, e, n});
         }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance < b.distance; });

@@ -106,9 +106,8 @@ std::shared_ptr<const CenterlineGraph> lines_and_stubs(const Surface& surface,
     }
 }
 
-/// Adds the places of ends that are named by their numbers, which are those of the plan that is made
-/// without these names.
-/// \throw UsageError if there is no such end
+/// Adds the places of ends that are named by their numbers, which are those of the plan that is
+/// made without these names. \throw UsageError if there is no such end
 void name_by_numbers(const Surface& surface, const Arguments& arguments,
                      OpeningPlanOptions& options, const Progress& progress) {
     if (!names_numbers(arguments)) return;
