@@ -17,7 +17,7 @@ compile_apart(vb_kernel geometry/kernel one_rings vertex_corners)
 compile_apart(vb_image geometry/image histogram resample)
 compile_apart(vb_editing geometry/editing flat_cap)
 compile_apart(vb_vessel geometry/vessel centerlines/strands centerlines/thin_vessels openings/cut_trial
-  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut openings/stub_lines
+  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut ends/stub_lines
   openings/vessel_tube openings/wall_axis repair/sheets repair/soup repair/stray_holes)
 compile_apart(vb_formats geometry/formats legacy_vtk meta_image nifti nrrd obj off ply vtk_xml_check)
 compile_apart(vb_filters smoothing/filters sweep_schedule)

@@ -27,8 +27,11 @@ const std::map<std::string, Names> kDoors = {
     {"geometry/image", {"geometry/kernel"}},
     {"geometry/vessel/centerlines", {"geometry/kernel"}},
     {"geometry/editing", {"geometry/kernel"}},
-    {"geometry/vessel/openings",
+    {"geometry/vessel/ends",
      {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines"}},
+    {"geometry/vessel/openings",
+     {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines",
+      "geometry/vessel/ends"}},
     {"geometry/vessel/repair", {"geometry/kernel", "geometry/editing"}},
     {"geometry/formats", {"geometry/kernel", "geometry/image", "geometry/vessel"}},
     {"geometry/phantoms", {"geometry/kernel", "geometry/image"}},
@@ -68,12 +71,11 @@ const std::map<std::string, Names> kDoors = {
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
 
 // Headers whose functions generated sources define, or one source per command.
-const Names kDeclareWithoutSource = {"gpu/shader_texts.h",
-                                     "workbench/phantoms/builtin.h",
-                                     "workbench/prepare/builtin_recipes.h",
-                                     "workbench/report/label_font.h",
-                                     "workbench/window/style/embedded_fonts.h",
-                                     "workbench/commands/commands.h"};
+const Names kDeclareWithoutSource = {
+    "geometry/vessel/ends/end_weights.h", "gpu/shader_texts.h",
+    "workbench/phantoms/builtin.h",       "workbench/prepare/builtin_recipes.h",
+    "workbench/report/label_font.h",      "workbench/window/style/embedded_fonts.h",
+    "workbench/commands/commands.h"};
 
 struct Include {
     std::string name;  ///< as written

@@ -54,7 +54,7 @@ Surface side_branched() {
                               .flat_ends = true},
          .blend = 0.5}};
     const PhantomField field(parts);
-    Outcome outcome = run("repair", exact_surface(field, field.bounds(), 0.375), {});
+    Outcome outcome = run("repair", exact_surface(field, field.bounds(), 0.375), {{"caps", false}});
     for (const double z : {-2.0, 42.0})
         outcome = run("clip-opening", *outcome.scene.surface,
                       {{"tip", Vec3(0, 0, z)}, {"distance", 2.0}});
@@ -117,10 +117,8 @@ SCENARIO("Flat caps of a closed surface stay through repair, smooth and clip-ope
     CHECK(z.min.z() == Approx(0.0).margin(1e-9));
     CHECK(z.max.z() == Approx(20.0));
     check_replay("clip-opening", *smooth.scene.surface, opened);
-    THEN("they are not looked for if the caller says so, or on the surface of an image") {
+    THEN("they are not looked for if the caller says so") {
         CHECK(run("repair", scene, {{"caps", false}}).scene.surface->patches.size() == 1);
-        scene.image = Image{};
-        CHECK(run("repair", scene, {}).scene.surface->patches.size() == 1);
     }
 }
 
@@ -234,20 +232,23 @@ SCENARIO("clip-opening opens every end, and replays what it decided", "[workbenc
     }
 }
 
-SCENARIO("A closed end is opened by the argument that its reason names", "[workbench][openings]") {
+SCENARIO("Ends are named by their numbers, and stored as places", "[workbench][openings]") {
     const Surface surface = side_branched();
-    const Outcome outcome = run("clip-opening", surface, {});
-    REQUIRE(outcome.scene.surface->patches.size() == 3);
-    std::string why;
-    for (const auto& end : outcome.report->at("ends"))
-        if (end["fate"] == "closed") why = end["why"];
-    CAPTURE(why);
-    std::smatch argument;
-    REQUIRE(std::regex_search(why, argument, std::regex("open=([^ ]+) opens it")));
-    const Outcome opened = run("clip-opening", surface, {{"open", list_from(argument[1].str())}});
-    CHECK(opened.scene.surface->patches.size() == 4);
-    CHECK(is_closed_manifold(*opened.scene.surface));
-    check_replay("clip-opening", surface, opened);
+    const Outcome all = run("clip-opening", surface, {{"open", std::vector<double>{16, 0, 20}}});
+    REQUIRE(all.scene.surface->patches.size() == 4);
+    const auto& ends = all.report->at("ends");
+    const auto thinnest = std::ranges::max_element(
+        ends, {}, [](const auto& end) { return end["number"].template get<int>(); });
+    CHECK(thinnest->at("number") == 3);
+    CHECK(thinnest->at("place_mm")[0] > 10.0);
+    const Outcome closed = run("clip-opening", surface, {{"close_ends", std::vector<double>{3}}});
+    CHECK(closed.scene.surface->patches.size() == 3);
+    CHECK_FALSE(closed.resolved.has("close_ends"));
+    REQUIRE(closed.resolved.has("closed"));
+    CHECK(closed.resolved.list("closed")[0] > 10.0);
+    check_replay("clip-opening", surface, closed);
+    CHECK_THROWS_WITH(run("clip-opening", surface, {{"close_ends", std::vector<double>{9}}}),
+                      Contains("there is no end 9"));
     CHECK_THROWS_WITH(run("clip-opening", surface, {{"open", std::vector<double>{90, 0, 0}}}),
                       Contains("no vessel ends near open=90,0,0"));
     CHECK_THROWS_AS(run("clip-opening", surface, {{"open", std::vector<double>{16, 0}}}),
@@ -290,25 +291,6 @@ SCENARIO("The inlet beside one end is an opening that the point is at", "[workbe
         CHECK(made.patches[2].kind == PatchKind::Outlet);
         check_replay("clip-opening", *all.scene.surface, again);
     }
-}
-
-SCENARIO("Large closed ends are named in a warning, small ones are counted",
-         "[workbench][openings]") {
-    const auto body = [](const Vec3& p) {
-        return std::min({capsule(p, Vec3(0, 0, -20), Vec3(0, 0, 20), 3.0),
-                         capsule(p, Vec3(0, 0, 10), Vec3(20, 0, 10), 2.2),
-                         capsule(p, Vec3(0, 0, -10), Vec3(16, 0, -10), 1.1)});
-    };
-    const Surface closed = iso_surface(body, {Vec3(-5, -5, -25), Vec3(24, 5, 25)}, 0.5);
-    Surface surface = *run("repair", closed, {}).scene.surface;
-    for (const double z : {-23.0, 23.0})
-        surface = *run("clip-opening", surface, {{"tip", Vec3(0, 0, z)}}).scene.surface;
-    const Outcome outcome = run("clip-opening", surface, {});
-    std::string warnings;
-    for (const std::string& warning : outcome.warnings) warnings += warning + "\n";
-    CHECK_THAT(warnings, Contains("the end at (2") && Contains("was closed: a closed end") &&
-                             Contains("1 smaller end stayed closed: see the report; open=1") &&
-                             Contains(" opens one of them"));
 }
 
 SCENARIO("An open rim that is closed is named, however small", "[workbench][openings]") {

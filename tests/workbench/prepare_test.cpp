@@ -213,7 +213,7 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     const std::string folder = temporary_folder();
     const auto side = [](const Vec3& p) {
         return std::min(capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 3.0),
-                        capsule(p, Vec3::Zero(), Vec3(16, 0, 0), 0.7));
+                        capsule(p, Vec3::Zero(), Vec3(16, 0, 0), 1.2));
     };
     const Surface whole = iso_surface(side, {Vec3(-5, -5, -23), Vec3(19, 5, 23)}, 0.4);
     std::vector<Triangle> open;  // at both ends of the trunk: the side branch stays closed
@@ -222,8 +222,8 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     write_surface(make_surface(whole.points(), open), folder + "/side.stl");
     std::ofstream(folder + "/recipe.json") << R"([
         {"operation": "repair"},
-        {"operation": "clip-opening"},
-        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 2.5}},
+        {"operation": "clip-opening", "arguments": {"closed": [17, 0, 0]}},
+        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 3.0}},
         {"operation": "tetrahedralize"}])";
     const auto prepared = [&](const std::vector<std::string>& more) {
         std::vector<std::string> command = {
@@ -235,7 +235,7 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     const ProgramRun result = prepared({});
     INFO(result.err);
     CHECK(result.exit_code == 1);
-    CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 1.3") &&
+    CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 2.") &&
                                Contains("lost by edit 4, remesh:"));
     CHECK(names_in(folder + "/out") == Names{"project.vbench"});
     THEN("before a volume mesh is made of it") {
@@ -305,7 +305,11 @@ SCENARIO("An end that should be open ends prepare with a command that goes on",
     for (std::size_t at = 0; (at = stopped.err.find("\n  ", at)) != std::string::npos; ++at)
         ++listed;
     CHECK(listed == 3);
-    CHECK_THAT(stopped.err, Contains("the largest end") && Contains("  closed at "));
+    CHECK_THAT(stopped.err, Contains("it is not certain that end ") && Contains("% likely"));
+    const Json diagnostics = Json::parse(text_of(out + "/report.json"))["stopped"]["diagnostics"];
+    REQUIRE_FALSE(diagnostics.empty());
+    CHECK(diagnostics[0]["code"] == "end-in-doubt");
+    CHECK(diagnostics[0]["remedies"][0]["commands"][0].back() == "clip-opening.accept_doubts=true");
     const std::vector<std::string> way_on = options_in(stopped.err);
     REQUIRE(way_on.size() == 3);
     const ProgramRun resumed = prepared(way_on);
@@ -535,7 +539,7 @@ SCENARIO("What a resumed preparation runs is told, and its report has all warnin
     write_text(folder + "/recipe.json", R"([
         {"operation": "repair"},
         {"operation": "remove-branch", "optional": true, "arguments": {"tip": [0, 0, 16]}},
-        {"operation": "clip-opening"},
+        {"operation": "clip-opening", "arguments": {"accept_doubts": true}},
         {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 20},
          "otherwise": {"edge": 0.6}}])");
     const std::vector<std::string> command = {"prepare",  folder + "/knob.stl",   "--units", "mm",

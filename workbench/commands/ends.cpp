@@ -8,10 +8,10 @@
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/end_picture.h"
 #include "workbench/operations/clip_opening/clipping.h"
 #include "workbench/operations/clip_opening/clipping_record.h"
 #include "workbench/prepare/before_cuts.h"
-#include "workbench/report/end_picture.h"
 
 namespace vesselbench {
 

@@ -17,6 +17,12 @@ bool cuts_ends(const RecipeEntry& entry) {
     return entry.given.operation().recipe.cuts_ends;
 }
 
+/// The operation that opens vessel ends.
+const Operation& cutting_operation() {
+    return *std::ranges::find_if(
+        operation_table(), [](const Operation& operation) { return operation.recipe.cuts_ends; });
+}
+
 BeforeCuts of_project(const std::string& project, const Progress& progress) {
     Session session = Session::open(project, {.find = find_operation});
     BeforeCuts before;
@@ -29,7 +35,7 @@ BeforeCuts of_project(const std::string& project, const Progress& progress) {
         if (entry.edit.place.step > Step::Openings) break;
         last = entry.edit.edit.id;
     }
-    before.cutting = checked_arguments(find_operation("clip-opening"), before.cutting);
+    before.cutting = checked_arguments(cutting_operation(), before.cutting);
     if (last == 0) throw UsageError("the project has no surface before its openings");
     before.scene = session.scene_after(last, progress);
     return before;

@@ -6,8 +6,8 @@
 
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/flow_tree.h"
-#include "geometry/vessel/openings/opening_axis.h"
-#include "geometry/vessel/openings/stub_sections.h"
+#include "geometry/vessel/ends/patch_shape.h"
+#include "geometry/vessel/ends/stub_sections.h"
 
 namespace vesselbench {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include "geometry/vessel/centerlines/stubs.h"
-#include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/ends/surface_ends.h"
 
 namespace vesselbench {
 

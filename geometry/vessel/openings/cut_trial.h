@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/opening_place.h"
-#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 

@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/flat_closures.h"
 #include "geometry/vessel/ends/flat_faces.h"
@@ -27,6 +28,8 @@ constexpr double kParallel = 0.99996;
 /// Staircases of voxels have 3.5 % of their wall parallel to a step, and more.
 constexpr double kMostParallel = 0.02;
 /// Faces at the same height within this many mean edges are of one plane.
+/// With a larger share of its area in such faces, the surface is a box rather than a vessel.
+constexpr double kMostFlat = 0.45;
 /// A disc has at least as many triangles as a hexagon.
 constexpr std::size_t kFewestOfCap = 4;
 constexpr double kOnePlane = 0.1;
@@ -160,8 +163,14 @@ Surface without_stray_labels(const Surface& surface) {
 
 Surface label_flat_faces(const Surface& surface, const Progress& progress) {
     if (surface.empty()) return surface;
+    const std::vector<FlatFace> faces = find_flat_faces(surface, progress);
+    double flat = 0.0;
+    for (const FlatFace& face : faces)
+        for (const TriangleId t : face.triangles)
+            flat += 0.5 * area_normal(surface.points(), surface.triangles()[t]).norm();
+    if (flat > kMostFlat * area(surface)) return surface;
     Surface found = surface;
-    for (const FlatFace& face : find_flat_faces(found, progress)) {
+    for (const FlatFace& face : faces) {
         const std::size_t patch = found.patches.size();
         const Surface labelled = with_caps(found, {face.triangles});
         if (has_one_rim(labelled, patch) && !is_step(labelled, patch))

@@ -8,9 +8,9 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/ends/stub_lines.h"
+#include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/cut_trial.h"
-#include "geometry/vessel/openings/stub_lines.h"
-#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 

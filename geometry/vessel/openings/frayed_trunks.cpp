@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/ends/surface_ends.h"
 
 namespace vesselbench {
 

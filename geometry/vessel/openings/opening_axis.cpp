@@ -242,42 +242,4 @@ double opening_tilt_deg(const Surface& surface, std::size_t patch) {
     return axis ? axis->tilt_deg : 90.0;
 }
 
-double PatchShape::diameter() const {
-    return 2.0 * std::sqrt(area / std::numbers::pi);
-}
-
-PatchShape patch_shape(const Surface& surface, std::size_t patch) {
-    Vec3 normal = Vec3::Zero(), moment = Vec3::Zero();
-    PatchShape shape;
-    const auto triangles = surface.triangles();
-    const auto each = [&](const auto& use) {
-        for (TriangleId t = 0; t < triangles.size(); ++t)
-            if ((*surface.patch_labels)[t] == patch) use(triangles[t]);
-    };
-    each([&](const Triangle& t) {
-        const Vec3 n = area_normal(surface.points(), t);
-        const auto& x = surface.points();
-        normal += n;
-        shape.area += 0.5 * n.norm();
-        moment += 0.5 * n.norm() * (x[t[0]] + x[t[1]] + x[t[2]]) / 3.0;
-    });
-    if (patch >= surface.patches.size() || !(shape.area > 0.0))
-        throw InvalidInput("the surface has no patch number " + std::to_string(patch));
-    shape.plane = {moment / shape.area, normal.normalized()};
-    each([&](const Triangle& t) {
-        for (const VertexId v : t)
-            shape.flatness =
-                std::max(shape.flatness, std::abs(shape.plane.distance(surface.points()[v])));
-    });
-    return shape;
-}
-
-Surface part_near(const Surface& surface, const Vec3& centre, double radius) {
-    std::vector<bool> near, keep;
-    for (const Vec3& p : surface.points())
-        near.push_back((p - centre).squaredNorm() <= radius * radius);
-    for (const auto& [a, b, c] : surface.triangles()) keep.push_back(near[a] || near[b] || near[c]);
-    return select_triangles(surface, keep);
-}
-
 }  // namespace vesselbench

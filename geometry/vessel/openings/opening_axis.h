@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "geometry/kernel/cross_section.h"
+#include "geometry/vessel/ends/patch_shape.h"
 
 namespace vesselbench {
 
@@ -44,21 +45,5 @@ struct OpeningAxis {
 /// Angle [deg] between a cap's normal and the vessel's axis just inside it (axis_at_patch); 90 if
 /// the axis cannot be measured. \throw InvalidInput if the surface has no such patch
 [[nodiscard]] double opening_tilt_deg(const Surface& surface, std::size_t patch);
-
-/// Plane, area and flatness of a patch.
-struct PatchShape {
-    Plane plane;            ///< through the centroid; area-weighted mean normal, outward
-    double area = 0.0;      ///< [mm^2]
-    double flatness = 0.0;  ///< largest distance of a vertex from the plane [mm]
-
-    [[nodiscard]] double diameter() const;  ///< of the circle of this area [mm]
-};
-
-/// \throw InvalidInput if the surface has no such patch, or it has no triangles
-[[nodiscard]] PatchShape patch_shape(const Surface& surface, std::size_t patch);
-
-/// The triangles with a corner within a distance of a point, as a separate surface: measuring on it
-/// is fast.
-[[nodiscard]] Surface part_near(const Surface& surface, const Vec3& centre, double radius);
 
 }  // namespace vesselbench

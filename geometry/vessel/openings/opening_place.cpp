@@ -9,8 +9,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/opening_axis.h"
-#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 

@@ -47,7 +47,7 @@ public:
 
 private:
     [[nodiscard]] bool is_to_open(std::size_t e) const {
-        return draft_.is_wanted(e) || draft_.verdict(e).open;
+        return !draft_.grazes(e) && (draft_.is_wanted(e) || draft_.verdict(e).open);
     }
 
     /// Rims and caps first, the largest share of the flow first: each cut limits the later ones.
@@ -67,6 +67,8 @@ private:
 
     void plan_end(std::size_t e) {
         const SurfaceEnd& end = draft_.ends()[e];
+        if (draft_.grazes(e))
+            return draft_.close(e, "it lies in the side of a vessel that passes there");
         if (draft_.options().leave_closed && !end.is_visible() && !draft_.is_wanted(e)) {
             draft_.record(e).asked = true;
             return draft_.close(e, "closed ends are left as they are");

@@ -106,9 +106,6 @@ struct OpeningPlanOptions {
     std::vector<Stub> stubs;        ///< without a line: they stay closed (lines_to_ends)
 };
 
-/// A border or a cap belongs to a tip within this many of its diameters [-].
-inline constexpr double kEndReach = 1.5;
-
 /// The tip that a point means.
 /// \param point at most 4 radii from it [mm]
 /// \return node of the graph

@@ -6,14 +6,17 @@
 #include <utility>
 
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/openings/end_texts.h"
 #include "geometry/vessel/openings/place_warnings.h"
-#include "geometry/vessel/openings/stub_lines.h"
+#include "geometry/vessel/openings/rim_shape.h"
 
 namespace vesselbench {
 
 namespace {
 
+/// An end's own vessel, beyond the others, is at least this long [diameters of the end].
+constexpr double kLeastOwnVessel = 0.1;
 /// A blind branch without a line that is so likely a bump is no end [-].
 constexpr double kMostBump = 0.5;
 
@@ -28,6 +31,15 @@ EndRecord record_of(const SurfaceEnd& end, const Surface& surface, bool border_c
     return {.place = end.centre,
             .diameter = end.tip ? std::min(end.diameter, width) : width,
             .rim = true};
+}
+
+/// Where an image's border grazes a vessel that passes, none ends: its cap is long, the wall leans
+/// towards it, and no vessel of its own leads to it.
+bool is_grazed(const Surface& surface, const CenterlineGraph& graph, const SurfaceEnd& end) {
+    const auto rim = rim_shape_of_cap(surface, *end.patch);
+    if (!rim || !rim->is_graze()) return false;
+    const auto blind = end.tip ? blind_branch(graph, *end.tip) : std::nullopt;
+    return !end.tip || (blind && blind->length < kLeastOwnVessel * rim->diameter());
 }
 
 }  // namespace
@@ -47,6 +59,7 @@ PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
     }
     if (options.tip) {
         choice_.ends.resize(ends_.size());
+        grazes_.assign(ends_.size(), false);
         return;
     }
     const std::vector<Stub> stubs = stubs_apart(options.stubs, lines.graph, ends_);
@@ -55,7 +68,11 @@ PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
                            .voxels = options.voxels,
                            .border_cuts = options.border_cuts},
                           ends_, stubs, progress);
-    for (std::size_t e = 0; e < ends_.size(); ++e) records_[e].verdict = choice_.ends[e];
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+        grazes_.push_back(records_[e].border && is_grazed(surface, lines.graph, ends_[e]));
+        if (grazes_[e]) choice_.ends[e].open = choice_.ends[e].doubtful = false;
+        records_[e].verdict = choice_.ends[e];
+    }
     for (std::size_t s = 0; s < stubs.size(); ++s)
         if (const EndVerdict& verdict = choice_.stubs[s];
             verdict.open || verdict.odds.bump < kMostBump)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/openings.h"
-#include "geometry/vessel/openings/surface_ends.h"
 
 namespace vesselbench {
 
@@ -39,6 +39,9 @@ public:
     [[nodiscard]] bool is_open(std::size_t e) const { return made_[e].has_value(); }
 
     [[nodiscard]] double decided_share() const;  ///< of all ends [-]
+
+    /// An image's border grazes a vessel that passes there: no end, whatever the caller says.
+    [[nodiscard]] bool grazes(std::size_t e) const { return grazes_[e]; }
 
     /// Diameters of the ends' vessels along their courses [mm]; 0: not measured.
     [[nodiscard]] std::vector<double> courses() const;
@@ -93,6 +96,7 @@ private:
     std::vector<EndRecord> records_;                   ///< by end
     std::vector<bool> decided_;                        ///< by end
     EndChoice choice_;
+    std::vector<bool> grazes_;  ///< by end
     std::vector<EndRecord> stubs_;
     std::vector<std::size_t> inlets_;  ///< ends that were named
     std::vector<std::size_t> wanted_;  ///< ends that shall be opened

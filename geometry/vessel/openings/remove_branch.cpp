@@ -14,7 +14,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/vessel_tube.h"
 
 namespace vesselbench {

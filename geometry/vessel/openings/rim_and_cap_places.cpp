@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/rim_shape.h"
 
 namespace vesselbench {
 

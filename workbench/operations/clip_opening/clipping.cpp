@@ -6,12 +6,12 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/flow_check.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/planned_cut.h"
-#include "geometry/vessel/openings/stub_lines.h"
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/clip_opening/wrong_cuts.h"

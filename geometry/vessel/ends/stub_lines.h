@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/vessel/centerlines/stubs.h"
-#include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/ends/surface_ends.h"
 
 namespace vesselbench {
 

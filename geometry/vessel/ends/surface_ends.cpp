@@ -1,4 +1,4 @@
-#include "geometry/vessel/openings/surface_ends.h"
+#include "geometry/vessel/ends/surface_ends.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,8 +9,7 @@
 #include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/cross_section.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/opening_axis.h"
-#include "geometry/vessel/openings/openings.h"
+#include "geometry/vessel/ends/patch_shape.h"
 
 namespace vesselbench {
 

@@ -1,4 +1,4 @@
-#include "geometry/vessel/openings/stub_lines.h"
+#include "geometry/vessel/ends/stub_lines.h"
 
 #include <algorithm>
 #include <limits>

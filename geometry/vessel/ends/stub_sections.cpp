@@ -1,11 +1,11 @@
-#include "geometry/vessel/openings/stub_sections.h"
+#include "geometry/vessel/ends/stub_sections.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "geometry/kernel/cross_section.h"
-#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/ends/patch_shape.h"
 
 namespace vesselbench {
 

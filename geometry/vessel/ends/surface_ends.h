@@ -4,10 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/kernel/surface.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
-#include "geometry/vessel/openings/rim_shape.h"
 
 namespace vesselbench {
+
+/// A border or a cap belongs to a tip within this many of the larger one's diameters [-].
+inline constexpr double kEndReach = 1.5;
 
 /// An end of a vessel: an open border, a cap, or the tip of a closed branch.
 struct SurfaceEnd {

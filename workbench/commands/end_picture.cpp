@@ -1,4 +1,4 @@
-#include "workbench/report/end_picture.h"
+#include "workbench/commands/end_picture.h"
 
 #include <algorithm>
 #include <array>
