@@ -17,7 +17,8 @@ compile_apart(vb_kernel geometry/kernel one_rings vertex_corners)
 compile_apart(vb_image geometry/image histogram resample)
 compile_apart(vb_editing geometry/editing flat_cap)
 compile_apart(vb_vessel geometry/vessel centerlines/strands centerlines/thin_vessels openings/cut_trial
-  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut ends/stub_lines
+  openings/extrude openings/frayed_trunks openings/opening_axis openings/planned_cut ends/end_choice ends/end_odds
+  ends/end_profile ends/flat_faces ends/flow_tree ends/patch_shape ends/stub_lines ends/stub_sections ends/surface_ends
   openings/vessel_tube openings/wall_axis repair/sheets repair/soup repair/stray_holes)
 compile_apart(vb_formats geometry/formats legacy_vtk meta_image nifti nrrd obj off ply vtk_xml_check)
 compile_apart(vb_filters smoothing/filters sweep_schedule)
@@ -25,6 +26,8 @@ compile_apart(vb_context smoothing/context cap_border normal_peaks staircase_wei
 compile_apart(vb_quality smoothing/quality sensitivity)
 compile_apart(vb_tetrahedra meshing/tetrahedra tetgen_guard)
 compile_apart(vb_remeshing meshing/remeshing decimate decimater surface_walk)
+compile_apart(vb_prepare workbench/prepare before_cuts end_settings refusal_report)
+compile_apart(vesselbench workbench/commands ends end_picture)
 compile_apart(vb_project workbench/project part_store schema)
 if(VESSELBENCH_TESTS)
   compile_apart(test_geometry tests/geometry centerlines_test editable_surface_test end_choice_test extract_surface_test
