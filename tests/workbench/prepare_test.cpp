@@ -315,8 +315,8 @@ SCENARIO("An end that should be open ends prepare with a command that goes on",
     const ProgramRun resumed = prepared(way_on);
     INFO(resumed.err);
     CHECK(resumed.exit_code == 0);
-    const ProgramRun opened = prepared(
-        {"--open", std::to_string(diagnostics[0]["figures"]["number"].get<int>())});
+    const ProgramRun opened =
+        prepared({"--open", std::to_string(diagnostics[0]["figures"]["number"].get<int>())});
     INFO(opened.err);
     CHECK(opened.exit_code == 0);
     CHECK(Json::parse(text_of(out + "/report.json"))["openings"].size() == 3);
