@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/flow_tree.h"

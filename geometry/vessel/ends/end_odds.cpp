@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/ends/end_weights.h"

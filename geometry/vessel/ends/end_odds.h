@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "geometry/vessel/ends/end_profile.h"
 
 namespace vesselbench {

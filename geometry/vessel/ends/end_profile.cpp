@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/kernel/statistics.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/flow_tree.h"
 #include "geometry/vessel/ends/patch_shape.h"
@@ -22,18 +23,6 @@ constexpr double kShortestNecked = 0.5;
 constexpr double kMostRatio = 8.0;
 constexpr double kUsualAcross = 8.0;
 constexpr double kMostNeed = 2.0;
-
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-double mean_of(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values) sum += value;
-    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
 
 /// Mean length of the surface's edges [mm].
 double mean_edge(const Surface& surface) {
@@ -73,11 +62,11 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
         narrowest = std::min(narrowest, d);
         profile.neck = std::max(profile.neck, d / narrowest);
     }
-    profile.diameter = median_of(diameters);
+    profile.diameter = median(diameters);
     profile.widest = *std::ranges::max_element(diameters);
     const std::span<const double> all(diameters);
-    const double inner = mean_of(all.first(kSamples / 3));
-    profile.taper = inner > 0.0 ? mean_of(all.last(kSamples / 3)) / inner : 1.0;
+    const double inner = mean(all.first(kSamples / 3));
+    profile.taper = inner > 0.0 ? mean(all.last(kSamples / 3)) / inner : 1.0;
     for (const std::size_t other : graph.nodes[root].branches)
         if (other != index) profile.add_other(courses[other]);
     profile.tree = widest_course(courses, index);

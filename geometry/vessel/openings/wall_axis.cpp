@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/unsmoothed.h"
 #include "geometry/vessel/openings/opening_axis.h"
 
@@ -73,12 +74,6 @@ Powers slopes(double t) {
     double p = 1.0;
     for (Eigen::Index k = 1; k < kPowers; ++k, p *= t) row[k] = static_cast<double>(k) * p;
     return row;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// The wall's vertices near a plane, in diameters from its point; every so-many-th if they are
