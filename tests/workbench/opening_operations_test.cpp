@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numbers>
-#include <regex>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -83,13 +80,6 @@ TubeError tube_error(const Surface& surface) {
             std::max(error.tilt_deg, std::acos(std::min(1.0, cosine)) * 180.0 / std::numbers::pi);
     }
     return error;
-}
-
-/// The numbers of "1,2,3".
-std::vector<double> list_from(std::string text) {
-    std::ranges::replace(text, ',', ' ');
-    std::istringstream numbers(text);
-    return {std::istream_iterator<double>(numbers), {}};
 }
 
 /// Triangles of every patch by its name.
