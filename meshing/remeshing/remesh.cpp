@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/repair.h"
@@ -37,6 +39,7 @@ constexpr double kFiner = 0.6;
 
 constexpr double kEdgePerRadius = 0.28;              // 22 triangles around
 constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
+constexpr double kThin = 0.01;                       // of the wall's vertices
 
 /// Polishing visits this many triangles in total, but each at least twice: small meshes, with a
 /// larger fraction of rims, need it most and can afford it.
@@ -94,7 +97,7 @@ void run_rounds(Remesher& remesher, int first, int rounds, const Progress& progr
 
 /// The most triangles that are made without being asked for: a tetrahedral mesh has ten times as
 /// many.
-constexpr double kMostChosen = 3e6;
+constexpr double kMostChosen = 1e6;
 
 /// Triangles that target edges would make, by the surface's area.
 double expected_count(const Surface& surface, const std::vector<double>& sizes) {
@@ -264,12 +267,42 @@ Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, 
     return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
 }
 
+/// Radii of the circles of the caps' areas [mm], by patch; 0: it is none.
+std::vector<double> opening_radii(const Surface& surface) {
+    std::vector<double> radii(surface.patches.size(), 0.0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (surface.patch_of(t).kind != PatchKind::Wall)
+            radii[(*surface.patch_labels)[t]] +=
+                0.5 * area_normal(surface.points(), surface.triangles()[t]).norm();
+    for (double& radius : radii) radius = std::sqrt(radius / std::numbers::pi);
+    return radii;
+}
+
+/// An opening is no wider than its cap, however wide the vessel is that its line comes from.
+std::vector<double> limited_at_openings(const Surface& surface, std::vector<double> radii,
+                                        const std::vector<double>& openings) {
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (const double opening = openings[(*surface.patch_labels)[t]]; opening > 0.0)
+            for (const VertexId v : surface.triangles()[t]) radii[v] = std::min(radii[v], opening);
+    return radii;
+}
+
+/// Radius of the thinnest vessels, or of the narrowest opening [mm].
+double thin_radius(std::vector<double> radii, const std::vector<double>& openings) {
+    double thin = percentile(radii, kThin);
+    for (const double opening : openings)
+        if (opening > 0.0) thin = std::min(thin, opening);
+    return thin;
+}
+
 RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
-                     const std::vector<double>& radii) {
+                     const std::vector<double>& radii, const std::vector<double>& openings) {
     RemeshReport report;
     report.usual_radius = usual_radius(surface, radii);
     report.edge = parameters.edge.value_or(kEdgePerRadius * report.usual_radius);
-    report.min_edge = parameters.min_edge.value_or(kLeastEdge * report.edge);
+    // A tree may have twigs far thinner than its trunk: they need edges of their own size.
+    report.min_edge = parameters.min_edge.value_or(
+        report.edge * std::min(kLeastEdge, thin_radius(radii, openings) / report.usual_radius));
     report.max_edge = parameters.max_edge.value_or(kMostEdge * report.edge);
     report.triangles_before = surface.triangle_count();
     return report;
@@ -314,8 +347,10 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
     if (surface.empty()) throw InvalidInput("there is no surface to remesh");
     if (parameters.edge && !(*parameters.edge > 0.0 && std::isfinite(*parameters.edge)))
         throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
-    const std::vector<double> radii = local_radii(surface, lines, progress.part(0.0, 0.1));
-    RemeshReport report = decided(surface, parameters, radii);
+    const std::vector<double> openings = opening_radii(surface);
+    const std::vector<double> radii = limited_at_openings(
+        surface, local_radii(surface, lines, progress.part(0.0, 0.1)), openings);
+    RemeshReport report = decided(surface, parameters, radii, openings);
     Surface result = parameters.mode == RemeshMode::Uniform
                          ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
                          : graded(surface, radii, report, parameters, progress.part(0.1, 1.0));

@@ -16,7 +16,8 @@ struct RemeshParameters {
     /// Edge length at the vessel's typical radius (the median over the wall's area), in uniform
     /// mode of all edges [mm]; default 0.28 of that radius: 22 triangles around.
     std::optional<double> edge = {};
-    std::optional<double> min_edge = {};  ///< graded: shortest edge [mm]; default edge / 5
+    /// Graded: shortest edge [mm]; default edge / 5, or 0.28 of the radius of thinner vessels.
+    std::optional<double> min_edge = {};
     std::optional<double> max_edge = {};  ///< graded: longest edge [mm]; default 2 edge
     double gradation = 1.5;               ///< graded: largest ratio of neighbouring edges, > 1
     /// Graded, for prints: longer edges where the surface stays this close [mm]; 0: no

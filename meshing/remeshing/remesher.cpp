@@ -96,9 +96,9 @@ double Remesher::longest_share() const {
 }
 
 void Remesher::check_size() const {
-    if (mesh.triangle_count() <= kMostTriangles) return;
+    if (mesh.triangle_count() <= kMostAtOnce) return;
     throw AlgorithmFailure("remeshing would make more than " +
-                           std::to_string(kMostTriangles / 1'000'000) +
+                           std::to_string(kMostAtOnce / 1'000'000) +
                            " million triangles; use a larger edge");
 }
 

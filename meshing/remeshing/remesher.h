@@ -18,6 +18,8 @@ public:
 
     /// Finer meshes are refused: they would only fill the memory.
     static constexpr std::size_t kMostTriangles = 10'000'000;
+    /// While it is made: splitting in the first round makes up to eight times the final number.
+    static constexpr std::size_t kMostAtOnce = 30'000'000;
 
     /// Changes the target edge lengths [mm], by vertex of the source: returns all vertices to the
     /// source, and from now on the passes leave alone what is more than three edges away from any
@@ -30,7 +32,7 @@ public:
     void rest_beyond(std::vector<std::uint8_t> rest, int rings);
 
     /// Splits edges longer than `limit` target lengths until there are none.
-    /// \throw AlgorithmFailure beyond kMostTriangles
+    /// \throw AlgorithmFailure beyond kMostAtOnce
     void split_long_edges(double limit = kLong);
 
     /// Collapses edges shorter than 4/5 of the target length if that preserves rims, makes no long

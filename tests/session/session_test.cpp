@@ -368,6 +368,17 @@ SCENARIO("Source files are embedded, their folders are not", "[session]") {
         std::ofstream(folder + "/radius.txt") << 8.5;
         CHECK_FALSE(session.replay()[0].replayed);
     }
+    THEN("a file that is said to be it is read, if it is the same") {
+        std::filesystem::create_directory(folder + "/another");
+        const std::string moved = folder + "/another/moved.txt", other = folder + "/other.txt";
+        std::filesystem::rename(source, moved);
+        std::ofstream(other) << 8.5;
+        CHECK_FALSE(session.find_source_in(other));
+        CHECK_FALSE(session.replay()[0].replayed);
+        CHECK(session.find_source_in(moved));
+        CHECK(session.replay()[0].replayed);
+        session.change_edit(1, session.log()[0].edit.given);
+    }
 }
 
 SCENARIO("An edit whose file was read in this session can be changed", "[session]") {

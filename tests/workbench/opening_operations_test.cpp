@@ -143,6 +143,25 @@ SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][ope
     }
 }
 
+SCENARIO("extrude-opening leaves out an opening with a vessel right in front of it",
+         "[workbench][openings]") {
+    const Surface tube = closed_tube(2.0, 20.0, 48, 60);
+    const Surface across =
+        tube.with_patches(PatchLabels(tube.triangle_count(), 0), {tube.patches[0]});
+    const Surface both = merged(tube, mapped(across, [](const Vec3& p) {
+                                    return Vec3(p.z() - 10.0, -p.y(), p.x() + 23.5);
+                                }));
+    const Outcome outcome = run("extrude-opening", both, {{"length", 5.0}});
+    REQUIRE(outcome.report->at("openings").size() == 1);
+    CHECK(outcome.report->at("openings")[0]["name"] == "inlet");
+    REQUIRE(outcome.warnings.size() == 1);
+    CHECK_THAT(outcome.warnings[0], Contains("'outlet_1'") && Contains("in its way"));
+    CHECK(bounds(*outcome.scene.surface).min.z() == Approx(-5.0));
+    check_replay("extrude-opening", both, outcome);
+    CHECK_THROWS_AS(run("extrude-opening", both, {{"length", 5.0}, {"opening", "outlet_1"}}),
+                    AlgorithmFailure);
+}
+
 SCENARIO("extrude-opening goes on along the vessel if asked to", "[workbench][openings]") {
     const double lean = std::tan(std::numbers::pi / 6.0);
     const Surface tube = mapped(closed_tube(2.0, 20.0, 48, 60), [=](const Vec3& p) {

@@ -77,6 +77,15 @@ std::string short_text(const std::string& name, const Extrusion& made, double wa
     return text.str();
 }
 
+/// What is said of an opening with something right in front of it: nothing can be put there.
+std::string blocked_text(const Surface& surface, const std::string& name) {
+    return "the opening '" + name + "' at " +
+           place_text(patch_shape(surface, patch_named(surface, name)).plane.point) +
+           " cannot be extruded: another part of the surface is in its way; clip it elsewhere, or "
+           "leave "
+           "it as it is";
+}
+
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Surface surface = surface_of(scene);
     const auto names = chosen_openings(surface, arguments);
@@ -89,7 +98,7 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
     const double extent = bounds(surface).diagonal();
     std::vector<double> lengths;
     std::string list;
-    std::vector<std::string> limited;
+    std::vector<std::string> limited, blocked;
     ordered_json report = ordered_json::array();
     for (std::size_t i = 0; i < names.size(); ++i) {
         progress.report(static_cast<double>(i) / static_cast<double>(names.size()), names[i]);
@@ -110,6 +119,10 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
         if (!stored.empty()) parameters.length = stored[i];
         parameters.may_shorten = stored.empty();
         const Extrusion made = extrude_opening(surface, patch, parameters);
+        if (!(made.length > 0.0)) {
+            blocked.push_back(names[i]);
+            continue;
+        }
         if (made.shortened || made.length < kNoticedShort * wanted)
             outcome.warnings.push_back(short_text(names[i], made, wanted));
         surface = made.surface;
@@ -120,6 +133,11 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
                           {"diameter_mm", diameter},
                           {"shortened", made.shortened}});
     }
+    // Of all openings, most can do without a few; one that was asked for cannot be left out.
+    if (!blocked.empty() && (arguments.has("opening") || lengths.empty()))
+        throw AlgorithmFailure(blocked_text(surface, blocked.front()));
+    for (const std::string& name : blocked)
+        outcome.warnings.push_back(blocked_text(surface, name) + "; it was left as it is");
     if (!limited.empty())
         outcome.warnings.push_back(
             joined(limited) + (limited.size() > 1 ? ": the extrusions are" : ": the extrusion is") +

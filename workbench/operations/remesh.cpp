@@ -113,7 +113,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     if (figures.limited)
         outcome.warnings.push_back(
             formatted(figures.edge, "edges of %.3g mm, the finest that make no more than ") +
-            "3 million triangles; edge= makes them finer or coarser");
+            "1 million triangles; edge= makes them finer or coarser");
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back("walls that almost touch near " + place_text(figures.crossing) +
                                    " crossed after remeshing and were separated there: the wall "
@@ -170,7 +170,8 @@ std::vector<Parameter> parameters() {
              .above_minimum = true},
             {.name = "min_edge",
              .unit = "mm",
-             .help = "graded: shortest edge; default: a fifth of edge",
+             .help = "graded: shortest edge; default: a fifth of edge, or shorter where the vessel "
+                     "is so thin",
              .minimum = 0.0,
              .above_minimum = true},
             {.name = "max_edge",

@@ -74,12 +74,12 @@ Session resumed(const std::filesystem::path& project, const std::string& purpose
     return session;
 }
 
-void refuse_other_input(const Session& session, const Input& input) {
+void refuse_other_input(Session& session, const Input& input) {
     const std::vector<LogEntry> log = session.log();
     if (log.empty()) return;
     // Files made for a phantom are not the user's.
     if (!input.keep && std::filesystem::is_regular_file(input.file) &&
-        !session.is_source(input.file))
+        !session.find_source_in(input.file))
         throw UsageError("--resume: the project was not made from '" + input.name +
                          "', or the file has changed since: prepare it into another folder");
     const LogEntry& loading = log.front();

@@ -15,9 +15,10 @@ namespace vesselbench {
 /// \throw IoError if it cannot be written, UsageError if it is for another purpose
 [[nodiscard]] Session resumed(const std::filesystem::path& project, const std::string& purpose);
 
+/// Large images are not embedded: they are read again from the input, wherever it is.
 /// \throw UsageError if the project was made from another file than the input, or was read in
 /// another unit than the one given
-void refuse_other_input(const Session& session, const Input& input);
+void refuse_other_input(Session& session, const Input& input);
 
 /// A model without one of its edits is not what was asked for.
 /// \throw AlgorithmFailure that names the first edit that no longer applies, and why

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "workbench/project/content_hash.h"
 #include "workbench/project/project.h"
 #include "workbench/project/source_files.h"
 #include "workbench/session/scene_cache.h"
@@ -54,6 +55,10 @@ public:
     /// Remembers the files that an edit or a preview has read as long as the session lives.
     void keep_places(const std::vector<SourceFile>& sources, const Arguments& located) {
         vesselbench::remember(read_, sources, located);
+    }
+
+    void keep_place(const std::filesystem::path& file) {
+        read_[hash_of_file(file)] = std::filesystem::absolute(file);
     }
 
     /// The scene of a result if it is in memory.

@@ -331,6 +331,12 @@ bool Session::is_source(const std::filesystem::path& file) const {
     });
 }
 
+bool Session::find_source_in(const std::filesystem::path& file) {
+    if (!is_source(file)) return false;
+    parts_->store.keep_place(file);
+    return true;
+}
+
 std::vector<LogEntry> Session::log() const {
     return snapshot()->log;
 }

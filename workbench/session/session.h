@@ -123,6 +123,12 @@ public:
     /// \throw IoError if it cannot be read
     [[nodiscard]] bool is_source(const std::filesystem::path& file) const;
 
+    /// A file with the content of one that an edit has read is read there from now on if it is no
+    /// longer in its old place.
+    /// \return is_source(file)
+    /// \throw IoError if it cannot be read
+    bool find_source_in(const std::filesystem::path& file);
+
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 

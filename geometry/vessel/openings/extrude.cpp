@@ -228,10 +228,7 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     const Tube tube(profile, shape.plane, used);
     if (used.length < std::min(height, kLeastDiameters * shape.diameter()) ||
         free_length(rest, tube, used.length, 0.0) < used.length)
-        throw AlgorithmFailure("the opening '" + surface.patches[patch].name + "' at " +
-                               place_text(shape.plane.point) +
-                               " cannot be extruded: another part of the surface is in its way; "
-                               "clip it elsewhere, or leave it out");
+        return {surface, 0.0, true};
     const bool shortened = used.length < height;
     return {extruder.with_tube(tube, profile, shape.plane, used.length),
             shortened ? used.length * way : parameters.length, shortened};

@@ -16,12 +16,12 @@ struct ExtrusionParameters {
     std::optional<Vec3> direction = {};
     ExtrusionProfile profile = ExtrusionProfile::Circle;
     double blend = 0.5;  ///< fraction of the length over which the profile becomes a circle, (0, 1]
-    bool may_shorten = true;  ///< false: exactly this length, or failure
+    bool may_shorten = true;  ///< false: exactly this length, or none
 };
 
 struct Extrusion {
     Surface surface;
-    double length = 0.0;     ///< actual length [mm]
+    double length = 0.0;     ///< actual length [mm]; 0: there is no room, the surface is as it was
     bool shortened = false;  ///< the requested length would have hit the surface
 };
 
@@ -30,9 +30,10 @@ struct Extrusion {
 /// area; the cap moves to the end and keeps its patch. If the extrusion would come closer to the
 /// rest of the surface than a quarter of its diameter at the front or a tenth of its radius at the
 /// sides, it ends earlier; with a length that must not be shortened, it only has to be free of
-/// contact. \throw InvalidInput if there is no such patch, or a parameter is out of its range
-/// \throw AlgorithmFailure if the cap is not flat or not a single disc, or less than half a
-/// diameter is free, or the length must not be shortened and the extrusion would meet the surface
+/// contact. There is no room for it with less than half a diameter free, or if it must not be
+/// shortened and would meet the surface.
+/// \throw InvalidInput if there is no such patch, or a parameter is out of its range
+/// \throw AlgorithmFailure if the cap is not flat or not a single disc
 [[nodiscard]] Extrusion extrude_opening(const Surface& surface, std::size_t patch,
                                         const ExtrusionParameters& parameters);
 
