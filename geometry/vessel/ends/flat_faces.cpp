@@ -40,6 +40,12 @@ constexpr double kStep = 0.25;
 constexpr double kFarthest = 8.0;
 constexpr double kLeastLength = 1.0;
 
+/// What lies within a radius of the vessel behind a face is a plug: it does not rise over the face,
+/// as daughters beside the wall of a furcation do [radii of the face], nor run along beside it, as
+/// a vessel does behind a flat place in its side [radii of the vessel].
+constexpr double kRise = 0.5;
+constexpr double kBeside = 4.0;
+
 constexpr int kRounds = 3;
 
 class FaceSearch {
@@ -188,7 +194,7 @@ private:
                       .radius = lumen,
                       .triangles = one_disc(even(region))};
         face.length = length_behind(face);
-        if (face.length <= kLeastLength * lumen) return std::nullopt;
+        if (face.length <= kLeastLength * lumen || !is_plug(face, radius)) return std::nullopt;
         return face;
     }
 
@@ -214,6 +220,23 @@ private:
             point = lumen.middle - step * face.normal;
         }
         return depth;
+    }
+
+    /// True if the vessel ends at the face. \param radius of the face [mm]
+    [[nodiscard]] bool is_plug(const FlatFace& face, double radius) const {
+        std::vector<TriangleId> part = face.triangles;
+        std::set<TriangleId> in(part.begin(), part.end());
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            const Vec3 from = middle(part[i]) - face.centre;
+            const double height = from.dot(face.normal);
+            if (height < -face.radius) continue;
+            if (height > kRise * radius ||
+                (from - height * face.normal).norm() > kBeside * face.radius)
+                return false;
+            for (const TriangleId next : neighbours_[part[i]])
+                if (next != kNoTriangle && in.insert(next).second) part.push_back(next);
+        }
+        return true;
     }
 
     [[nodiscard]] Vec3 middle(TriangleId t) const {

@@ -18,8 +18,8 @@ struct FlatFace {
 };
 
 /// Discs of nearly one direction behind which a vessel is about as wide as they are, for more than
-/// its radius: neither the top of a dome, nor a terrace of a staircase, nor a flat side, nor the
-/// wall of a furcation. Caps with a label are left out.
+/// its radius, and ends: neither the top of a dome, nor a terrace of a staircase, nor a flat side,
+/// nor the wall of a furcation. Caps with a label are left out.
 /// \throw Cancelled
 [[nodiscard]] std::vector<FlatFace> find_flat_faces(const Surface& surface,
                                                     const Progress& progress = {});
