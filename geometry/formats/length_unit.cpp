@@ -27,6 +27,8 @@ constexpr double kThinnestOpening = 0.5;
 constexpr double kWidestOpening = 25.0;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
+/// Root of the wall's area: a heart, or both lungs' arteries, have 0.1 m^2.
+constexpr double kLargestSide = 450.0;
 
 /// Another unit than the usual one, mm in most files, is considered only for an implausibility (in
 /// natural logarithms) above this one; below kCertain the guess counts as uncertain.
@@ -39,6 +41,7 @@ constexpr double kSlimmestTree = 400.0;
 
 struct Figures {
     double extent = 0.0;
+    double side = 0.0;  ///< root of the area
     double radius = 0.0;
     double opening = 0.0;  ///< radius of the smallest round opening; 0: none
     double mouth = 0.0;    ///< of the largest one
@@ -73,6 +76,7 @@ Figures figures_of(const Surface& surface) {
     Figures figures;
     figures.extent = bounds(surface).diagonal();
     const double surface_area = area(surface);
+    figures.side = std::sqrt(surface_area);
     if (surface_area > 0.0) figures.radius = 2.0 * std::abs(volume(surface)) / surface_area;
     if (figures.extent > kSlimmestTree * figures.radius) figures.radius = 0.0;
     for (const auto& loop : surface.topology->boundary_loops()) {
@@ -92,7 +96,8 @@ double implausibility(const Figures& figures, double factor) {
            too_small(factor * figures.opening, kThinnestOpening) +
            too_large(factor * figures.mouth, kWidestOpening) +
            too_small(factor * figures.extent, kSmallestExtent) +
-           too_large(factor * figures.extent, kLargestExtent);
+           too_large(factor * figures.extent, kLargestExtent) +
+           too_large(factor * figures.side, kLargestSide);
 }
 
 std::string reading_text(const Figures& figures, LengthUnit unit) {

@@ -222,6 +222,11 @@ SCENARIO("Units are guessed from what a vessel can be, stated or given", "[geome
     CHECK_FALSE(doubtful(1.7, 22.0));  // an intracranial artery: no aorta is 34 mm wide throughout
     CHECK_FALSE(doubtful(2.3, 58.0));  // a carotid
     CHECK_FALSE(doubtful(9.0, 300.0));
+    // Triangles that are not oriented alike enclose no volume; an atrium of a square metre is none.
+    const Surface atrium = icosphere(30.0, 3);
+    std::vector<Triangle> mixed(atrium.triangles().begin(), atrium.triangles().end());
+    for (std::size_t t = 0; t < mixed.size(); t += 2) std::swap(mixed[t][0], mixed[t][1]);
+    CHECK(guess_length_unit(make_surface(atrium.points(), mixed)).doubt.empty());
     CHECK_FALSE(doubtful(0.002, 0.02));
     const std::string folder = temporary_folder();
     write_surface(cube(3.0), folder + "/c.vtp");

@@ -26,6 +26,8 @@ constexpr double kKeptFlatness = 1e-5;
 /// this fraction of its diameter.
 constexpr double kSamePlace = 1e-6;
 constexpr double kSameCap = 0.2;  // diameters
+/// A cut that takes a larger share of the wall away is turned the wrong way.
+constexpr double kMostCutOff = 0.75;
 
 /// Patches of planned openings are found again by these names while the surface is edited.
 std::string mark_of(std::size_t opening) {
@@ -118,9 +120,27 @@ private:
                             " does not separate the branch from the rest: the vessels form a loop "
                             "there; clip one of the other branches as well, or choose another "
                             "place");
+        if (const double share = share_of(edited, *branch); share > kMostCutOff)
+            return fail(i, kTries,
+                        "the cut at " + place_text(plane.point) +
+                            formatted(100.0 * share, " would take %.0f %% of the wall away"));
         edited.remove(*branch);
         clean_rim(edited, made.rim);
         cap(edited, i, made.rim);
+    }
+
+    /// Area of a part over that of all that is left [-]. \param part by triangle
+    static double share_of(const EditableSurface& edited, const std::vector<std::uint8_t>& part) {
+        double all = 0.0, inside = 0.0;
+        for (TriangleId t = 0; t < edited.triangle_count(); ++t) {
+            if (edited.is_removed(t)) continue;
+            const auto& [a, b, c] = edited.triangle(t);
+            const double size =
+                (edited.point(b) - edited.point(a)).cross(edited.point(c) - edited.point(a)).norm();
+            all += size;
+            if (part[t] != 0) inside += size;
+        }
+        return all > 0.0 ? inside / all : 0.0;
     }
 
     void cap(EditableSurface& edited, std::size_t i, const std::vector<VertexId>& wall) {

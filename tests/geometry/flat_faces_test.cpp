@@ -1,0 +1,73 @@
+#include "geometry/vessel/ends/flat_faces.h"
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/vessel/repair/repair.h"
+#include "tests/support/iso_surface.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+
+namespace {
+
+constexpr double kRadius = 4.0;  // [mm]
+constexpr double kCell = 0.5;    // [mm]
+
+/// A vessel that comes from below and that a plane at z = 0 has cut.
+double flat_end(const Vec3& p) {
+    return std::max(capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 10.0}, kRadius), p.z());
+}
+
+std::vector<FlatFace> faces_of(const ImplicitShape& shape) {
+    const Eigen::AlignedBox3d box(Vec3(-25.1, -10.1, -36.2), Vec3(25.1, 10.1, 24.2));
+    return find_flat_faces(repair(iso_surface(shape, box, kCell), {}).surface);
+}
+
+}  // namespace
+
+SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]") {
+    const auto check_end = [](const std::vector<FlatFace>& faces) {
+        REQUIRE(faces.size() == 1);
+        CHECK((faces[0].centre - Vec3::Zero()).norm() < 0.5);
+        CHECK(faces[0].normal.z() > 0.99);
+        CHECK(faces[0].radius == Approx(kRadius).epsilon(0.1));
+        CHECK(faces[0].length > 2.0 * kRadius);
+    };
+    THEN("where its rim is sharp") {
+        check_end(faces_of(flat_end));
+    }
+    THEN("where its rim is rounded by a quarter of the radius") {
+        constexpr double kRound = 0.25 * kRadius;
+        check_end(faces_of([&](const Vec3& p) {
+            const double wall = capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 10.0}, kRadius - kRound);
+            const double over = p.z() + kRound;
+            return std::hypot(std::max(wall, 0.0), std::max(over, 0.0)) +
+                   std::min(std::max(wall, over), 0.0) - kRound;
+        }));
+    }
+    THEN("where a branch leaves sideways close to it") {
+        check_end(faces_of([](const Vec3& p) {
+            return std::min(flat_end(p),
+                            capsule(p, {0.0, 0.0, -7.0}, {12.0, 0.0, -14.0}, 0.4 * kRadius));
+        }));
+    }
+}
+
+SCENARIO("A planar face where no vessel ends is none", "[geometry][flat_faces]") {
+    THEN("a round end is none") {
+        CHECK(faces_of([](const Vec3& p) {
+                  return capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 0.0}, kRadius);
+              }).empty());
+    }
+    THEN("the wall between the daughters of a furcation is none") {
+        CHECK(faces_of([](const Vec3& p) {
+                  double furcation = flat_end(p);
+                  for (const double side : {-1.0, 1.0})
+                      furcation = std::min(furcation, capsule(p, {side * 2.0, 0.0, -3.5},
+                                                              {side * 20.0, 0.0, 14.0}, 2.0));
+                  return furcation;
+              }).empty());
+    }
+}
