@@ -53,6 +53,11 @@ SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]"
                             capsule(p, {0.0, 0.0, -7.0}, {12.0, 0.0, -14.0}, 0.4 * kRadius));
         }));
     }
+    THEN("where a thin branch close to it rises over it") {
+        check_end(faces_of([](const Vec3& p) {
+            return std::min(flat_end(p), capsule(p, {3.0, 0.0, -3.0}, {20.0, 0.0, 14.0}, 0.8));
+        }));
+    }
 }
 
 SCENARIO("A planar face where no vessel ends is none", "[geometry][flat_faces]") {

@@ -24,6 +24,12 @@ void add_project(CLI::App& command, std::string& project) {
     command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
 }
 
+void add_settings(CLI::App& command, std::vector<std::string>& settings, const char* help) {
+    command.add_option("--set", settings, help)
+        ->allow_extra_args(false)
+        ->type_name("OPERATION.PARAMETER=VALUE");
+}
+
 void add_json(CLI::App& command, bool& json, const char* help) {
     command.add_flag("--json", json, help);
 }

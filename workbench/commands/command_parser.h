@@ -3,6 +3,7 @@
 #include <functional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -28,6 +29,10 @@ CLI::App& add_command(CommandLine& line, const std::string& name, const std::str
 
 /// Adds the argument PROJECT.
 void add_project(CLI::App& command, std::string& project);
+
+/// Adds the option --set OPERATION.PARAMETER=VALUE, which may be repeated.
+void add_settings(CLI::App& command, std::vector<std::string>& settings,
+                  const char* help = "operation.parameter=value: change an argument of the recipe");
 
 /// Adds the flag --json.
 void add_json(CLI::App& command, bool& json, const char* help = "Print one JSON document");

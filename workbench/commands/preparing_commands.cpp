@@ -87,11 +87,7 @@ void add_prepare(CommandLine& line) {
         ->type_name("FILE");
     command.add_flag("--resume", options->resume,
                      "Go on in the folder's project with the edits of the recipe that are missing");
-    command
-        .add_option("--set", options->settings,
-                    "operation.parameter=value: change an argument of the recipe")
-        ->allow_extra_args(false)
-        ->type_name("OPERATION.PARAMETER=VALUE");
+    add_settings(command, options->settings);
     add_end_options(command, options->ends);
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
@@ -105,11 +101,7 @@ void add_ends(CommandLine& line) {
         line, "ends", "List the vessel ends, and what prepare --for cfd would make of each",
         [options, &line] { return list_ends(*options, line.progress), 0; });
     add_input(command, options->input);
-    command
-        .add_option("--set", options->settings,
-                    "operation.parameter=value: change an argument of the recipe")
-        ->allow_extra_args(false)
-        ->type_name("OPERATION.PARAMETER=VALUE");
+    add_settings(command, options->settings);
     add_end_options(command, options->ends);
     command.add_option("--picture", options->picture, "Draw the vessels with the ends' numbers")
         ->type_name("FILE.png");

@@ -156,11 +156,8 @@ void add_export(CommandLine& line) {
         .add_option("--variant", options->variant,
                     "Variant to write (default: the project's only one, else cfd)")
         ->type_name("NAME");
-    command
-        .add_option("--set", options->settings,
-                    "openfoam.parameter=value: change the flow of the case")
-        ->allow_extra_args(false)
-        ->type_name("OPERATION.PARAMETER=VALUE");
+    add_settings(command, options->settings,
+                 "openfoam.parameter=value: change the flow of the case");
     add_json(command, options->json);
 }
 

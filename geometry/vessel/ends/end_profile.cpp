@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/flow_tree.h"
@@ -23,16 +24,6 @@ constexpr double kShortestNecked = 0.5;
 constexpr double kMostRatio = 8.0;
 constexpr double kUsualAcross = 8.0;
 constexpr double kMostNeed = 2.0;
-
-/// Mean length of the surface's edges [mm].
-double mean_edge(const Surface& surface) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : surface.triangles())
-        sum += (surface.points()[a] - surface.points()[b]).norm() +
-               (surface.points()[b] - surface.points()[c]).norm() +
-               (surface.points()[c] - surface.points()[a]).norm();
-    return sum / (3.0 * static_cast<double>(std::max<std::size_t>(1, surface.triangle_count())));
-}
 
 /// The widest vessel of the tree, along its course, without one branch.
 double widest_course(const std::vector<double>& courses, std::size_t without) {
@@ -88,7 +79,7 @@ void measure_sections(const EndScene& scene, const Stub& stub, EndProfile& profi
 /// Edge of the voxels, or of the surface's triangles [mm].
 double element_size(const EndScene& scene) {
     return scene.voxels ? std::cbrt(std::abs(scene.voxels->determinant()))
-                        : mean_edge(scene.surface);
+                        : mean_edge_length(scene.surface);
 }
 
 /// The vessels that a stub leaves: those at the furcation in whose sphere its root lies, or the one

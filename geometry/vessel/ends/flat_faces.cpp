@@ -45,6 +45,10 @@ constexpr double kLeastLength = 1.0;
 /// a vessel does behind a flat place in its side [radii of the vessel].
 constexpr double kRise = 0.5;
 constexpr double kBeside = 4.0;
+/// A branch close to the end of a much wider vessel may do both: it is narrower than this [radii of
+/// the vessel].
+constexpr double kThinBranch = 0.5;
+constexpr double kJustInside = 1e-3;  // mean edges
 
 constexpr int kRounds = 3;
 
@@ -231,12 +235,21 @@ private:
             const double height = from.dot(face.normal);
             if (height < -face.radius) continue;
             if (height > kRise * radius ||
-                (from - height * face.normal).norm() > kBeside * face.radius)
-                return false;
+                (from - height * face.normal).norm() > kBeside * face.radius) {
+                if (lumen_behind(part[i]) > kThinBranch * face.radius) return false;
+                continue;
+            }
             for (const TriangleId next : neighbours_[part[i]])
                 if (next != kNoTriangle && in.insert(next).second) part.push_back(next);
         }
         return true;
+    }
+
+    /// Width of the vessel behind a triangle [mm].
+    [[nodiscard]] double lumen_behind(TriangleId t) const {
+        const Vec3 inward = -normals_[t].stableNormalized();
+        const auto hit = distance_.first_hit(middle(t) + kJustInside * edge_ * inward, inward);
+        return hit ? hit->distance : 0.0;
     }
 
     [[nodiscard]] Vec3 middle(TriangleId t) const {
