@@ -304,12 +304,12 @@ SCENARIO("A short branch that is few voxels of the search grid wide is opened, a
             iso_surface(all, {Vec3(-3.2, -3.2, -3.1), Vec3(21.3, 3.3, 33.2)}, 0.22);
         return plan_openings(surface, *centerlines_of(surface));
     };
-    for (const double radius : {0.42, 0.46}) {  // 2.9 and 2.7 radii long
+    for (const double radius : {0.42, 0.46}) {  // 4.3 and 4.0 radii long
         const OpeningPlan branch = plan_with([=](const Vec3& p) {
-            return capsule(p, {12, 0, 15}, {12, 1.8, 15}, radius);
+            return capsule(p, {12, 0, 15}, {12, 2.4, 15}, radius);
         });
         CHECK(branch.openings.size() == 4);
-        CHECK(end_at(branch, Vec3(12, 2, 15)).fate == EndFate::Opened);
+        CHECK(end_at(branch, Vec3(12, 2.6, 15)).fate == EndFate::Opened);
     }
     for (const double beyond : {0.6, 0.8}) {
         const OpeningPlan ball =

@@ -71,8 +71,9 @@ bool is_missing(const OpeningPlan& plan, const EndRecord& end) {
            !is_certainly_closed(end) && !is_part_of_cut(plan, end);
 }
 
-bool is_doubtful(const EndRecord& end) {
-    return end.verdict && end.verdict->doubtful && !end.asked && !end.wanted;
+bool is_doubtful(const OpeningPlan& plan, const EndRecord& end) {
+    return end.verdict && end.verdict->doubtful && !end.asked && !end.wanted &&
+           !is_part_of_cut(plan, end);
 }
 
 std::string numbered(const EndRecord& end) {
@@ -97,7 +98,7 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
         return problem;
     }
     collect([&](const EndRecord& end) {
-        return is_missing(plan, end) && !(is_doubtful(end) && !end.tried);
+        return is_missing(plan, end) && !(is_doubtful(plan, end) && !end.tried);
     });
     if (!problem.ends.empty()) {
         const EndRecord& end = problem.ends.front();
@@ -106,7 +107,7 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
         return problem;
     }
     if (accept_doubts) return problem;
-    collect(is_doubtful);
+    collect([&](const EndRecord& end) { return is_doubtful(plan, end); });
     if (problem.ends.empty()) return problem;
     problem.doubts = true;
     problem.text = "it is not certain that ";

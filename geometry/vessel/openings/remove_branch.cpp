@@ -12,6 +12,7 @@
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/ends/surface_ends.h"
@@ -21,6 +22,8 @@ namespace vesselbench {
 
 namespace {
 
+/// What takes a larger share of the wall along is no branch [-].
+constexpr double kMostRemoved = 0.75;
 /// The parent's tube serves as a chart if the rim of the hole is this close to its wall [radii] and
 /// leaves this much of its back free [rad].
 constexpr double kLargestHeight = 0.5;
@@ -279,6 +282,12 @@ BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph
             " is as wide as its parent vessel: cut it there with clip-opening tip=" +
             coordinates_argument(at) + " instead");
     BranchRemoval result{.mouth = root.mouth, .removed_area = area_of(surface, removed)};
+    // Where vessels touch, what lies behind a rim may be all the rest.
+    if (const double share = result.removed_area / area(surface); share > kMostRemoved)
+        throw AlgorithmFailure(
+            "the branch with its tip at " + place_text(at) +
+            formatted(100.0 * share, " cannot be removed: %.0f %% of the wall ") +
+            "would go with it");
     EditableSurface edited(surface);
     edited.remove(removed);
     std::optional<HoleChart> chart;

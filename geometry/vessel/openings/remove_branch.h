@@ -29,8 +29,8 @@ struct BranchRemovalParameters {
 /// parent's tube (out, around, along), in which a tube is flat: neither a bump nor a flat disc
 /// remains.
 /// \param tip node of the graph with one branch, on the centerline of `surface`
-/// \throw AlgorithmFailure if the branch has no parent vessel, is as wide as its parent, or is the
-/// trunk (is_trunk); the text names the tip
+/// \throw AlgorithmFailure if the branch has no parent vessel, is as wide as its parent, is the
+/// trunk (is_trunk), or takes nearly all of the wall along; the text names the tip
 [[nodiscard]] BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph,
                                           std::size_t tip,
                                           const BranchRemovalParameters& parameters = {});
