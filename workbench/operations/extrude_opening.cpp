@@ -82,8 +82,7 @@ std::string blocked_text(const Surface& surface, const std::string& name) {
     return "the opening '" + name + "' at " +
            place_text(patch_shape(surface, patch_named(surface, name)).plane.point) +
            " cannot be extruded: another part of the surface is in its way; clip it elsewhere, or "
-           "leave "
-           "it as it is";
+           "leave it as it is";
 }
 
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {

@@ -57,6 +57,7 @@ public:
         vesselbench::remember(read_, sources, located);
     }
 
+    /// Files that edits read are looked for here, too.
     void keep_place(const std::filesystem::path& file) {
         read_[hash_of_file(file)] = std::filesystem::absolute(file);
     }
