@@ -85,6 +85,16 @@ std::string blocked_text(const Surface& surface, const std::string& name) {
            "leave it as it is";
 }
 
+/// Of all openings, most can do without a few; one that was asked for cannot be left out.
+/// \throw AlgorithmFailure if it was, or none is left
+void tell_blocked(const Surface& surface, const std::vector<std::string>& blocked, bool required,
+                  std::vector<std::string>& warnings) {
+    if (!blocked.empty() && required)
+        throw AlgorithmFailure(blocked_text(surface, blocked.front()));
+    for (const std::string& name : blocked)
+        warnings.push_back(blocked_text(surface, name) + "; it was left as it is");
+}
+
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Surface surface = surface_of(scene);
     const auto names = chosen_openings(surface, arguments);
@@ -132,11 +142,7 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
                           {"diameter_mm", diameter},
                           {"shortened", made.shortened}});
     }
-    // Of all openings, most can do without a few; one that was asked for cannot be left out.
-    if (!blocked.empty() && (arguments.has("opening") || lengths.empty()))
-        throw AlgorithmFailure(blocked_text(surface, blocked.front()));
-    for (const std::string& name : blocked)
-        outcome.warnings.push_back(blocked_text(surface, name) + "; it was left as it is");
+    tell_blocked(surface, blocked, arguments.has("opening") || lengths.empty(), outcome.warnings);
     if (!limited.empty())
         outcome.warnings.push_back(
             joined(limited) + (limited.size() > 1 ? ": the extrusions are" : ": the extrusion is") +
