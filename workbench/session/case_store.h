@@ -3,9 +3,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "workbench/project/content_hash.h"
 #include "workbench/project/project.h"
 #include "workbench/project/source_files.h"
 #include "workbench/session/scene_cache.h"
@@ -58,8 +58,8 @@ public:
     }
 
     /// Files that edits read are looked for here, too.
-    void keep_place(const std::filesystem::path& file) {
-        read_[hash_of_file(file)] = std::filesystem::absolute(file);
+    void keep_place(const std::string& hash, const std::filesystem::path& file) {
+        read_[hash] = std::filesystem::absolute(file);
     }
 
     /// The scene of a result if it is in memory.

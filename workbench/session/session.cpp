@@ -19,6 +19,19 @@ namespace vesselbench {
 
 namespace {
 
+/// SHA-256 of a file, if an edit has read one of this content.
+std::optional<std::string> source_hash(const ProjectFile& project, const std::vector<LogEntry>& log,
+                                       const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
+    const std::string hash = hash_of_file(file);
+    const bool is_source = std::ranges::any_of(log, [&](const LogEntry& entry) {
+        const auto sources = project.sources(entry.edit.edit);
+        return std::ranges::count(sources, hash, &SourceFile::hash) > 0;
+    });
+    return is_source ? std::optional(hash) : std::nullopt;
+}
+
 std::string login_name() {
     const passwd* user = getpwuid(geteuid());
     return user != nullptr ? user->pw_name : "unknown";
@@ -321,20 +334,13 @@ void Session::set_note(EditRef edit, const std::string& note) {
 }
 
 bool Session::is_source(const std::filesystem::path& file) const {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) return false;
-    const std::string hash = hash_of_file(file);
-    const ProjectFile& project = parts_->store.project();
-    return std::ranges::any_of(log(), [&](const LogEntry& entry) {
-        const auto sources = project.sources(entry.edit.edit);
-        return std::ranges::count(sources, hash, &SourceFile::hash) > 0;
-    });
+    return source_hash(parts_->store.project(), log(), file).has_value();
 }
 
 bool Session::find_source_in(const std::filesystem::path& file) {
-    if (!is_source(file)) return false;
-    parts_->store.keep_place(file);
-    return true;
+    const auto hash = source_hash(parts_->store.project(), log(), file);
+    if (hash) parts_->store.keep_place(*hash, file);
+    return hash.has_value();
 }
 
 std::vector<LogEntry> Session::log() const {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/kernel/shortest_paths.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 
 namespace vesselbench {
@@ -47,8 +49,7 @@ std::vector<double> course_diameters(const CenterlineGraph& graph) {
         std::vector<double> samples;
         for (int k = 0; k < kSamples; ++k)
             samples.push_back(2.0 * radius_at(branch, from + (to - from) * (k + 0.5) / kSamples));
-        std::ranges::nth_element(samples, samples.begin() + kSamples / 2);
-        diameters.push_back(samples[kSamples / 2]);
+        diameters.push_back(median(std::move(samples)));
     }
     return diameters;
 }

@@ -27,11 +27,11 @@ namespace {
 constexpr double kParallel = 0.99996;
 /// Staircases of voxels have 3.5 % of their wall parallel to a step, and more.
 constexpr double kMostParallel = 0.02;
-/// Faces at the same height within this many mean edges are of one plane.
 /// With a larger share of its area in such faces, the surface is a box rather than a vessel.
 constexpr double kMostFlat = 0.45;
 /// A disc has at least as many triangles as a hexagon.
 constexpr std::size_t kFewestOfCap = 4;
+/// Faces at the same height within this many mean edges are of one plane.
 constexpr double kOnePlane = 0.1;
 constexpr std::size_t kCapPlanes = 2;
 
