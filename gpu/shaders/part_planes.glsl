@@ -19,11 +19,15 @@ const double unit = 1073741824.0lf;
 
 dvec3 normal_of(uint v) { return dvec3(normals[3u * v], normals[3u * v + 1u], normals[3u * v + 2u]) / unit; }
 
-// Unit normal of a part's plane; 0 if it has none.
+// Component k of the sum of a part's normals, of its two words.
+double sum_of_part(uint part, int k) {
+    return double(int(part_high[part].high[k])) * 4294967296.0lf + double(part_low[part].low[k]);
+}
+
+// Unit normal of a part's plane; 0 if it has none. Components by name: NVIDIA's linker has no
+// assignment to a component of a dvec3 by its index (C9999, __setVectorIndex).
 dvec3 normal_of_part(uint part) {
-    dvec3 sum;
-    for (int k = 0; k < 3; ++k)
-        sum[k] = double(int(part_high[part].high[k])) * 4294967296.0lf + double(part_low[part].low[k]);
+    dvec3 sum = dvec3(sum_of_part(part, 0), sum_of_part(part, 1), sum_of_part(part, 2));
     double size = length(sum);
     return size > 0.0lf ? sum / size : dvec3(0.0lf);
 }
