@@ -659,6 +659,37 @@ SCENARIO("A loop is no obstacle to ends outside it", "[geometry][openings]") {
         CHECK(std::abs(patch_shape(made.surface, p).plane.point.x()) > 18.0);
 }
 
+SCENARIO("It is never advised to close the trunk", "[geometry][openings]") {
+    const Vec3 trunk(0, 0, -15), one(10, 0, 10), other(-10, 0, 5), another(0, 10, 0);
+    const Surface tree = closed_vessels(
+        1.0, {{Vec3::Zero(), one}, {Vec3(0, 0, -5), other}, {Vec3(0, 0, -8), another}});
+    const auto graph = centerlines_of(tree);
+    const auto text_if_they_fail = [&](const Positions& tips) {
+        OpeningPlanOptions options;
+        const auto fails = [&](const PlannedOpening& opening) {
+            return std::ranges::any_of(
+                tips, [&](const Vec3& tip) { return (opening.place.tip - tip).norm() < 2.0; });
+        };
+        OpeningPlan plan = plan_openings(tree, *graph);
+        while (std::ranges::any_of(plan.openings, fails)) {
+            for (const PlannedOpening& opening : plan.openings)
+                if (fails(opening))
+                    options.failed.push_back(
+                        {opening.place.tip, opening.place.plane.point, "it failed"});
+            plan = plan_openings(tree, *graph, options);
+        }
+        try {
+            check_flow(plan, tree, *graph, options);
+        } catch (const AlgorithmFailure& failure) {
+            return std::string(failure.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(text_if_they_fail({one, other}), Contains("clip-opening closed="));
+    CHECK_THAT(text_if_they_fail({one, trunk}),
+               Contains("100 % of the flow") && !Contains("closed="));
+}
+
 SCENARIO("The inlet is the end that was named", "[geometry][openings]") {
     const Surface tube = ragged_tube();
     const OpeningPlan plan = plan_openings(tube, line_graph(), {.inlets = {Vec3(0, 1, 31)}});

@@ -32,8 +32,7 @@ struct EndChoice {
     std::vector<std::size_t> other_inlets;  ///< ends that are about as plausible, likeliest first
 };
 
-/// Opens the ends whose odds say so. Of those with a share of the flow, what is likelier an opening
-/// than not; of the others, what is certain to be one; at least two in any case.
+/// Opens the ends that are likelier openings than not; at least two in any case.
 /// \param ends as from find_surface_ends
 /// \param stubs of the same lines
 /// \throw Cancelled

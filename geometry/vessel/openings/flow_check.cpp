@@ -262,7 +262,10 @@ private:
         });
     }
 
+    /// Never of the trunk: a model that its blood does not enter is none for a flow.
     [[nodiscard]] Advice by_closing() const {
+        if (std::ranges::any_of(problem_.ends, [](const EndRecord& e) { return e.share() >= 1.0; }))
+            return {};
         OpeningPlanOptions options = options_;
         for (const EndRecord& end : problem_.ends) options.closed.push_back(end.place);
         return judgement(options) == Judgement::Good ? closing(options.closed) : Advice{};
