@@ -227,15 +227,65 @@ void check_share(const Field& field, const Extraction& result) {
                            "); give another threshold");
 }
 
+VesselBody body_of(const ExtractionParameters& parameters) {
+    return {.seed = parameters.seed, .all = parameters.bodies == Bodies::All};
+}
+
+/// Intensities of a vessel, not a level set: there the iso-value is the surface.
+bool has_levels(const ImageSource& source, const Extraction& result) {
+    return result.method == ExtractionMethod::Masked ||
+           (result.method == ExtractionMethod::Threshold &&
+            source.judgement.kind != ImageKind::LevelSet);
+}
+
+/// Relative to the levels at the wall, so that one iso-value is the surface; the field itself where
+/// there are none.
+Field with_levels(const Field& field, const ExtractionParameters& parameters, Extraction& result,
+                  const Progress& progress) {
+    std::optional<LevelField> found;
+    try {
+        found = find_levels(field.image, field.iso, body_of(parameters), progress);
+    } catch (const AlgorithmFailure& failure) {
+        result.why_no_levels = failure.what();
+        result.reasons.push_back("one threshold, no local levels: " + result.why_no_levels);
+        return field;
+    }
+    WallLevels levels = found->wall;
+    if (result.inside_below) {
+        std::swap(levels.lowest, levels.highest);
+        levels.lowest = -levels.lowest;
+        levels.highest = -levels.highest;
+    }
+    result.levels = levels;
+    result.reasons.push_back("levels at the wall from " + formatted(levels.lowest) + " to " +
+                             formatted(levels.highest) +
+                             ": what the image's blur leaves of the vessel's contrast there");
+    std::vector<float> voxels = *field.image.voxels;
+    for (std::size_t v = 0; v < voxels.size(); ++v)
+        voxels[v] += static_cast<float>(field.iso) - (*found->levels.voxels)[v];
+    Field result_field = field;
+    result_field.image.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return result_field;
+}
+
+/// Intensities and the threshold, with decisions and reasons.
+Field intensity_field(ImageSource& source, const ExtractionParameters& parameters,
+                      Extraction& result, const Progress& progress) {
+    return result.method == ExtractionMethod::Masked
+               ? masked_field(source, parameters, result, progress)
+               : threshold_field(source, parameters, result, progress);
+}
+
 /// What the parameters ask for, with decisions and reasons.
 Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
                const Progress& progress) {
     decide_method(source, parameters, result, progress);
     progress.check_cancelled();
-    if (result.method == ExtractionMethod::Masked)
-        return masked_field(source, parameters, result, progress);
-    if (result.method == ExtractionMethod::Threshold)
-        return threshold_field(source, parameters, result, progress);
+    if (result.method != ExtractionMethod::Labels) {
+        const Field field = intensity_field(source, parameters, result, progress.part(0.0, 0.3));
+        if (!parameters.local_levels || !has_levels(source, result)) return field;
+        return with_levels(field, parameters, result, progress.part(0.3, 1.0));
+    }
     // With both, the labels are the mask's: the image holds intensities.
     Field field =
         label_field(source.mask ? *source.mask : source.image, parameters, result, progress);
@@ -313,6 +363,21 @@ Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
     if (wants_topology(parameters)) result.after = voxel_topology(field.image, field.iso);
     choose_body(field, parameters, result, progress);
     return result;
+}
+
+std::optional<double> SurfaceExtractor::volume_error(const ExtractionParameters& parameters,
+                                                     const Progress& progress) {
+    Extraction result;
+    decide_method(*source_, parameters, result, progress);
+    if (!has_levels(*source_, result)) return std::nullopt;
+    const Field field = intensity_field(*source_, parameters, result, progress.part(0.0, 0.3));
+    try {
+        const LevelField found =
+            find_levels(field.image, field.iso, body_of(parameters), progress.part(0.3, 1.0));
+        return found.wall.volume_at_threshold - 1.0;
+    } catch (const AlgorithmFailure&) {
+        return std::nullopt;
+    }
 }
 
 Extraction extract_surface(const Image& image, const std::optional<Image>& mask,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
+#include "geometry/image/level_field.h"
 #include "geometry/image/threshold.h"
 #include "geometry/image/voxel_topology.h"
 #include "geometry/kernel/piece_shape.h"
@@ -50,7 +51,8 @@ enum class Bodies { Largest, All };
 /// Parameters of extract_surface; absent ones are decided from the image.
 struct ExtractionParameters {
     std::optional<ExtractionMethod> method;
-    std::optional<double> threshold;   ///< image value; a level set's iso-value
+    std::optional<double> threshold;  ///< image value; a level set's iso-value
+    bool local_levels = false;  ///< of intensities, starting from the threshold (level_field.h)
     std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
     std::vector<int> labels;           ///< empty: any label above 0
     MaskSurface mask_surface = MaskSurface::Midway;  ///< of labels; other methods ignore it
@@ -72,6 +74,8 @@ struct Extraction {
     MaskSurface mask_surface = MaskSurface::Midway;
     std::vector<int> labels;              ///< that are inside
     std::optional<double> contrast;       ///< of the diffusion, if it ran
+    std::optional<WallLevels> levels;     ///< that took the threshold's place
+    std::string why_no_levels;            ///< empty unless they were wanted and not found
     std::vector<std::string> reasons;     ///< one sentence for each decision
     std::optional<VoxelTopology> before;  ///< of the inside voxels, if there was any cleaning
     std::optional<VoxelTopology> after;
@@ -110,6 +114,12 @@ public:
     /// \throw as extract_surface
     [[nodiscard]] Extraction extract(const ExtractionParameters& parameters,
                                      const Progress& progress = {});
+
+    /// By how much the volume at one threshold is expected to differ from that at local levels, as
+    /// a fraction of the latter; none for labels and level sets, or where there are no such levels.
+    /// \throw as extract_surface
+    [[nodiscard]] std::optional<double> volume_error(const ExtractionParameters& parameters,
+                                                     const Progress& progress = {});
 
 private:
     struct Source;

@@ -176,7 +176,7 @@ double bright_class(const Image& image) {
 constexpr int kLayer = 2;  ///< of voxels at a wall
 
 /// Medians of voxels of a mask and of the two-voxel layer around it.
-struct WallLevels {
+struct LayerMedians {
     double inside = 0.0;
     double around = 0.0;
 
@@ -185,14 +185,14 @@ struct WallLevels {
 
 /// \param core voxels of the mask that do not count; may be null
 /// \return empty if no voxel counts inside, or none is around
-std::optional<WallLevels> wall_levels(const Image& image, const Image& mask, const Image* core,
-                                      const Progress& progress) {
+std::optional<LayerMedians> layer_medians(const Image& image, const Image& mask, const Image* core,
+                                          const Progress& progress) {
     const auto inside = values_between(image, mask, core);
     progress.check_cancelled();
     const auto around = values_between(image, dilated(mask, kLayer), &mask);
     if (inside.empty() || around.empty()) return std::nullopt;
     progress.check_cancelled();
-    return WallLevels{.inside = median(inside), .around = median(around)};
+    return LayerMedians{.inside = median(inside), .around = median(around)};
 }
 
 }  // namespace
@@ -205,7 +205,7 @@ double bright_threshold(const Image& image, const Progress& progress) {
         progress.check_cancelled();
         const Image bright = mask_of_iso(image, threshold, false);
         const Image core = eroded(bright, kLayer);
-        const auto levels = wall_levels(image, bright, &core, progress);
+        const auto levels = layer_medians(image, bright, &core, progress);
         if (!levels) return threshold;
         const double last = std::exchange(threshold, levels->middle());
         if (std::abs(threshold - last) < kSettled * (levels->inside - levels->around)) break;
@@ -214,7 +214,7 @@ double bright_threshold(const Image& image, const Progress& progress) {
 }
 
 double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
-    const auto levels = wall_levels(image, mask, nullptr, progress);
+    const auto levels = layer_medians(image, mask, nullptr, progress);
     if (!levels)
         throw InvalidInput(
             "the mask contains no voxel, or all of them: check it, or give threshold=");

@@ -109,7 +109,9 @@ SCENARIO("extract-surface reports its decisions and replays them", "[workbench][
     THEN("method, threshold and side are resolved") {
         CHECK(outcome.resolved.text("method") == "threshold");
         CHECK(outcome.resolved.text("inside") == "above");
-        CHECK(outcome.resolved.real("threshold") > 20.0);
+        CHECK(outcome.resolved.text("threshold") == "local");
+        CHECK(outcome.report->at("threshold") > 20.0);
+        CHECK(outcome.report->at("levels").at("highest") < 60.0);
         CHECK(outcome.report->at("bodies_found") == 1);
         CHECK(outcome.scene.sampling->confidence == 1.0);
         CHECK((outcome.scene.sampling->spacing - Vec3(0.8, 0.8, 1.0)).norm() < 1e-6);
@@ -118,6 +120,20 @@ SCENARIO("extract-surface reports its decisions and replays them", "[workbench][
         const Outcome again = run("extract-surface", loaded, outcome.resolved);
         CHECK(again.scene.surface->points() == outcome.scene.surface->points());
         CHECK(again.resolved == outcome.resolved);
+    }
+    THEN("one threshold for the whole vessel can be asked for") {
+        const Outcome midway =
+            run("extract-surface", loaded, {{"threshold", std::string("midway")}});
+        CHECK(midway.resolved.real("threshold") > 20.0);
+        CHECK_FALSE(midway.report->contains("levels"));
+        CHECK(run("extract-surface", loaded, midway.resolved).scene.surface->points() ==
+              midway.scene.surface->points());
+    }
+    THEN("a threshold that makes the vessel too wide is a warning with the figure") {
+        const auto warnings = run("extract-surface", loaded, {{"threshold", 10.0}}).warnings;
+        REQUIRE(warnings.size() == 1);
+        CHECK_THAT(warnings[0], Contains("% larger") && Contains("threshold=local"));
+        CHECK(run("extract-surface", loaded, {{"threshold", 48.0}}).warnings.empty());
     }
     THEN("cleaning is reported") {
         const Outcome clean =

@@ -178,9 +178,10 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
             INFO(p.name);
             CHECK(parameters.insert(p.name).second);
             CHECK(p.help.size() > 10);
-            // A point may be a word, too: stack_axis=all.
+            // A point or a number may be a word, too: stack_axis=all, threshold=local.
             const bool chosen = p.type == ParameterType::Choice;
-            CHECK((chosen || p.type == ParameterType::Point || p.choices.empty()));
+            CHECK((chosen || p.type == ParameterType::Point || p.type == ParameterType::Real ||
+                   p.choices.empty()));
             CHECK_FALSE((chosen && p.choices.empty()));
             if (p.default_value) CHECK_NOTHROW(checked_value(p, to_text(*p.default_value)));
         }

@@ -92,4 +92,11 @@ std::optional<std::string> Arguments::optional_text(const std::string& name) con
     return has(name) ? std::optional(text(name)) : std::nullopt;
 }
 
+bool Arguments::is_word(const std::string& name, std::string_view word) const {
+    const auto value = values_.find(name);
+    if (value == values_.end()) return false;
+    const auto* text = std::get_if<std::string>(&value->second);
+    return text && *text == word;
+}
+
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -43,6 +44,9 @@ public:
     [[nodiscard]] std::optional<double> optional_real(const std::string& name) const;
     [[nodiscard]] std::optional<Vec3> optional_point(const std::string& name) const;
     [[nodiscard]] std::optional<std::string> optional_text(const std::string& name) const;
+
+    /// The argument is given, and is this text.
+    [[nodiscard]] bool is_word(const std::string& name, std::string_view word) const;
 
     [[nodiscard]] const std::map<std::string, Value>& values() const { return values_; }
 

@@ -68,7 +68,8 @@ std::string wanted(const Parameter& parameter) {
         case ParameterType::Integer:
             return "an integer" + in_range;
         case ParameterType::Real:
-            return "a number" + in_range;
+            return "a number" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
         case ParameterType::Choice:
             return "one of " + joined(parameter.choices);
         case ParameterType::Point:
@@ -124,6 +125,7 @@ std::optional<Value> value_from_text(const Parameter& parameter, const std::stri
         case ParameterType::Integer:
             return value_of(number_from<std::int64_t>(text));
         case ParameterType::Real:
+            if (std::ranges::count(parameter.choices, text) > 0) return Value(text);
             return value_of(number_from<double>(text));
         case ParameterType::List:
             if (text.empty()) return Value(std::vector<double>());  // as to_text writes it

@@ -49,7 +49,8 @@ struct Parameter {
     std::string help;  ///< one sentence; states the default decision if it is absent
     double minimum = -std::numeric_limits<double>::infinity();  ///< inclusive
     double maximum = std::numeric_limits<double>::infinity();   ///< inclusive
-    std::vector<std::string> choices = {};  ///< of a Choice; of a Point: words in place of numbers
+    std::vector<std::string> choices =
+        {};  ///< of a Choice; of a Real or a Point: words in place of numbers
     bool required = false;
     bool above_minimum = false;               ///< the minimum itself is not allowed
     std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional

@@ -57,7 +57,8 @@ std::string range_text(const Parameter& parameter) {
             return "a,b,..." + bounded;
         case ParameterType::Integer:
         case ParameterType::Real:
-            return bounds.empty() ? "number" : bounds;
+            return (bounds.empty() ? "number" : bounds) +
+                   (parameter.choices.empty() ? "" : "|" + joined(parameter.choices, "|"));
         default:
             return to_string(parameter.type);
     }

@@ -33,6 +33,8 @@ Arguments resolved_from(const Arguments& given, const Extraction& extraction) {
     if (extraction.method == ExtractionMethod::Labels)
         resolved.set("labels",
                      std::vector<double>(extraction.labels.begin(), extraction.labels.end()));
+    else if (extraction.levels)
+        resolved.set("threshold", std::string("local"));
     else if (!given.has("iso"))
         resolved.set("threshold", extraction.threshold);
     if (extraction.method != ExtractionMethod::Labels)
@@ -46,6 +48,18 @@ nlohmann::ordered_json json_of(const VoxelTopology& topology) {
             {"tunnels", topology.tunnels()},
             {"cavities", topology.cavities},
             {"euler", topology.euler}};
+}
+
+nlohmann::ordered_json json_of(const WallLevels& levels) {
+    const Vec3& blur = levels.found.blur;
+    return {{"lowest", levels.lowest},
+            {"highest", levels.highest},
+            {"contrast", levels.found.contrast},
+            {"blur_mm", {blur.x(), blur.y(), blur.z()}},
+            {"core_share", levels.core},
+            {"volume_error_share", levels.volume_error},
+            {"undetermined_share", levels.undetermined},
+            {"volume_at_threshold_share", levels.volume_at_threshold}};
 }
 
 nlohmann::ordered_json cuts_of(const Surface& surface) {
@@ -69,6 +83,9 @@ std::string labels_text(const std::vector<int>& labels) {
 std::string headline_of(const Extraction& extraction) {
     switch (extraction.method) {
         case ExtractionMethod::Threshold:
+            if (const auto& levels = extraction.levels)
+                return "levels " + formatted(levels->lowest) + " to " + formatted(levels->highest) +
+                       " at the wall";
             return "threshold " + to_text(extraction.threshold);
         case ExtractionMethod::Labels:
             return labels_text(extraction.labels);
@@ -99,6 +116,7 @@ Report report_of(const Extraction& extraction) {
                    {"hollows_found", extraction.hollows},
                    {"largest_dropped_mm3", extraction.largest_dropped},
                    {"cuts_at_border", cuts_of(surface)}});
+    if (extraction.levels) report["levels"] = json_of(*extraction.levels);
     if (extraction.before) {
         report["topology_before_cleaning"] = json_of(*extraction.before);
         report["topology_after_cleaning"] = json_of(*extraction.after);
@@ -106,8 +124,39 @@ Report report_of(const Extraction& extraction) {
     return std::make_shared<nlohmann::ordered_json>(std::move(report));
 }
 
-std::vector<std::string> warnings_of(const Extraction& extraction) {
+/// A volume error, or a part of the wall, below it is no news.
+constexpr double kNoticeableError = 0.05;
+
+std::string percent(double share) {
+    return formatted(100.0 * share, "%.0f %%");
+}
+
+/// What is uncertain where vessels are thin.
+std::vector<std::string> thin_warnings(const Extraction& extraction) {
     std::vector<std::string> warnings;
+    if (!extraction.why_no_levels.empty())
+        warnings.push_back("one threshold makes the surface, since " + extraction.why_no_levels +
+                           ": thin vessels may come out too thick or too thin");
+    if (!extraction.levels) return warnings;
+    const WallLevels& levels = *extraction.levels;
+    const Vec3& blur = levels.found.blur;
+    const std::string blurred = "the image's blur (" + formatted(blur.x(), "%.2g") + " x " +
+                                formatted(blur.y(), "%.2g") + " x " + formatted(blur.z(), "%.2g") +
+                                " mm)";
+    if (levels.volume_error > kNoticeableError)
+        warnings.push_back("the vessel's volume is uncertain by about " +
+                           percent(levels.volume_error) + ": beside " + blurred +
+                           " it is so thin that its core reaches " + percent(levels.core) +
+                           " of the contrast");
+    if (levels.undetermined > kNoticeableError)
+        warnings.push_back(percent(levels.undetermined) +
+                           " of the wall belongs to vessels no wider than " + blurred +
+                           ": their radius is not determined");
+    return warnings;
+}
+
+std::vector<std::string> warnings_of(const Extraction& extraction) {
+    std::vector<std::string> warnings = thin_warnings(extraction);
     const double kept = volume(extraction.surface);
     if (const auto& vessel = extraction.dropped_vessel)
         warnings.push_back(
@@ -159,21 +208,37 @@ public:
 
     [[nodiscard]] const Arguments& resolved() const override { return resolved_; }
 
-    [[nodiscard]] Outcome outcome(Progress&) override {
+    [[nodiscard]] Outcome outcome(Progress& progress) override {
         Outcome outcome{.scene = scene_,
                         .report = report_of(extraction_),
                         .resolved = resolved_,
                         .warnings = warnings_of(extraction_)};
         const bool measured = extraction_.method == ExtractionMethod::Labels &&
                               warn_of_fractions(image_of(before_), outcome);
+        warn_of_one_threshold(outcome, progress);
         if (!measured && !labels_given_) warn_of_all_labels(extraction_, outcome);
         return outcome;
     }
 
 private:
+    /// With the volume that local levels give.
+    void warn_of_one_threshold(Outcome& outcome, const Progress& progress) {
+        if (extraction_.levels || !extraction_.why_no_levels.empty()) return;
+        const auto error = extractor_.volume_error(parameters_, progress);
+        if (!error || std::abs(*error) <= kNoticeableError) return;
+        outcome.warnings.push_back(
+            "at one threshold, " + to_text(extraction_.threshold) +
+            ", the vessel's volume is about " + percent(std::abs(*error)) +
+            (*error > 0.0 ? " larger" : " smaller") +
+            " than what its intensities add up to: threshold=local follows them (with prepare: "
+            "--set extract-surface.threshold=local)");
+    }
+
     void use(const Arguments& arguments, Progress& progress) override {
-        Extraction extraction = extractor_.extract(
-            extraction_parameters(arguments, before_.mask.has_value()), progress);
+        ExtractionParameters parameters =
+            extraction_parameters(arguments, before_.mask.has_value());
+        Extraction extraction = extractor_.extract(parameters, progress);
+        parameters_ = std::move(parameters);
         Arguments resolved = resolved_from(arguments, extraction);
         labels_given_ = arguments.has("labels");
         scene_ = with_surface(before_, extraction.surface);
@@ -184,6 +249,7 @@ private:
 
     Scene before_;
     SurfaceExtractor extractor_;
+    ExtractionParameters parameters_;
     Extraction extraction_;
     bool labels_given_ = false;
     Scene scene_;
@@ -202,10 +268,13 @@ std::vector<Parameter> source_parameters() {
          .choices = {"auto", "threshold", "labels", "masked"}},
         {.name = "threshold",
          .unit = "-",
-         .help =
-             "image value at the vessel's boundary; default: midway between the medians of the "
-             "voxels inside and outside the wall, that of the mask, else of the brightest voxels; "
-             "0 for a level set"},
+         .help = "image value at the vessel's boundary; midway: between the medians of the voxels "
+                 "inside and outside the wall, that of the mask, else of the brightest voxels; "
+                 "local: at "
+                 "each place what the image's blur leaves of the contrast there, lower at thin "
+                 "vessels; "
+                 "default: local for intensities, 0 for a level set",
+         .choices = {"local", "midway"}},
         {.name = "iso", .unit = "-", .help = "synonym of threshold, for level sets"},
         {.name = "inside",
          .type = Choice,

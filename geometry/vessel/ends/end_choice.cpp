@@ -76,8 +76,9 @@ void set_shares(EndChoice& choice) {
 
 void decide(EndVerdict& verdict) {
     const double odds = verdict.odds.for_opening();
-    verdict.open = odds >= 1.0;
-    verdict.doubtful = verdict.share > kLeastShare && odds < kCertain && odds > 1.0 / kCertain;
+    const bool counts = verdict.share > kLeastShare;
+    verdict.open = odds >= (counts ? 1.0 : kLikely);
+    verdict.doubtful = counts && odds < kCertain && odds > 1.0 / kCertain;
 }
 
 /// Opens the likeliest of the others if there are too few.

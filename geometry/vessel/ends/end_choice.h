@@ -13,6 +13,9 @@ namespace vesselbench {
 inline constexpr double kLeastShare = 0.05;
 /// Odds beyond this factor, or below its inverse, are no doubt [-].
 inline constexpr double kCertain = 4.0;
+/// Odds from which an end of less flow, about which nobody is asked, is opened [-]: a wrong opening
+/// costs more than a twig that stays closed.
+inline constexpr double kLikely = 2.0;
 
 /// What was measured of a candidate, and what is to become of it.
 struct EndVerdict {
@@ -32,9 +35,8 @@ struct EndChoice {
     std::vector<std::size_t> other_inlets;  ///< ends that are about as plausible, likeliest first
 };
 
-/// Opens the ends that are likelier openings than not; at least two in any case.
-/// \param ends as from find_surface_ends
-/// \param stubs of the same lines
+/// Opens the ends whose odds say so: likelier openings than not, small ones kLikely; at least two
+/// in any case. \param ends as from find_surface_ends \param stubs of the same lines
 /// \throw Cancelled
 [[nodiscard]] EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
                                     const std::vector<Stub>& stubs, const Progress& progress = {});

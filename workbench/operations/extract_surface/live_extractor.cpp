@@ -32,6 +32,7 @@ ExtractionParameters coarsened(ExtractionParameters parameters, const VoxelSteps
     parameters.cleaning.diffusion = coarse_iterations(parameters.cleaning.diffusion, step);
     parameters.resample.reset();
     parameters.with_topology = false;
+    parameters.local_levels = false;  // they take seconds, and those of the image are others
     return parameters;
 }
 
