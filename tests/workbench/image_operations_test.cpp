@@ -7,6 +7,8 @@
 #include "geometry/image/threshold.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 #include "workbench/case/operation.h"
@@ -149,6 +151,53 @@ SCENARIO("extract-surface reports its decisions and replays them", "[workbench][
     THEN("two names of the threshold at once are refused") {
         CHECK_THROWS_AS(run("extract-surface", loaded, {{"iso", 1.0}, {"threshold", 2.0}}),
                         UsageError);
+    }
+}
+
+SCENARIO("A handle of the lumen is named with its place and size", "[workbench][images]") {
+    const auto ring = [](double radius) {
+        Scene scene;
+        scene.image = image_of(
+            {60, 60, 20}, oblique_matrix(Vec3::Constant(0.5), Vec3::Zero()),
+            [&, to_local = oblique_matrix(Vec3::Ones(), Vec3::Zero())](const Vec3& p) {
+                const Vec3 local = to_local.topLeftCorner<3, 3>().transpose() * p - Vec3(15, 15, 5);
+                const double across = std::hypot(local.x(), local.y()) - radius;
+                const double r = std::hypot(across, local.z());
+                return 100.0 * std::clamp(2.5 - r, 0.0, 1.0);
+            });
+        return scene;
+    };
+    const Outcome large = run("extract-surface", ring(10.0), {});
+    REQUIRE(large.warnings.size() == 1);
+    CHECK_THAT(large.warnings[0],
+               Contains("handle at") && Contains("mm around") && Contains("circle of Willis"));
+    CHECK_THAT(run("extract-surface", ring(4.0), {}).warnings.at(0), Contains("artefact"));
+    THEN("repair names it in a surface without an image") {
+        Scene alone;
+        alone.surface = large.scene.surface;
+        CHECK_THAT(run("repair", alone, {}).warnings.at(0), Contains("handle at"));
+        CHECK(run("repair", large.scene, {}).warnings.empty());
+    }
+}
+
+SCENARIO("The surface of a curved tube's mask has one centerline", "[workbench][images]") {
+    for (const Vec3& spacing : {Vec3(0.4, 0.4, 0.8), Vec3(0.5, 0.5, 0.5), Vec3(0.3, 0.3, 1.2)}) {
+        VesselShape vessel;
+        for (int i = 0; i <= 16; ++i) {
+            const double angle = 5.5 * i / 16.0;
+            vessel.points.emplace_back(9.0 * std::cos(angle), 9.0 * std::sin(angle), 3.5 * angle);
+            vessel.radii.push_back(1.2);
+        }
+        Scene scene;
+        scene.image = make_phantom({.name = "helix",
+                                    .parts = {{.name = "helix", .shape = vessel}},
+                                    .imaging = {.spacing = spacing},
+                                    .surface_edge = 1.0})
+                          .mask;
+        const Outcome outcome = run("extract-surface", scene, {});
+        CAPTURE(spacing.transpose());
+        CHECK(compute_centerlines(*outcome.scene.surface).branches.size() == 1);
+        CHECK(run("clip-opening", outcome.scene, {}).report->at("openings").size() == 2);
     }
 }
 

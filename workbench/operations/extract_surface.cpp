@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/extract_surface/parameters.h"
+#include "workbench/operations/shared/handle_warnings.h"
 #include "workbench/operations/shared/replacing_stepper.h"
 #include "workbench/operations/table.h"
 
@@ -216,6 +217,8 @@ public:
         const bool measured = extraction_.method == ExtractionMethod::Labels &&
                               warn_of_fractions(image_of(before_), outcome);
         warn_of_one_threshold(outcome, progress);
+        for (std::string& handle : handle_warnings(extraction_.surface, progress))
+            outcome.warnings.push_back(std::move(handle));
         if (!measured && !labels_given_) warn_of_all_labels(extraction_, outcome);
         return outcome;
     }
@@ -288,10 +291,10 @@ std::vector<Parameter> source_parameters() {
          .meaning = Meaning::Labels},
         {.name = "mask_surface",
          .type = Choice,
-         .default_value = "midway",
-         .help = "surface of labels: midway between voxels, with their staircases, or smooth: "
-                 "where it bends least with every voxel on its side; other methods ignore it",
-         .choices = {"midway", "smooth"}},
+         .default_value = "smooth",
+         .help = "surface of labels: smooth, where it bends least with every voxel on its side, or "
+                 "midway between voxels, with their staircases; other methods ignore it",
+         .choices = {"smooth", "midway"}},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",

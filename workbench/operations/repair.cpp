@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/flat_caps.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/handle_warnings.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -157,6 +158,9 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         repaired.surface = label_flat_faces(repaired.surface, progress.silent());
         add_caps(report, repaired.surface.patches.size() - before);
     }
+    if (!scene.image)  // of an image, extract-surface has named them
+        for (std::string& handle : handle_warnings(repaired.surface, progress))
+            outcome.warnings.push_back(std::move(handle));
     outcome.report = std::make_shared<ordered_json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(repaired.surface));
     return outcome;
