@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,9 @@ constexpr int kReach = 2;
 /// What is no vessel of one contrast: the fit leaves more of it, or the levels enclose as much more
 /// than the threshold.
 constexpr double kMostResidual = 0.25, kMostGrowth = 2.0;
+
+/// About 110 bytes for each: 3.4 GiB.
+constexpr std::size_t kMostVoxels = std::size_t{32} << 20;
 
 /// The levels of a vessel in a block of an image, and the vessel that they enclose.
 class Synthesis {
@@ -190,6 +194,11 @@ private:
 LevelField find_levels(const Image& image, double threshold, const VesselBody& body,
                        const Progress& progress) {
     const VoxelBlock block = block_around_vessel(image, threshold, body);
+    if (block.voxel_count() > kMostVoxels)
+        throw AlgorithmFailure("the vessel fills a box of " +
+                               std::to_string(block.voxel_count() >> 20) +
+                               " million voxels, more than " + std::to_string(kMostVoxels >> 20) +
+                               " million, which is too much for local levels: crop the image");
     Synthesis synthesis(part_of(image, block), threshold, body);
     synthesis.solve(progress);
     return {.levels = with_part(image, block, synthesis.levels(), static_cast<float>(threshold)),

@@ -11,6 +11,11 @@ namespace vesselbench {
 /// A box of voxels.
 struct VoxelBlock {
     std::array<int, 3> from = {0, 0, 0}, size = {0, 0, 0};
+
+    [[nodiscard]] std::size_t voxel_count() const {
+        return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+               static_cast<std::size_t>(size[2]);
+    }
 };
 
 /// The block that holds a vessel and what a blur of it reaches.

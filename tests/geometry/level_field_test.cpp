@@ -1,5 +1,6 @@
 #include "geometry/image/level_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -169,6 +170,17 @@ SCENARIO("Where an image is like no vessel, one threshold stays", "[geometry][im
     CHECK_FALSE(found.why_no_levels.empty());
     CHECK(volume(found.surface) ==
           Approx(volume(extract_surface(layers, {}, {.threshold = 700.0}).surface)));
+}
+
+SCENARIO("A vessel in too large a box keeps one threshold", "[geometry][image]") {
+    Image image;
+    image.size = {330, 330, 330};
+    std::vector<float> voxels(image.voxel_count(), 0.0f);
+    for (int i = 0; i < 330; ++i)
+        for (int a = -1; a <= 1; ++a)
+            voxels[image.offset(i, i, std::clamp(i + a, 0, 329))] = 100.0f;
+    image.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    CHECK_THROWS_WITH(find_levels(image, 50.0, {.all = true}), Contains("crop the image"));
 }
 
 SCENARIO("The search for levels can be cancelled, and needs a vessel",
