@@ -14,7 +14,7 @@ namespace {
 constexpr double kWide = 2.5;
 
 /// exp(-t) I_n(t) of n = 0, 1, ... for the variance t.
-std::vector<float> half_kernel(double variance) {
+std::vector<float> discrete_gaussian(double variance) {
     constexpr double kCut = 1e-5;
     std::vector<float> kernel;
     for (int n = 0;; ++n) {
@@ -80,8 +80,8 @@ void box_mean(std::vector<float>& line, std::vector<float>& old, const Box& box,
     }
 }
 
-void convolve(std::vector<float>& line, std::vector<float>& old, const std::vector<float>& kernel,
-              const Stretch& filled) {
+void convolve_line(std::vector<float>& line, std::vector<float>& old,
+                   const std::vector<float>& kernel, const Stretch& filled) {
     const auto n = static_cast<long>(line.size()), reach = static_cast<long>(kernel.size()) - 1;
     old.resize(line.size() + 2 * static_cast<std::size_t>(reach));
     std::fill_n(old.begin(), reach, line.front());
@@ -104,7 +104,7 @@ void blur_grid(std::vector<float>& values, const std::array<int, 3>& size, const
         if (!(sigma[axis] > 0.0)) continue;
         const double variance = sigma[axis] * sigma[axis];
         const bool wide = sigma[axis] >= kWide;
-        const std::vector<float> kernel = wide ? std::vector<float>() : half_kernel(variance);
+        const std::vector<float> kernel = wide ? std::vector<float>() : discrete_gaussian(variance);
         const Box box = third_of(variance);
         for_each_line(values, size, axis, [&](std::vector<float>& line) {
             thread_local std::vector<float> old;
@@ -114,7 +114,7 @@ void blur_grid(std::vector<float>& values, const std::array<int, 3>& size, const
                 if (wide)
                     box_mean(line, old, box, filled);
                 else
-                    convolve(line, old, kernel, filled);
+                    convolve_line(line, old, kernel, filled);
             }
         });
     }
