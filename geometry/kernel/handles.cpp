@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <queue>
 #include <set>
 #include <utility>
 
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
+#include "geometry/kernel/shortest_paths.h"
 
 namespace vesselbench {
 
@@ -20,9 +20,7 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr VertexId kNone = std::numeric_limits<VertexId>::max();
 
 using Loop = std::vector<VertexId>;
-using Entry = std::pair<double, std::size_t>;
 using EdgeSet = std::set<std::pair<VertexId, VertexId>>;  // {low, high}
-using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 /// Shortest paths along edges from one vertex.
 struct PathTree {
@@ -37,7 +35,7 @@ public:
           topology_(*surface.topology),
           table_(edge_table(topology_, cancel)),
           cancel_(cancel) {
-        faces_ = topology_.triangle_count();
+        faces_ = static_cast<std::uint32_t>(topology_.triangle_count());
         for (const auto& loop : topology_.boundary_loops()) {
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 rim_face_[std::minmax(loop[i], loop[(i + 1) % loop.size()])] = faces_;
@@ -82,28 +80,21 @@ private:
         cancel_.check_cancelled();
         PathTree tree{std::vector<double>(points_.size(), kFar),
                       std::vector<VertexId>(points_.size(), kNone)};
-        Queue open;
-        tree.distance[root] = 0.0;
-        open.emplace(0.0, root);
-        while (!open.empty()) {
-            const auto [reached, v] = open.top();
-            open.pop();
-            if (reached > tree.distance[v]) continue;
-            for (const VertexId next : topology_.rings().row(v)) {
-                const double d = reached + edge_length(static_cast<VertexId>(v), next);
-                if (d >= tree.distance[next]) continue;
-                tree.distance[next] = d;
-                tree.parent[next] = static_cast<VertexId>(v);
-                open.emplace(d, next);
+        ShortestPaths paths(tree.distance);
+        paths.lower(root, 0.0);
+        while (const auto at = paths.next())
+            for (const VertexId next : topology_.rings().row(at->vertex)) {
+                const double d = at->distance + edge_length(at->vertex, next);
+                if (d < tree.distance[next]) tree.parent[next] = at->vertex;
+                paths.lower(next, d);
             }
-        }
         return tree;
     }
 
     /// The two faces at an edge; a rim's fill is one face.
-    [[nodiscard]] std::pair<std::size_t, std::size_t> faces_at(std::size_t edge) const {
+    [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> faces_at(std::size_t edge) const {
         const auto halves = table_.half_edges.row(edge);
-        const std::size_t first = halves[0] / 3;
+        const std::uint32_t first = halves[0] / 3;
         if (halves.size() > 1) return {first, halves[1] / 3};
         return {first, rim_face_.at({table_.edges[edge][0], table_.edges[edge][1]})};
     }
@@ -111,12 +102,7 @@ private:
     /// Edges that neither the tree of paths nor a tree of faces across the other edges has: two for
     /// each handle.
     [[nodiscard]] std::vector<std::array<VertexId, 2>> generators(const PathTree& tree) const {
-        std::vector<std::size_t> part(faces_);
-        for (std::size_t f = 0; f < faces_; ++f) part[f] = f;
-        const auto root = [&](std::size_t f) {
-            while (part[f] != f) f = part[f] = part[part[f]];
-            return f;
-        };
+        DisjointSets parts(faces_);
         // The longest ways first, so that the short ones are left over (a maximum spanning tree).
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < table_.edges.size(); ++e) {
@@ -128,11 +114,7 @@ private:
         std::vector<std::array<VertexId, 2>> left;
         for (const auto& [way, e] : order) {
             const auto [f, g] = faces_at(e);
-            const std::size_t one = root(f), other = root(g);
-            if (one == other)
-                left.push_back(table_.edges[e]);
-            else
-                part[one] = other;
+            if (!parts.join(f, g)) left.push_back(table_.edges[e]);
         }
         return left;
     }
@@ -223,31 +205,25 @@ private:
     /// The shortest loop that crosses a waist an odd number of times: shortest paths on the surface
     /// and its double, which are joined along the waist. Empty if there is none.
     [[nodiscard]] Loop ring_across(const Loop& waist, const EdgeSet& crossing) const {
-        const std::size_t from = 2 * std::size_t{waist.front()};
+        const std::uint32_t from = 2 * waist.front();
         std::vector<double> distance(2 * points_.size(), kFar);
-        std::vector<std::size_t> parent(2 * points_.size(), from);
-        Queue open;
-        distance[from] = 0.0;
-        open.emplace(0.0, from);
-        while (!open.empty()) {
-            const auto [reached, state] = open.top();
-            open.pop();
-            if (reached > distance[state]) continue;
-            const auto v = static_cast<VertexId>(state / 2);
+        std::vector<std::uint32_t> parent(2 * points_.size(), from);
+        ShortestPaths paths(distance);
+        paths.lower(from, 0.0);
+        while (const auto at = paths.next()) {
+            const VertexId v = at->vertex / 2;
             for (const VertexId w : topology_.rings().row(v)) {
                 const bool through = crossing.contains(std::minmax(v, w));
-                const std::size_t next = 2 * std::size_t{w} + (through ? 1 - state % 2 : state % 2);
-                const double d = reached + edge_length(v, w);
-                if (d >= distance[next]) continue;
-                distance[next] = d;
-                parent[next] = state;
-                open.emplace(d, next);
+                const std::uint32_t side = through ? 1 - at->vertex % 2 : at->vertex % 2;
+                const double d = at->distance + edge_length(v, w);
+                if (d < distance[2 * w + side]) parent[2 * w + side] = at->vertex;
+                paths.lower(2 * w + side, d);
             }
         }
         Loop ring;
         if (distance[from + 1] == kFar) return ring;
-        for (std::size_t state = from + 1; state != from; state = parent[state])
-            ring.push_back(static_cast<VertexId>(state / 2));
+        for (std::uint32_t state = from + 1; state != from; state = parent[state])
+            ring.push_back(state / 2);
         return ring;
     }
 
@@ -255,8 +231,8 @@ private:
     const Topology& topology_;
     EdgeTable table_;
     const Progress& cancel_;
-    std::size_t faces_ = 0;
-    std::map<std::pair<VertexId, VertexId>, std::size_t> rim_face_;
+    std::uint32_t faces_ = 0;
+    std::map<std::pair<VertexId, VertexId>, std::uint32_t> rim_face_;
 };
 
 }  // namespace

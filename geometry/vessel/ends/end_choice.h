@@ -36,7 +36,9 @@ struct EndChoice {
 };
 
 /// Opens the ends whose odds say so: likelier openings than not, small ones kLikely; at least two
-/// in any case. \param ends as from find_surface_ends \param stubs of the same lines
+/// in any case.
+/// \param ends as from find_surface_ends
+/// \param stubs of the same lines
 /// \throw Cancelled
 [[nodiscard]] EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
                                     const std::vector<Stub>& stubs, const Progress& progress = {});

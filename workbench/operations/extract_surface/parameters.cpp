@@ -42,10 +42,12 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     parameters.method = method_from(arguments);
     if (arguments.has("iso") && arguments.has("threshold"))
         throw UsageError("extract-surface: iso and threshold are synonyms: give one of them");
-    const bool iso = arguments.has("iso"), word = arguments.is_word("threshold", "local") ||
-                                                  arguments.is_word("threshold", "midway");
-    if (iso || !word) parameters.threshold = arguments.optional_real(iso ? "iso" : "threshold");
-    parameters.local_levels = !parameters.threshold && !arguments.is_word("threshold", "midway");
+    const bool midway = arguments.is_word("threshold", "midway");
+    if (arguments.has("iso"))
+        parameters.threshold = arguments.real("iso");
+    else if (!midway && !arguments.is_word("threshold", "local"))
+        parameters.threshold = arguments.optional_real("threshold");
+    parameters.local_levels = !parameters.threshold && !midway;
     if (const auto inside = arguments.optional_text("inside"))
         parameters.inside_below = *inside == "below";
     parameters.labels = labels_from(arguments);
