@@ -8,7 +8,10 @@
 
 #include "geometry/formats/centerline_file.h"
 #include "geometry/formats/surface_file.h"
+#include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/statistics.h"
+#include "geometry/phantoms/imaging.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/thinning.h"
 #include "tests/support/iso_surface.h"
@@ -360,6 +363,35 @@ SCENARIO("Lines agree with VMTK's", "[geometry][centerlines]") {
         CHECK(distance < 0.1);
         CHECK(radius < 0.05);
     }
+}
+
+SCENARIO("Radii are those of inscribed circles, a little below the wall's mean radius",
+         "[geometry][centerlines]") {
+    // An oblique tube in slices of two voxels, as its mask shows it (docs/decisions.md).
+    const double radius = GENERATE(1.2, 2.0, 3.0);
+    const Vec3 along = Vec3(0.35, 0.2, 0.9).normalized();
+    PhantomDescription tube;
+    tube.parts = {{"tube", VesselShape{{-15 * along, 15 * along}, {radius, radius}}, 0.0}};
+    tube.imaging.spacing = Vec3(0.4, 0.4, 0.8);
+    const Image mask = phantom_mask(tube, PhantomField(tube.parts));
+    const auto [surface_kind, least] =
+        GENERATE(std::pair(MaskSurface::Smooth, 0.965), std::pair(MaskSurface::Midway, 0.92));
+    const Surface surface =
+        extract_surface(mask, {},
+                        {.method = ExtractionMethod::Labels, .mask_surface = surface_kind})
+            .surface;
+    const CenterlineGraph graph = compute_centerlines(surface);
+    CAPTURE(radius, least);
+    REQUIRE(graph.branches.size() == 1);
+    std::vector<double> radii, walls;
+    const CenterlineBranch& line = graph.branches.front();
+    for (std::size_t i = 0; i < line.points.size(); ++i)
+        if (std::abs(line.points[i].dot(along)) < 8.0) radii.push_back(line.radii[i]);
+    for (const Vec3& p : surface.points())
+        if (std::abs(p.dot(along)) < 8.0) walls.push_back((p - p.dot(along) * along).norm());
+    CAPTURE(radius, mean(radii), mean(walls));
+    CHECK(mean(radii) < mean(walls));
+    CHECK(mean(radii) > least * mean(walls));
 }
 
 SCENARIO("Centerlines are cancelled while the lumen is thinned and the lines are centred",

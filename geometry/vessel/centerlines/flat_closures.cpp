@@ -11,6 +11,7 @@
 
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_neighbours.h"
+#include "geometry/vessel/centerlines/terraces.h"
 
 namespace vesselbench {
 namespace {
@@ -184,6 +185,8 @@ public:
         return sum.norm();
     }
 
+    Vec3 normal(const std::vector<TriangleId>& region) const { return disc_of(region).normal; }
+
     double area(const std::vector<TriangleId>& region) const {
         double sum = 0.0;
         for (const TriangleId t : region) sum += areas_[t];
@@ -313,6 +316,30 @@ void keep_mouths(const Search& search, FlatDiscs& discs, const std::vector<bool>
     });
 }
 
+/// The triangles that are in none of the discs.
+std::vector<Triangle> wall_beside(std::span<const Triangle> triangles, const FlatDiscs& discs) {
+    std::vector<bool> flat(triangles.size(), false);
+    for (const auto* list : {&discs.closures, &discs.mouths})
+        for (const auto& disc : *list)
+            for (const TriangleId t : disc) flat[t] = true;
+    std::vector<Triangle> wall;
+    for (TriangleId t = 0; t < triangles.size(); ++t)
+        if (!flat[t]) wall.push_back(triangles[t]);
+    return wall;
+}
+
+/// Steps of a staircase are neither closures nor mouths, and where one closure is a step, the
+/// others cannot be told from steps.
+void drop_terraces(const Search& search, const Positions& points,
+                   std::span<const Triangle> triangles, FlatDiscs& discs) {
+    const std::vector<Triangle> wall = wall_beside(triangles, discs);
+    const auto is_step = [&](const auto& disc) {
+        return is_terrace(points, wall, search.normal(disc));
+    };
+    if (std::ranges::any_of(discs.closures, is_step)) discs = {};
+    std::erase_if(discs.mouths, is_step);
+}
+
 }  // namespace
 
 FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> triangles,
@@ -352,6 +379,7 @@ FlatDiscs find_flat_closures(const Positions& points, std::span<const Triangle> 
     for (const auto& disc : discs.closures) flat += search.area(disc);
     if (flat > kMostFlat * whole || discs.closures.empty()) return {};
     keep_mouths(search, discs, found);
+    drop_terraces(search, points, triangles, discs);
     return discs;
 }
 

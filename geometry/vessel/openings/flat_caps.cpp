@@ -1,8 +1,6 @@
 #include "geometry/vessel/openings/flat_caps.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/flat_closures.h"
+#include "geometry/vessel/centerlines/terraces.h"
 #include "geometry/vessel/ends/flat_faces.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/opening_names.h"
@@ -22,46 +21,10 @@ namespace vesselbench {
 
 namespace {
 
-/// Cosine of 0.5 degrees. Faces of a staircase are parallel but for rounding; of a straight
-/// vessel's wall at right angles to the cap, 0.6 % are so near to its direction.
-constexpr double kParallel = 0.99996;
-/// Staircases of voxels have 3.5 % of their wall parallel to a step, and more.
-constexpr double kMostParallel = 0.02;
 /// With a larger share of its area in such faces, the surface is a box rather than a vessel.
 constexpr double kMostFlat = 0.45;
 /// A disc has at least as many triangles as a hexagon.
 constexpr std::size_t kFewestOfCap = 4;
-/// Faces at the same height within this many mean edges are of one plane.
-constexpr double kOnePlane = 0.1;
-constexpr std::size_t kCapPlanes = 2;
-
-/// Fraction of the wall's area that is parallel to a direction, without that in the two planes that
-/// have most of it: opposite ends of a vessel may be parallel, but a staircase has many steps.
-double parallel_share(const Surface& surface, const Vec3& direction) {
-    std::vector<std::pair<double, double>> parallel;  // height, area
-    double whole = 0.0, edges = 0.0;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
-        if ((*surface.patch_labels)[t] != 0) continue;
-        const Triangle& corners = surface.triangles()[t];
-        const Vec3 normal = area_normal(surface.points(), corners);
-        const double size = normal.norm();
-        whole += size;
-        edges += std::sqrt(size);
-        if (std::abs(normal.dot(direction)) > kParallel * size)
-            parallel.emplace_back(surface.points()[corners[0]].dot(direction), size);
-    }
-    const double apart = kOnePlane * edges / static_cast<double>(surface.triangle_count());
-    std::ranges::sort(parallel);
-    std::vector<double> planes;
-    for (std::size_t i = 0; i < parallel.size(); ++i) {
-        if (i == 0 || parallel[i].first - parallel[i - 1].first > apart) planes.push_back(0.0);
-        planes.back() += parallel[i].second;
-    }
-    std::ranges::sort(planes, std::greater{});
-    double steps = 0.0;
-    for (std::size_t i = kCapPlanes; i < planes.size(); ++i) steps += planes[i];
-    return whole > 0.0 ? steps / whole : 1.0;
-}
 
 /// True if the triangles, connected along edges, have one simple rim.
 bool is_disc(const Surface& surface, const std::vector<TriangleId>& triangles) {
@@ -119,7 +82,10 @@ bool has_one_rim(const Surface& surface, std::size_t patch) {
 }
 
 bool is_step(const Surface& surface, std::size_t patch) {
-    return parallel_share(surface, patch_shape(surface, patch).plane.normal) > kMostParallel;
+    std::vector<Triangle> wall;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if ((*surface.patch_labels)[t] == 0) wall.push_back(surface.triangles()[t]);
+    return is_terrace(surface.points(), wall, patch_shape(surface, patch).plane.normal);
 }
 
 }  // namespace
@@ -132,13 +98,7 @@ Surface label_flat_caps(const Surface& surface) {
     std::erase_if(caps, is_no_disc);
     std::erase_if(mouths, is_no_disc);
     if (caps.empty()) return surface;
-    const std::size_t closures = caps.size();
     caps.insert(caps.end(), mouths.begin(), mouths.end());
-    const Surface all = with_caps(surface, caps);
-    for (std::size_t p = 1; p <= closures; ++p)
-        if (is_step(all, p)) return surface;
-    for (std::size_t p = caps.size(); p > closures; --p)
-        if (is_step(all, p)) caps.erase(caps.begin() + static_cast<std::ptrdiff_t>(p) - 1);
     Surface found = with_caps(surface, caps);
     for (std::size_t p = 1; p < found.patches.size(); ++p)
         found = flattened(found, p, RimVertices::Stay);
