@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "smoothing/context/staircases.h"
 #include "smoothing/context/voxel_grid.h"
 
@@ -24,6 +26,12 @@ struct StaircaseThresholds {
     double tau_max = 0.0;    ///< [mm] slice distance (thesis 5.6)
     double step = 0.0;       ///< [-] the orientation change of a step between voxels
 };
+
+/// The orientation change above which a bend stands out of a surface's own: four times as far above
+/// the middle of all changes as the 95th percentile is, but no less than 0.1. Above 1 on thin
+/// vessels, which are round everywhere; on large round organs far below what blur leaves of a step.
+/// \param change orientation change of every vertex, as from orientation_change; not empty
+[[nodiscard]] double outstanding_change(std::vector<double> change);
 
 /// For steps across one axis of the grid.
 /// \param axis column of grid.axes

@@ -197,7 +197,8 @@ std::vector<Parameter> staircase_parameter_table(const WeighedAction& action) {
          .unit = "-",
          .help = "how sharply a surface must bend across the slices to count as a staircase: 1 is "
                  "a right angle; smaller values find smoother staircases; default: a little below "
-                 "the step of one slice in the image's voxels",
+                 "the step of one slice in the image's voxels, or of intensities what stands out "
+                 "of the surface's own bends, if that is less",
          .minimum = 0.0,
          .maximum = 1.0,
          .only_with = when_staircase},

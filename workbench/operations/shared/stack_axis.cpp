@@ -84,6 +84,7 @@ std::string voxels_text(const Voxels& voxels) {
 struct Decision {
     StaircaseChoice choice;
     std::optional<StaircaseThresholds> thresholds;  ///< none: the voxels are unknown
+    bool by_surface = false;  ///< tau_theta is what stands out of the surface's own bends
 };
 
 Decision across_all(const Voxels& voxels, bool given) {
@@ -124,7 +125,22 @@ std::optional<Decision> across_one(const Voxels& voxels, const std::optional<Vec
     return made;
 }
 
-std::string step_text(const Voxels& voxels, const StaircaseThresholds& found) {
+/// What a blurred step leaves stands out of a surface that is smooth otherwise, though it is far
+/// gentler than the voxels' step.
+void take_outstanding(const Surface& surface, const Voxels& voxels, Decision& made) {
+    if (voxels.as == ImagedAs::Mask || !made.thresholds || surface.empty()) return;
+    const double outstanding = three_digits(outstanding_change(
+        orientation_change(*surface.topology, surface.points(), made.choice.axes)));
+    if (outstanding >= made.thresholds->tau_theta) return;
+    made.thresholds->tau_theta = outstanding;
+    made.by_surface = true;
+}
+
+std::string step_text(const Voxels& voxels, const StaircaseThresholds& found, bool by_surface) {
+    if (by_surface)
+        return "the surface is smooth enough for a bend of that size to stand out: what blur "
+               "leaves of a step in " +
+               voxels_text(voxels);
     const std::string text = "a step of one voxel changes the orientation by " +
                              formatted(found.step, "%.2f") + " in " + voxels_text(voxels);
     if (voxels.as == ImagedAs::Mask) return text;
@@ -136,6 +152,7 @@ std::string step_text(const Voxels& voxels, const StaircaseThresholds& found) {
 void decide_thresholds(const Scene& scene, const Arguments& arguments, const Voxels& voxels,
                        Decision& made) {
     StaircaseChoice& choice = made.choice;
+    if (!arguments.has("tau_theta")) take_outstanding(*scene.surface, voxels, made);
     const double edges = three_digits(kEdgesPerSlice * mean_edge_length(*scene.surface));
     choice.tau_theta = made.thresholds ? made.thresholds->tau_theta : kUnknownTauTheta;
     choice.tau_max = made.thresholds                       ? made.thresholds->tau_max
@@ -146,7 +163,7 @@ void decide_thresholds(const Scene& scene, const Arguments& arguments, const Vox
     else
         choice.reasons["tau_theta"] =
             to_text(choice.tau_theta) + ", because " +
-            (made.thresholds ? step_text(voxels, *made.thresholds)
+            (made.thresholds ? step_text(voxels, *made.thresholds, made.by_surface)
                              : "the voxels are unknown, and steps may have been smoothed");
     if (const auto given = arguments.optional_real("tau_max"))
         choice.tau_max = *given;
