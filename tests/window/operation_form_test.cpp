@@ -19,6 +19,26 @@ SCENARIO("A form's texts become arguments", "[window][form]") {
     CHECK(form.arguments() == Arguments{});
 }
 
+SCENARIO("A form may start with arguments", "[window][form]") {
+    const Arguments start{{"preset", "cfd"}, {"staircase", true}};
+    OperationForm form(find_operation("smooth"), start);
+    CHECK_FALSE(form.edit());
+    CHECK(form.arguments() == start);
+    form.set("staircase", "false");
+    form.set("lambda", "0.2");
+    form.reset();
+    CHECK(form.arguments() == start);
+}
+
+SCENARIO("Smoothing starts as the recipe smooths where the voxels are known", "[window][form]") {
+    const Operation& smooth = find_operation("smooth");
+    Scene scene;
+    CHECK(smooth.suggested(scene, "cfd") == Arguments{});
+    scene.sampling = Sampling{.spacing = Vec3(0.3, 0.3, 0.6), .confidence = 1.0};
+    CHECK(smooth.suggested(scene, "cfd") == Arguments{{"preset", "cfd"}, {"staircase", true}});
+    CHECK(smooth.suggested(scene, "my-own-variant") == Arguments{});
+}
+
 SCENARIO("A number may be typed with a decimal comma", "[window][form]") {
     OperationForm form(find_operation("smooth"));
     form.set("lambda", "0,25");

@@ -55,6 +55,9 @@ struct Operation {
     /// True for arguments with which it runs in the program's own process, even where all others
     /// run in workers: on a GPU. Null: for none.
     bool (*stays_here)(const Arguments& arguments) = nullptr;
+    /// What the form of a new edit starts with, where the scene or the variant, which may have a
+    /// purpose's name, speaks for other values than the defaults; null: for none.
+    Arguments (*suggested)(const Scene& scene, const std::string& variant) = nullptr;
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};

@@ -167,6 +167,12 @@ bool asks_for_gpu(const Arguments& arguments) {
     return device_choice_from(arguments.text("device")) == DeviceChoice::Gpu;
 }
 
+/// As the default recipe smooths a surface whose voxels are known.
+Arguments suggested_arguments(const Scene& scene, const std::string& variant) {
+    if (!scene.sampling || scene.sampling->confidence <= 0.0 || !is_preset(variant)) return {};
+    return {{"preset", variant}, {"staircase", true}};
+}
+
 std::vector<Parameter> parameter_table() {
     std::vector<Parameter> table = filter_parameter_table();
     for (Parameter& parameter : context_parameter_table()) table.push_back(std::move(parameter));
@@ -206,6 +212,7 @@ Operation smooth_operation() {
             .parameters = parameter_table(),
             .start = &started<LiveSmoothing>,
             .stays_here = &asks_for_gpu,
+            .suggested = &suggested_arguments,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
             .search = {.smoothing = &smoothing_subject,

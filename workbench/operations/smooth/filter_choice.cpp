@@ -107,6 +107,10 @@ std::vector<Parameter> strength_parameters() {
 
 }  // namespace
 
+bool is_preset(const std::string& name) {
+    return std::ranges::any_of(kPresets, [&](const Preset& preset) { return name == preset.name; });
+}
+
 std::vector<Parameter> filter_parameter_table() {
     using enum ParameterType;
     std::vector<std::string> presets;

@@ -8,6 +8,9 @@ namespace vesselbench {
 /// Parameters of `smooth` that select and configure the filter.
 [[nodiscard]] std::vector<Parameter> filter_parameter_table();
 
+/// True if `preset` may have this value.
+[[nodiscard]] bool is_preset(const std::string& name);
+
 /// Fills in the arguments decided by the preset, the surface and its neighbours, so that a replay
 /// repeats them: those of the filter, beta_min and distance.
 /// \throw UsageError if two arguments cannot be combined

@@ -37,18 +37,17 @@ std::string error_in(const FormField& field) {
 
 }  // namespace
 
-OperationForm::OperationForm(const Operation& operation) : operation_(&operation) {
+OperationForm::OperationForm(const Operation& operation, Arguments start)
+    : operation_(&operation), given_(std::move(start)) {
     for (const Parameter& parameter : operation.parameters)
         fields_.push_back({.parameter = &parameter});
+    fill();
     check();
 }
 
 OperationForm::OperationForm(const Operation& operation, const EditRecord& edit)
-    : OperationForm(operation) {
+    : OperationForm(operation, edit.given) {
     edit_ = edit.edit.id;
-    given_ = edit.given;
-    fill();
-    check();
 }
 
 const FormField& OperationForm::field(const std::string& name) const {
@@ -69,7 +68,6 @@ void OperationForm::set(const std::string& name, std::string text) {
     check();
 }
 
-/// With what the edit was given.
 void OperationForm::fill() {
     for (FormField& field : fields_) {
         const std::string& name = field.parameter->name;

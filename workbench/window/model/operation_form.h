@@ -22,7 +22,8 @@ struct FormField {
 class OperationForm {
 public:
     /// \param operation of the table: it must outlive the form
-    explicit OperationForm(const Operation& operation);
+    /// \param start what its fields hold at first; the others are empty
+    explicit OperationForm(const Operation& operation, Arguments start = {});
 
     /// A form with the arguments of an earlier edit.
     OperationForm(const Operation& operation, const EditRecord& edit);
@@ -40,7 +41,7 @@ public:
     /// \throw UsageError as field()
     void set(const std::string& name, std::string text);
 
-    /// Empties every field, or fills it with what the edit was given.
+    /// Fills every field with what it held at first.
     void reset();
 
     /// True if apply would accept the arguments.
@@ -70,7 +71,7 @@ private:
 
     const Operation* operation_;
     std::optional<EditId> edit_;
-    Arguments given_;  ///< of the edit
+    Arguments given_;  ///< at first
     std::vector<FormField> fields_;
     std::string error_;
     int changes_ = 0;

@@ -210,7 +210,7 @@ void Workplace::choose_step(Step step) {
 
 void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     leave_form();
-    form_.emplace(find_operation(operation));
+    form_.emplace(find_operation(operation), suggested_arguments(find_operation(operation)));
     ++form_number_;
     const std::vector<Step>& allowed = form_->operation().allowed;
     const bool fits = step && std::ranges::count(allowed, *step) > 0;
@@ -220,6 +220,13 @@ void Workplace::choose(const std::string& operation, std::optional<Step> step) {
         return;
     }
     arm_required();
+}
+
+/// What the form of a new edit starts with.
+Arguments Workplace::suggested_arguments(const Operation& operation) const {
+    const Scene* scene = document.current();
+    if (operation.suggested == nullptr || scene == nullptr) return {};
+    return operation.suggested(*scene, document.variant());
 }
 
 /// What has to be picked is picked at once.

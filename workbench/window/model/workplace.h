@@ -326,6 +326,7 @@ private:
     void tell_difference();
     void tell_fallback();
     [[nodiscard]] bool update_places();
+    [[nodiscard]] Arguments suggested_arguments(const Operation& operation) const;
     void arm_required();
     [[nodiscard]] bool preview_is_current() const;
     [[nodiscard]] std::string why_no_worst() const;
