@@ -133,24 +133,6 @@ SCENARIO("A mask's surface has no staircases to smooth", "[workbench][prepare]")
     }
 }
 
-SCENARIO("A phantom becomes a model for planning and one for surgery simulation",
-         "[workbench][prepare]") {
-    for (const std::string purpose : {"planning", "simulation"}) {
-        CAPTURE(purpose);
-        const std::string out = temporary_folder() + "/" + purpose;
-        const ProgramRun result = run({"prepare", tube(), "--for", purpose, "--out", out});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
-        CHECK(names_in(out) ==
-              Names{"project.vbench", "report.html", "report.json", "surface.stl", "surface.vtp"});
-        const Json report = Json::parse(text_of(out + "/report.json"));
-        CHECK(report["purpose"] == purpose);
-        const double skewness = report["quality"]["after"]["equiangle_skewness"]["mean"];
-        CHECK((purpose == "planning") == (skewness > 0.2));  // only simulation asks for good ones
-        CHECK_THAT(text_of(out + "/report.html"), Contains("Model for"));
-    }
-}
-
 SCENARIO("A model that has lost a vessel is an error", "[workbench][prepare]") {
     const Surface tube = closed_tube(2.0, 30.0, 40, 90), half = closed_tube(2.0, 12.0, 40, 90);
     CHECK(compared_vessels({tube, {}}, closed_tube(2.0, 29.0, 40, 90)).lost.empty());

@@ -77,6 +77,15 @@ SCENARIO("Surfaces are smoothed less than images, whatever they are for", "[work
     }
 }
 
+SCENARIO("Images for surgery simulation are smoothed everywhere", "[workbench][recipe]") {
+    for (const char* purpose : {"planning", "simulation"})
+        for (const RecipeEntry& entry : default_recipe({"image", purpose})) {
+            if (entry.given.operation().name != "smooth") continue;
+            CHECK(entry.given->flag("staircase") == (std::string(purpose) == "planning"));
+            CHECK(entry.unless_made.has_value() == (std::string(purpose) == "planning"));
+        }
+}
+
 SCENARIO("A recipe that cannot be followed is refused before anything is done",
          "[workbench][recipe]") {
     refused(R"({"operation": "smooth"})", "list");

@@ -169,6 +169,7 @@ struct InputArguments {
     std::string input;
     std::string mask;
     std::string units;
+    std::vector<std::string> neighbours;  ///< files, or labels "7,8"
 };
 
 /// What the caller says about vessel ends: each text is numbers of `ends`, "1" or "4,7", or a place

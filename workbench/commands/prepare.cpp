@@ -43,7 +43,7 @@ void refuse_source(const Session& session, const std::string& file) {
 }
 
 InputOptions input_options(const InputArguments& arguments) {
-    return {arguments.input, arguments.mask, arguments.units};
+    return {arguments.input, arguments.mask, arguments.units, arguments.neighbours};
 }
 
 }  // namespace

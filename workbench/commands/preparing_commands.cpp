@@ -60,6 +60,16 @@ void add_input(CLI::App& command, InputArguments& input) {
         ->type_name("UNIT");
 }
 
+void add_neighbours(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("--neighbour", input.neighbours,
+                    "A structure beside the vessel: a surface file, or labels N,N of the label "
+                    "map; may be repeated. The report says how near it is, and smoothing for "
+                    "planning keeps that distance")
+        ->allow_extra_args(false)
+        ->type_name("FILE|N,N");
+}
+
 void add_end_options(CLI::App& command, EndArguments& ends) {
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* help) {
         command.add_option(name, texts, help)->allow_extra_args(false)->type_name("N|X,Y,Z");
@@ -79,6 +89,7 @@ void add_prepare(CommandLine& line) {
         add_command(line, "prepare", "Make a CFD model or a print model from an image or a surface",
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
     add_input(command, options->input);
+    add_neighbours(command, options->input);
     command.footer(prepare_footer());
     command.add_option("--for", options->purpose, "Purpose of the model: " + purposes_help())
         ->required()
@@ -115,6 +126,7 @@ void add_new(CommandLine& line) {
                     [options, &line] { return make_project(*options, line.progress), 0; });
     add_project(command, options->project);
     add_input(command, options->input);
+    add_neighbours(command, options->input);
     add_json(command, options->json);
 }
 

@@ -16,7 +16,9 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
                           const Progress& progress) {
     if (!scene.image)
         throw AlgorithmFailure("load-neighbour: labels need a label map or a mask: use load-image");
-    ExtractionParameters parameters{.method = ExtractionMethod::Labels, .bodies = Bodies::All};
+    ExtractionParameters parameters{.method = ExtractionMethod::Labels,
+                                    .mask_surface = MaskSurface::Smooth,
+                                    .bodies = Bodies::All};
     for (const double label : arguments.list("labels")) {
         if (label != std::floor(label) || label < 1.0 || label > 1e6)
             throw UsageError("load-neighbour: labels are integers, 1 or above");

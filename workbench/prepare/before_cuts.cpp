@@ -51,11 +51,7 @@ BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
     const RecipeUse use = recipe_use(input, purpose);
     const nlohmann::ordered_json own = own_recipe(input, purpose);
     Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
-    const RecipeEntry loading = loading_entry(input);
-    if (recipe.empty() || &recipe.front().given.operation() != &loading.given.operation())
-        recipe.insert(recipe.begin(), loading);
-    else
-        recipe.front().given.set(loading.given);
+    recipe = with_loading(std::move(recipe), input);
     set_arguments(recipe, settings);
     const auto cut = std::ranges::find_if(recipe, cuts_ends);
     BeforeCuts before;

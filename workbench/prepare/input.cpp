@@ -8,6 +8,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
@@ -131,6 +132,46 @@ void require_known_image(const fs::path& path) {
                        image_formats_text());
 }
 
+/// "7" or "7,8": labels and no file.
+bool is_label_list(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789,") == std::string::npos &&
+           !fs::exists(text);
+}
+
+/// The edits that load the neighbours, each named after its file or its labels.
+Recipe neighbour_entries(const std::vector<std::string>& neighbours, bool of_image) {
+    Recipe entries;
+    PlainNames names;
+    for (const std::string& neighbour : neighbours) {
+        RecipeEntry entry{.given = GivenArguments(find_operation("load-neighbour"))};
+        if (is_label_list(neighbour)) {
+            if (!of_image)
+                throw UsageError("--neighbour " + neighbour +
+                                 ": labels need a label map, but the input is a surface");
+            entry.given.set("name", names.add("label-" + neighbour));
+            entry.given.set("labels", neighbour);
+        } else {
+            const fs::path file = neighbour;
+            if (!fs::exists(file))
+                throw IoError("the neighbour '" + file.filename().string() + "' does not exist");
+            entry.given.set("name", names.add(file.stem().string()));
+            entry.given.set("file", neighbour);
+        }
+        entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
+/// The edit that loads the image or surface.
+RecipeEntry source_entry(const Input& input) {
+    const InputKind kind = input.is_image ? InputKind::Image : InputKind::Surface;
+    RecipeEntry entry{.given = GivenArguments(loading_operation(kind))};
+    entry.given.set("file", input.file.string());
+    if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
+    if (!input.units.empty()) entry.given.set("units", input.units);
+    return entry;
+}
+
 }  // namespace
 
 Input resolve_input(const InputOptions& options, const Progress& progress) {
@@ -154,12 +195,13 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
         throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
     if (!input.mask.empty() && !input.is_image)
         throw UsageError("--mask requires an image, but '" + input.name + "' is a surface");
+    input.neighbours = neighbour_entries(options.neighbours, input.is_image);
     return input;
 }
 
 RecipeUse recipe_use(const Input& input, const std::string& purpose) {
     RecipeUse use = {input.is_image ? "image" : "surface", purpose};
-    if (!input.mask.empty()) use.push_back("mask");
+    if (!input.mask.empty()) use.emplace_back("mask");
     return use;
 }
 
@@ -171,13 +213,23 @@ Json own_recipe(const Input& input, const std::string& purpose) {
     return input.recipes->value(purpose, Json());
 }
 
-RecipeEntry loading_entry(const Input& input) {
-    const InputKind kind = input.is_image ? InputKind::Image : InputKind::Surface;
-    RecipeEntry entry{.given = GivenArguments(loading_operation(kind))};
-    entry.given.set("file", input.file.string());
-    if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
-    if (!input.units.empty()) entry.given.set("units", input.units);
-    return entry;
+Recipe loading_entries(const Input& input) {
+    Recipe entries = {source_entry(input)};
+    entries.insert(entries.end(), input.neighbours.begin(), input.neighbours.end());
+    return entries;
+}
+
+Recipe with_loading(Recipe recipe, const Input& input) {
+    Recipe loading = loading_entries(input);
+    if (!recipe.empty() &&
+        &recipe.front().given.operation() == &loading.front().given.operation()) {
+        RecipeEntry own = recipe.front();
+        own.given.set(loading.front().given);
+        loading.front() = std::move(own);
+        recipe.erase(recipe.begin());
+    }
+    recipe.insert(recipe.begin(), loading.begin(), loading.end());
+    return recipe;
 }
 
 }  // namespace vesselbench

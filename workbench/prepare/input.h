@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,6 +20,8 @@ struct InputOptions {
         input;  ///< a surface, an image, a folder of DICOM slices, or a folder with case.json
     std::string mask;   ///< image file on the same grid; empty: none, or the case's own
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
+    /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8".
+    std::vector<std::string> neighbours = {};
 };
 
 /// The INPUT after inspection.
@@ -28,6 +31,7 @@ struct Input {
     std::filesystem::path file;  ///< surface, image, or folder of DICOM slices
     std::filesystem::path mask;
     std::string units;
+    Recipe neighbours;             ///< the edits that load them
     std::optional<Surface> exact;  ///< the true surface, if a phantom provides it
     std::shared_ptr<const nlohmann::ordered_json> recipes;  ///< a case's own: by "cfd" and "rp"
     std::shared_ptr<const void> keep;  ///< folder of files made for this input; removed with it
@@ -44,8 +48,13 @@ struct Input {
 /// The case's own recipe for a purpose, a JSON list; null: it has none.
 [[nodiscard]] nlohmann::ordered_json own_recipe(const Input& input, const std::string& purpose);
 
-/// The edit that loads the input, with the arguments that an entry of a recipe may add.
+/// The edits that load the input: the image or surface, then its neighbours.
 /// \throw UsageError if a unit is unknown
-[[nodiscard]] RecipeEntry loading_entry(const Input& input);
+[[nodiscard]] Recipe loading_entries(const Input& input);
+
+/// A recipe with the edits that load the input in front; an entry at its front that loads the same
+/// kind keeps the arguments that the input does not give.
+/// \throw UsageError if a unit is unknown
+[[nodiscard]] Recipe with_loading(Recipe recipe, const Input& input);
 
 }  // namespace vesselbench

@@ -90,7 +90,10 @@ void name_other_products(const PrepareOptions& options, const Teller& tell) {
 void refuse_own_input(const PrepareOptions& options, const Input& input) {
     std::vector<std::string> names = product_names(options.purpose);
     names.insert(names.end(), {"report.json", "report.html"});
-    for (const fs::path& source : {input.file, input.mask, fs::path(options.recipe)})
+    std::vector<fs::path> sources = {input.file, input.mask, options.recipe};
+    for (const RecipeEntry& entry : input.neighbours)
+        sources.emplace_back(entry.given->optional_text("file").value_or(""));
+    for (const fs::path& source : sources)
         for (const std::string& name : names) {
             std::error_code ignored;
             if (!source.empty() && fs::equivalent(options.out / name, source, ignored))
@@ -126,11 +129,7 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     const RecipeUse use = recipe_use(input, options.purpose);
     const Json json = recipe_json_from(options, input);
     Recipe recipe = json.is_null() ? default_recipe(use) : recipe_from_json(json, use);
-    const RecipeEntry loading = loading_entry(input);
-    if (recipe.empty() || &recipe.front().given.operation() != &loading.given.operation())
-        recipe.insert(recipe.begin(), loading);
-    else
-        recipe.front().given.set(loading.given);
+    recipe = with_loading(std::move(recipe), input);
     set_arguments(recipe, options.arguments);
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);
@@ -299,11 +298,11 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
 
 Session start_project(const fs::path& project, const Input& input, SessionOptions options,
                       const Teller& tell, const Progress& progress) {
-    const RecipeEntry loading = loading_entry(input);
+    const Recipe loading = loading_entries(input);
     Session session = Session::create(project, std::move(options));
     try {
         keep_recipes(project, input);
-        apply_recipe(session, {loading}, "", tell, progress);
+        apply_recipe(session, loading, "", tell, progress);
     } catch (const std::exception&) {
         remove_project(project);
         throw;

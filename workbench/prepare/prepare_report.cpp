@@ -9,7 +9,9 @@
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/openings/openings.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/case/point_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
 #include "workbench/operations/shared/opening_json.h"
@@ -120,6 +122,20 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(surface, after.patches);
 }
 
+/// How near the model comes to each neighbour, 0 inside, and where.
+Json neighbours_json(const Scene& scene) {
+    Json json;
+    const Positions& points = scene.surface->points();
+    for (const auto& [name, neighbour] : scene.neighbours) {
+        const std::vector<double> distances = distance_to(neighbour).signed_distances(points);
+        const auto nearest = std::ranges::min_element(distances);
+        const Vec3& place = points[static_cast<std::size_t>(nearest - distances.begin())];
+        json[name] = {{"distance_mm", std::max(0.0, *nearest)},
+                      {"place_mm", point_json(rounded_place(place))}};
+    }
+    return json;
+}
+
 /// \return warnings
 std::vector<std::string> add_flow(Json& report, const PreparedCase& prepared,
                                   const std::vector<LogEntry>& edits) {
@@ -214,6 +230,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     }
     if (prepared.input.exact)
         report["distance_to_exact"] = distances_json(compared, *prepared.input.exact);
+    if (!prepared.scene.neighbours.empty()) report["neighbours"] = neighbours_json(prepared.scene);
     if (find_purpose(prepared.purpose).simulates_flow)
         for (const std::string& warning : add_flow(report, prepared, edits))
             made.warnings.push_back(warning);

@@ -287,6 +287,9 @@ const std::vector<ReportSection>& usual_sections() {
         {.key = "distance_to_exact",
          .title = "Distance to the exact surface",
          .about = "From the wall to the phantom's true surface, away from the ends."},
+        {.key = "neighbours",
+         .title = "Neighbours",
+         .about = "Where the model comes nearest to each; 0: it touches or enters it."},
         {.key = "volume_mesh",
          .title = "Volume mesh",
          .about =
