@@ -22,6 +22,7 @@
 #include "smoothing/context/caps.h"
 #include "smoothing/context/cut_ends.h"
 #include "smoothing/context/stack_orientation.h"
+#include "smoothing/filters/laplace.h"
 #include "tests/support/paths.h"
 #include "tests/support/stack_phantoms.h"
 
@@ -36,24 +37,47 @@ void print_error(const Surface& surface, const Eigen::Matrix3d& turn) {
                 found.certain ? "" : " (uncertain)");
 }
 
+constexpr const char* kOrgans =
+    "vessel, mask | muscle, mask | liver, mask | vessel, intensities | muscle, intensities | "
+    "liver, intensities";
+
+std::array<Surface, 6> organs() {
+    return {of_mask(vessel_in_slices()),
+            of_mask(muscle_in_slices()),
+            of_mask(organ_in_slices()),
+            of_masked_intensities(vessel_in_slices()),
+            of_masked_intensities(muscle_in_slices()),
+            of_masked_intensities(organ_in_slices())};
+}
+
+Eigen::Matrix3d turned_by(int degrees, const Vec3& axis) {
+    return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis).toRotationMatrix();
+}
+
 void print_organs() {
-    const std::array<Surface, 6> surfaces = {of_mask(vessel_in_slices()),
-                                             of_mask(muscle_in_slices()),
-                                             of_mask(organ_in_slices()),
-                                             of_masked_intensities(vessel_in_slices()),
-                                             of_masked_intensities(muscle_in_slices()),
-                                             of_masked_intensities(organ_in_slices())};
-    std::printf(
-        "| rotation | vessel, mask | muscle, mask | liver, mask | vessel, intensities | muscle, "
-        "intensities | liver, intensities |\n|---|---|---|---|---|---|---|\n");
+    const std::array<Surface, 6> surfaces = organs();
+    std::printf("| rotation | %s |\n|---|---|---|---|---|---|---|\n", kOrgans);
     for (const auto& [axis, name] : {std::pair{Vec3(1, 0, 0), "x"}, std::pair{Vec3(0, 1, 0), "y"}})
         for (int angle = 0; angle <= 90; angle += 30) {
             std::printf("| %s %d deg |", name, angle);
-            const Eigen::Matrix3d turn =
-                Eigen::AngleAxisd(angle * std::numbers::pi / 180.0, axis).toRotationMatrix();
-            for (const Surface& surface : surfaces) print_error(surface, turn);
+            for (const Surface& surface : surfaces) print_error(surface, turned_by(angle, axis));
             std::printf("\n");
         }
+}
+
+/// Smoothing takes the voxels' edges and planes from a surface.
+void print_smoothed_organs() {
+    const std::array<Surface, 6> surfaces = organs();
+    std::printf("| Laplace iterations before | %s |\n|---|---|---|---|---|---|---|\n", kOrgans);
+    for (const int iterations : {1, 2, 5, 10, 20}) {
+        std::printf("| %d |", iterations);
+        for (const Surface& surface : surfaces) {
+            Positions moved =
+                laplace(*surface.topology, surface.points(), {}, {.iterations = iterations});
+            print_error(surface.with_positions(std::move(moved)), turned_by(30, Vec3(1, 0, 0)));
+        }
+        std::printf("\n");
+    }
 }
 
 struct Outcome {
@@ -354,6 +378,8 @@ int main(int count, char** words) {
     const std::string only = count > 1 ? words[1] : "";
     if (only == "real") return print_real_masks(true), 0;
     print_organs();
+    std::printf("\n");
+    print_smoothed_organs();
     std::printf("\n");
     print_spheres();
     std::printf("\n");
