@@ -1,6 +1,6 @@
-"""What the scripts that write pages of figures share: the revision on the page, and rows that are measured again.
+"""Shared by the scripts that write pages of figures: the revision on the page, and rows that are measured again.
 
-A page goes stale when the program changes. Each script repeats one row of its page with --repeat: it measures the row anew, prints
+A page goes stale when the program changes. Each script repeats one row of its page with --repeat: it measures the row again, prints
 it beside the page's, and exits with 1 if a figure differs by more than the page's tolerance. scripts/acceptance runs all of them.
 """
 import os
@@ -44,7 +44,7 @@ def same_cell(ours, theirs, relative, least):
 
 
 def repeated(page, heading, row, relative, least, label=1):
-    """Compares a row that was measured anew with the page's and prints both. True if they agree.
+    """Compares a row that was measured again with the page's and prints both. True if they agree.
 
     label: how many cells name the row; relative [-], least [in the figures' units]: the tolerance.
     """
