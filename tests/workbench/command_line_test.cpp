@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -95,6 +96,37 @@ SCENARIO("Wrong usage gives exit code 2 and a helpful text", "[workbench][comman
     check_usage_error({"apply", "p.vbench", "smooth", "lambda=two"},
                       {"smooth", "'lambda'", "'two'", "a number"});
     check_usage_error({"apply", "p.vbench", "smooth", "lambda"}, {"parameter=value"});
+}
+
+SCENARIO("Output that cannot be written is a failure", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), ball = folder + "/ball.vtp";
+    vesselbench::write_surface(icosphere(5.0, 3), ball);
+    REQUIRE(run({"new", folder + "/ball.vbench", ball}).exit_code == 0);
+    const auto run_into = [](const std::string& output, std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(),
+                         {"-c", "\"$0\" \"$@\" >" + output, vesselbench::test::program_path()});
+        return run_program("/bin/sh", arguments);
+    };
+    for (const std::vector<std::string>& command :
+         std::vector<std::vector<std::string>>{{"operations", "--json"},  // more than a buffer
+                                               {"operations", "smooth"},
+                                               {"--version"},
+                                               {"log", "--help"},
+                                               {"log", folder + "/ball.vbench", "--json"},
+                                               {"apply", folder + "/ball.vbench", "subdivide"},
+                                               {"measure", ball}}) {
+        const ProgramRun result = run_into("/dev/full", command);
+        INFO(command.front() << ": " << result.err);
+        CHECK(result.exit_code == 1);
+        CHECK_THAT(result.err, StartsWith("vesselbench: the output could not be written"));
+        CHECK(std::ranges::count(result.err, '\n') == 1);
+    }
+    THEN("so is output that nobody takes") {
+        CHECK(run_into("&-", {"operations"}).exit_code == 1);
+    }
+    THEN("a failure of the command itself keeps its exit code") {
+        CHECK(run_into("/dev/full", {"operations", "smoth"}).exit_code == 2);
+    }
 }
 
 SCENARIO("The operation table is printed for people and for programs",

@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string_view>
 
@@ -45,6 +46,16 @@ int run(int argc, char** argv) {
     }
 }
 
+/// The exit code of a command that ended with `code`, once its output has left: a full disk or a
+/// closed pipe may refuse it as late as here.
+int with_output_written(int code) {
+    std::cout.flush();
+    const bool flushed = std::fflush(stdout) == 0;
+    if (code != 0 || (flushed && std::cout && std::ferror(stdout) == 0)) return code;
+    return tell("the output could not be written: its disk is full, or its reader has ended",
+                kFailed);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,8 +68,5 @@ int main(int argc, char** argv) {
     // up.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    const int code = run(argc, argv);
-    if (std::fflush(stdout) != 0 && code == 0)
-        return tell("the output could not be written", kBadInput);
-    return code;
+    return with_output_written(run(argc, argv));
 }
