@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <fstream>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -11,12 +13,14 @@
 
 namespace vesselbench::test {
 
-ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments) {
+ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
+                           int unread) {
     std::vector<char*> words = {const_cast<char*>(program.c_str())};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe left");
+    ::fcntl(ends[0], F_SETPIPE_SZ, unread);
     pid_ = ::fork();
     if (pid_ == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -44,6 +48,17 @@ std::string ChildProcess::line() {
 
 void ChildProcess::signal(int number) {
     if (pid_ > 0) ::kill(pid_, number);
+}
+
+bool ChildProcess::handles(int number) const {
+    std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+    for (std::string key; status >> key;)
+        if (key == "SigCgt:") {
+            std::uint64_t caught = 0;
+            status >> std::hex >> caught;
+            return ((caught >> static_cast<unsigned>(number - 1)) & 1U) != 0;
+        }
+    return false;
 }
 
 int ChildProcess::wait() {

@@ -10,7 +10,10 @@ namespace vesselbench::test {
 class ChildProcess {
 public:
     /// \param program path
-    ChildProcess(const std::string& program, const std::vector<std::string>& arguments);
+    /// \param unread bytes of its output that it can write before it waits for line(); at least a
+    /// page of memory
+    ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
+                 int unread = 1 << 16);
     ~ChildProcess();
 
     ChildProcess(const ChildProcess&) = delete;
@@ -20,6 +23,9 @@ public:
     [[nodiscard]] std::string line();
 
     void signal(int number);
+
+    /// True if the process has a handler for the signal: not if it ignores it or dies of it.
+    [[nodiscard]] bool handles(int number) const;
 
     /// Waits for its end. \return its exit code; 128 + signal if it was killed
     int wait();

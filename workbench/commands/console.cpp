@@ -1,12 +1,18 @@
 #include "workbench/commands/console.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <sstream>
+#include <system_error>
 #include <thread>
 
+#include <time.h>
 #include <unistd.h>
 
 #include "geometry/kernel/printable.h"
@@ -21,13 +27,43 @@ constexpr std::size_t kLineWidth = 100;
 /// The writing end of the signal handler's pipe; -1 while nobody listens. A handler can only access
 /// globals.
 volatile std::sig_atomic_t signal_pipe = -1;  // NOLINT
-volatile std::sig_atomic_t signals_seen = 0;  // NOLINT
+
+constexpr std::array kStopSignals = {SIGINT, SIGTERM, SIGHUP};
+
+/// Signals this soon after the first are its repetitions, not a user who lost patience [ns].
+constexpr std::int64_t kRepetitions = 2'000'000'000;
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
+std::atomic<std::int64_t> first_signal = kNever;  // NOLINT: when it came [ns]
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "for a signal handler");
+
+/// Monotonic time [ns]; a signal handler may call it.
+std::int64_t now_in_handler() {
+    timespec now = {};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
 
 extern "C" void tell_pipe(int signal) {
-    if (signals_seen != 0) ::_exit(128 + signal);
-    signals_seen = 1;
+    const std::int64_t now = now_in_handler();
+    std::int64_t first = kNever;
+    if (!first_signal.compare_exchange_strong(first, now)) {
+        if (now - first >= kRepetitions) ::_exit(128 + signal);
+        return;
+    }
     const char letter = 's';
     if (signal_pipe >= 0 && ::write(signal_pipe, &letter, 1) != 1) ::_exit(128 + signal);
+}
+
+bool is_ignored(int signal) {
+    struct sigaction action = {};
+    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+/// Gives the stop signals that are not ignored to `handler`.
+void handle_stop_signals(void (*handler)(int)) {
+    for (const int signal : kStopSignals)
+        if (!is_ignored(signal)) std::signal(signal, handler);
 }
 
 bool on_terminal() {
@@ -64,18 +100,21 @@ struct SignalStop::Listener {
 SignalStop::SignalStop() : listener_(std::make_unique<Listener>()) {
     if (::pipe(listener_->ends) != 0) return;
     signal_pipe = listener_->ends[1];
-    listener_->thread = std::thread([this] {
-        char letter = 0;
-        if (::read(listener_->ends[0], &letter, 1) == 1 && letter == 's') source_.request_stop();
-    });
-    std::signal(SIGINT, tell_pipe);
-    std::signal(SIGTERM, tell_pipe);
+    try {
+        listener_->thread = std::thread([this] {
+            char letter = 0;
+            if (::read(listener_->ends[0], &letter, 1) == 1 && letter == 's')
+                source_.request_stop();
+        });
+    } catch (const std::system_error&) {
+        return;
+    }
+    handle_stop_signals(tell_pipe);
 }
 
 SignalStop::~SignalStop() {
     if (!listener_->thread.joinable()) return;
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    handle_stop_signals(SIG_DFL);
     const char letter = 'q';
     if (::write(listener_->ends[1], &letter, 1) != 1) std::terminate();
     listener_->thread.join();

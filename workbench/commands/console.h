@@ -9,8 +9,11 @@
 
 namespace vesselbench {
 
-/// Turns SIGINT and SIGTERM into a stop request for as long as it lives; a second signal ends the
-/// program at once.
+/// Turns SIGINT, SIGTERM and SIGHUP into a stop request for as long as it lives. Another one ends
+/// the program at once if it comes at least 2 s after the first: some senders send two in a row
+/// (coreutils' timeout: to its child, then to its group). A signal that the program was started to
+/// ignore (a shell's background job, nohup) stays ignored. If the system has no pipe or thread left
+/// for it, the signals end the program, as they do without it.
 class SignalStop {
 public:
     SignalStop();

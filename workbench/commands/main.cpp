@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stop_token>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -25,10 +26,9 @@ int tell(const char* text, int code) {
     return code;
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, const std::stop_token& stop) {
     try {
-        const vesselbench::SignalStop signals;
-        return vesselbench::run_command_line(argc, argv, signals.token());
+        return vesselbench::run_command_line(argc, argv, stop);
     } catch (const vesselbench::UsageError& error) {
         return tell(error.what(), kWrongUsage);
     } catch (const vesselbench::InvalidInput& error) {
@@ -60,13 +60,14 @@ int with_output_written(int code) {
 
 int main(int argc, char** argv) {
     if (argc == 2 && std::string_view(argv[1]) == "--worker") {
-        for (const int signal : {SIGINT, SIGTERM})  // sent to the whole group: the session stops
-            std::signal(signal, SIG_IGN);           // and ends its worker itself
+        // Sent to the whole group: the session stops and ends its worker itself.
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
         return vesselbench::worker_main(vesselbench::find_operation);
     }
     // A full disk or a closed pipe then causes a failed write, which is reported and cleaned
     // up.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    return with_output_written(run(argc, argv));
+    const vesselbench::SignalStop signals;
+    return with_output_written(run(argc, argv, signals.token()));
 }
