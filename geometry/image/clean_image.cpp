@@ -20,9 +20,9 @@ Image with_voxels(const Image& image, std::vector<float> voxels) {
 
 /// Half of a Gaussian kernel, from its centre outward.
 std::vector<double> half_kernel(double sigma_voxels) {
-    constexpr double kCut = 4.0;  // standard deviations
-    std::vector<double> kernel;
-    for (int i = 0; i <= static_cast<int>(std::ceil(kCut * sigma_voxels)); ++i)
+    constexpr double kCut = 4.0;         // standard deviations
+    std::vector<double> kernel = {1.0};  // also where the square of sigma is too small for a number
+    for (int i = 1; i <= static_cast<int>(std::ceil(kCut * sigma_voxels)); ++i)
         kernel.push_back(std::exp(-0.5 * i * i / (sigma_voxels * sigma_voxels)));
     return kernel;
 }

@@ -8,6 +8,7 @@
 
 #include "geometry/image/lines.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -28,11 +29,14 @@ Image cubic_grid(const Image& image, double edge) {
         const double n = std::floor((image.size[a] - 1) * spacing[axis] / edge + kSlack) + 1.0;
         count *= n;
         if (count > kMostVoxels)
-            throw InvalidInput("resampling to voxels of " + std::to_string(edge) +
+            throw InvalidInput("resampling to voxels of " + formatted(edge) +
                                " mm gives more than 2^30 voxels; crop the image or take a larger "
                                "edge");
         grid.size[a] = static_cast<int>(n);
     }
+    if (count == 1.0)
+        throw InvalidInput("resampling to voxels of " + formatted(edge) +
+                           " mm leaves a single one of the image; take a smaller edge");
     grid.index_to_patient = image.index_to_patient;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
         grid.index_to_patient.block<3, 1>(0, axis) *= edge / spacing[axis];

@@ -9,7 +9,8 @@ namespace vesselbench {
 /// Source: Unser, Aldroubi, Eden, "B-spline signal processing: part II", IEEE Trans. Signal
 /// Processing 1993; thesis 3.2.3.
 /// \param edge length of the new voxels [mm], > 0
-/// \throw InvalidInput if edge is not above 0, or the result would have more than 2^30 voxels
+/// \throw InvalidInput if edge is not above 0, or the result would have more than 2^30 voxels or a
+/// single one
 [[nodiscard]] Image resample_intensities(const Image& image, double edge);
 
 /// Resamples a mask (inside where >= 0.5) to cubic voxels by shape: the signed distances to the

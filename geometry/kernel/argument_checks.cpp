@@ -4,6 +4,8 @@
 #include <sstream>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -19,6 +21,15 @@ void require_positive(const char* name, double value) {
     std::ostringstream text;
     text << name << " = " << value << " must be positive and finite";
     throw InvalidInput(text.str());
+}
+
+void require_in_proportion(const char* name, double length, const Surface& surface, double most) {
+    const double extent = bounds(surface).diagonal();
+    if (!(extent > 0.0) || length <= most * extent) return;
+    throw AlgorithmFailure(name +
+                           formatted(length, " = %.3g mm is out of proportion to the model") +
+                           formatted(extent, ", which is %.3g mm across: ") +
+                           formatted(most * extent, "give at most %.3g mm"));
 }
 
 }  // namespace vesselbench

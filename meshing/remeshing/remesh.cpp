@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -295,10 +297,29 @@ double thin_radius(std::vector<double> radii, const std::vector<double>& opening
     return thin;
 }
 
+/// Targets below this fraction of the model's extent overflow where triangles are counted [-].
+constexpr double kShortestGiven = 1e-6;
+
+/// \throw AlgorithmFailure that names an edge length out of proportion to the model
+void check_extent(const Surface& surface, const RemeshParameters& parameters, double usual_radius) {
+    const double least = kShortestGiven * bounds(surface).diagonal();
+    for (const auto& [name, edge] : {std::pair("edge", parameters.edge),
+                                     {"min_edge", parameters.min_edge},
+                                     {"max_edge", parameters.max_edge}})
+        if (edge && *edge < least)
+            throw AlgorithmFailure(
+                name + formatted(*edge, " = %.3g mm is less than a millionth of the model; ") +
+                formatted(kEdgePerRadius * usual_radius, "edge=%.2g suits it"));
+    // A max_edge longer than the model limits nothing.
+    if (parameters.edge) require_in_proportion("edge", *parameters.edge, surface, 1.0);
+    if (parameters.min_edge) require_in_proportion("min_edge", *parameters.min_edge, surface, 1.0);
+}
+
 RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
                      const std::vector<double>& radii, const std::vector<double>& openings) {
     RemeshReport report;
     report.usual_radius = usual_radius(surface, radii);
+    check_extent(surface, parameters, report.usual_radius);
     report.edge = parameters.edge.value_or(kEdgePerRadius * report.usual_radius);
     // A tree may have twigs far thinner than its trunk: they need edges of their own size.
     report.min_edge = parameters.min_edge.value_or(

@@ -57,8 +57,8 @@ struct Remeshed {
 /// \throw InvalidInput if a parameter is out of its range or the surface is not a manifold;
 ///        AlgorithmFailure that names the place if the result would intersect itself and
 ///        its walls cannot be separated; or that names an edge length if the one asked for makes
-///        more than 10 million triangles, or is so coarse that a fifth of the volume is lost;
-///        Cancelled
+///        more than 10 million triangles, is longer than the surface's bounding box or shorter than
+///        a millionth of it, or is so coarse that a fifth of the volume is lost; Cancelled
 [[nodiscard]] Remeshed remesh(const Surface& surface, const RemeshParameters& parameters = {},
                               const CenterlineGraph* lines = nullptr,
                               const Progress& progress = {});

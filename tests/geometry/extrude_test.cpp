@@ -12,6 +12,7 @@
 
 using namespace vesselbench;
 using namespace vesselbench::test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -134,5 +135,15 @@ SCENARIO("An extrusion stops before it hits another vessel", "[geometry][extrude
         CHECK_THROWS_AS(extrude_opening(tube, 0, {.length = 1.0}), InvalidInput);
         CHECK_THROWS_AS(extrude_opening(tube, 2, {.length = 0.0}), InvalidInput);
         CHECK_THROWS_AS(extrude_opening(tube, 7, {.length = 1.0}), InvalidInput);
+    }
+    GIVEN("a length in another unit") {
+        for (const double length : {1e4, 1e5, 1e308})
+            CHECK_THROWS_WITH(extrude_opening(tube, 2, {.length = length}),
+                              Contains("out of proportion") && Contains("give at most 2.08e+03"));
+    }
+    GIVEN("a rim so fine that the tube would fill the memory") {
+        const Surface fine = closed_tube(2.0, 20.0, 6000, 1);
+        CHECK_THROWS_WITH(extrude_opening(fine, 2, {.length = 50.0}),
+                          Contains("4 million triangles") && Contains("use length="));
     }
 }

@@ -122,6 +122,7 @@ SCENARIO("Gaussian and diffusion remove noise; diffusion keeps the edge", "[imag
     }
     THEN("what is given nothing to do does nothing") {
         CHECK(*gaussian(clean, 0.0).voxels == *clean.voxels);
+        CHECK(*gaussian(clean, 1e-308).voxels == *clean.voxels);
         CHECK(*diffuse(clean, {.iterations = 0}).voxels == *clean.voxels);
     }
 }
@@ -200,6 +201,8 @@ SCENARIO("Resampling to cubic voxels keeps the place and the shape", "[images][r
         const Image ball = ball_image(5.0, 20, Vec3(1, 1, 1));
         CHECK_THROWS_AS(resample_intensities(ball, 0.0), InvalidInput);
         CHECK_THROWS_AS(resample_intensities(ball, 1e-3), InvalidInput);
+        CHECK_THROWS_AS(resample_intensities(ball, 1e308), InvalidInput);
+        CHECK_THROWS_AS(resample_mask(ball, 1e308), InvalidInput);
     }
 }
 

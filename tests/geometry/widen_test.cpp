@@ -87,3 +87,9 @@ SCENARIO("The corner at an oblique cap is no narrow place", "[geometry][widen]")
 SCENARIO("A width that is not positive is refused", "[geometry][widen]") {
     CHECK_THROWS_AS(widen(closed_tube(2.0, 30.0, 12, 10), 0.0), InvalidInput);
 }
+
+SCENARIO("A width in another unit is refused", "[geometry][widen]") {
+    const Surface tube = closed_tube(2.0, 30.0, 12, 10);
+    CHECK_THROWS_AS(widen(tube, 100.0), AlgorithmFailure);
+    CHECK_THROWS_WITH(narrow_places(tube, 1e308), Catch::Contains("width = 1e+308"));
+}

@@ -334,6 +334,22 @@ SCENARIO("An edge that makes too many triangles, or loses the vessel, is refused
     CHECK_THAT(refusal(0.001), Catch::Contains("million triangles") && Catch::Contains("edge="));
     CHECK_THAT(refusal(3.0), Catch::Contains("too coarse") && Catch::Contains("edge=0.14"));
     CHECK(refusal(0.2).empty());
+    for (const double edge : {21.0, 1e6, 1e308})  // micrometres
+        CHECK_THAT(refusal(edge),
+                   Catch::Contains("edge = ") && Catch::Contains("give at most 20 mm"));
+    for (const double edge : {1e-308, 1e-6})
+        CHECK_THAT(refusal(edge), Catch::Contains("a millionth") && Catch::Contains("edge=0.14"));
+}
+
+SCENARIO("Limits of edges out of proportion to the model are refused", "[meshing][remesh]") {
+    const Surface tube = closed_tube(0.5, 20.0, 24, 60);
+    CHECK_THROWS_WITH(remesh(tube, {.edge = 1e6, .min_edge = 1e6}),
+                      Catch::Contains("edge = 1e+06"));
+    CHECK_THROWS_WITH(remesh(tube, {.min_edge = 1e6, .max_edge = 1e6}),
+                      Catch::Contains("min_edge = 1e+06"));
+    CHECK_THROWS_WITH(remesh(tube, {.min_edge = 1e-308, .max_edge = 1e-308}),
+                      Catch::Contains("min_edge = 1e-308"));
+    CHECK_NOTHROW(remesh(tube, {.edge = 0.2, .max_edge = 1e308}));  // no limit
 }
 
 SCENARIO("Bad parameters and bad surfaces are refused", "[meshing][remesh]") {

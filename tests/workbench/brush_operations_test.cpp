@@ -197,6 +197,8 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
     CHECK_THROWS_AS(run(name, tube, {{"dabs", stroke(0.5)}, {"at", Vec3(2, 0, 6)}}), UsageError);
     CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 0.0}}),
                       Catch::Contains("'radius'") && Catch::Contains("above 0 mm"));
+    CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 1e6}}),
+                      Catch::Contains("radius = 1e+06") && Catch::Contains("give at most"));
     CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 1.0}, {"falloff", -1.0}}),
                       Catch::Contains("'falloff'") && Catch::Contains("0 to 1"));
     CHECK_THROWS_AS(run(name, tube, {{"dabs", std::vector<double>{1, 2, 3}}}), UsageError);

@@ -9,6 +9,7 @@
 
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/rims.h"
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/collision.h"
@@ -26,7 +27,9 @@ constexpr double kFreeAtSides = 0.1;
 constexpr double kLeastDiameters = 0.5;
 constexpr double kLargestFlatness = 0.01;  // of the diameter
 constexpr std::size_t kFewestCorners = 12;
-constexpr double kSteepest = 0.5;                             // cosine between direction and normal
+constexpr double kMostExtents = 100.0;  // of the surface, as long as a tube may be
+constexpr double kMostTriangles = 4e6;  // of a tube: more would only fill the memory
+constexpr double kSteepest = 0.5;       // cosine between direction and normal
 constexpr double kLayersPerEdge = 2.0 / std::numbers::sqrt3;  // near-equilateral triangles
 
 /// The way of a cap's centre for 1 mm of height above the cap.
@@ -61,6 +64,11 @@ public:
 
     int layers(double length) const {
         return std::max(1, static_cast<int>(std::lround(length / edge_ * kLayersPerEdge)));
+    }
+
+    /// Length of a tube of so many triangles [mm].
+    double length_of(double triangles) const {
+        return triangles / (2.0 * static_cast<double>(corners_)) * edge_ / kLayersPerEdge;
     }
 
     /// Fractions of the perimeter of the k-th ring's points; ring 0 is the rim itself.
@@ -213,6 +221,7 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
                           const ExtrusionParameters& parameters) {
     const PatchShape shape = patch_shape(surface, patch);
     check(surface, patch, shape, parameters);
+    require_in_proportion("length", parameters.length, surface, kMostExtents);
     const PatchRim rim = patch_rim(surface, patch);
     Positions corners;
     for (const VertexId v : rim.loop) corners.push_back(shape.plane.projected(surface.points()[v]));
@@ -222,6 +231,12 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     ExtrusionParameters used = parameters;
     used.length = height;
     const Tube wanted(profile, shape.plane, used);
+    if (const double most = way * wanted.length_of(kMostTriangles); parameters.length > most)
+        throw AlgorithmFailure(
+            "an extrusion of '" + surface.patches[patch].name + "' by " +
+            formatted(parameters.length) +
+            formatted(kMostTriangles / 1e6, " mm would make more than %g million triangles: ") +
+            formatted(most, "use length=%.3g or less"));
     const Surface rest = extruder.without_cap();
     if (parameters.may_shorten)
         used.length = std::min(height, free_length(rest, wanted, height, 1.0));

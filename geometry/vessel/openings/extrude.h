@@ -10,7 +10,8 @@ namespace vesselbench {
 enum class ExtrusionProfile { Keep, Circle };
 
 struct ExtrusionParameters {
-    double length = 0.0;  ///< [mm], > 0, along the direction
+    /// [mm], > 0, along the direction; at most 100 diagonals of the surface's bounding box.
+    double length = 0.0;
     /// Out of the vessel, at most 60 degrees from the cap's normal, any length but 0; none: the
     /// normal. Sections stay parallel to the cap.
     std::optional<Vec3> direction = {};
@@ -33,7 +34,8 @@ struct Extrusion {
 /// contact. There is no room for it with less than half a diameter free, or if it must not be
 /// shortened and would meet the surface.
 /// \throw InvalidInput if there is no such patch, or a parameter is out of its range
-/// \throw AlgorithmFailure if the cap is not flat or not a single disc
+/// \throw AlgorithmFailure if the cap is not flat or not a single disc; or that names the length
+/// possible if the one asked for is too long, or needs more than 4 million triangles
 [[nodiscard]] Extrusion extrude_opening(const Surface& surface, std::size_t patch,
                                         const ExtrusionParameters& parameters);
 

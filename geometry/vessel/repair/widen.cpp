@@ -122,17 +122,22 @@ bool any_narrow(const std::vector<double>& widths) {
     return std::ranges::any_of(widths, [](double width) { return width > 0.0; });
 }
 
+void check_width(const Surface& surface, double width) {
+    require_positive("width", width);
+    require_in_proportion("width", width, surface, 1.0);
+}
+
 }  // namespace
 
 std::vector<NarrowPlace> narrow_places(const Surface& surface, double width,
                                        const Progress& progress) {
-    require_positive("width", width);
+    check_width(surface, width);
     const Widening widening(surface, width);
     return widening.places(widening.narrow_widths(surface, progress));
 }
 
 Positions widen(const Surface& surface, double width, const Progress& progress) {
-    require_positive("width", width);
+    check_width(surface, width);
     const Widening widening(surface, width);
     Surface now = surface;
     std::vector<double> widths = widening.narrow_widths(surface, progress);

@@ -14,7 +14,8 @@ struct NarrowPlace {
 };
 
 /// Where the lumen is narrower than `width` [mm], narrowest first; caps and rims do not count.
-/// \throw InvalidInput without a triangle or with a width that is not positive; Cancelled
+/// \throw InvalidInput without a triangle or with a width that is not positive; AlgorithmFailure if
+/// it is longer than the diagonal of the surface's bounding box; Cancelled
 [[nodiscard]] std::vector<NarrowPlace> narrow_places(const Surface& surface, double width,
                                                      const Progress& progress = {});
 

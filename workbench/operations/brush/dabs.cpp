@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 
@@ -71,11 +72,15 @@ bool contradict(const Arguments& arguments, const std::vector<Dab>& dabs) {
 /// A place farther away from the surface is of another model, or in another unit [radii].
 constexpr double kFarthest = 10.0;
 
+/// The way along a winding vessel is a few of its extents [diagonals of the bounding box].
+constexpr double kLargest = 10.0;
+
 Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance& places,
                Outcome& outcome) {
     const Arguments& arguments = outcome.resolved;
     if (!arguments.has("at") || !arguments.has("radius")) throw_without_dabs(use);
     const double radius = arguments.real("radius");
+    require_in_proportion("radius", radius, surface, kLargest);
     const Vec3 at = arguments.point("at");
     const Dab dab{.anchor = nearest_anchor(surface, places, at, radius),
                   .radius = radius,
