@@ -129,6 +129,40 @@ SCENARIO("Output that cannot be written is a failure", "[workbench][command-line
     }
 }
 
+SCENARIO("With --json, a failure is a document, too", "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), ball = folder + "/ball.vtp";
+    vesselbench::write_surface(icosphere(5.0, 3), ball);
+    const std::string project = folder + "/ball.vbench";
+    REQUIRE(run({"new", project, ball}).exit_code == 0);
+    const auto failure = [](std::vector<std::string> arguments, int code) {
+        const ProgramRun plain = run(arguments);
+        CHECK(plain.out.empty());
+        arguments.emplace_back("--json");
+        const ProgramRun result = run(arguments);
+        INFO(arguments.front() << ": " << result.err);
+        CHECK(result.exit_code == code);
+        CHECK(result.err == plain.err);
+        const Json json = Json::parse(result.out);
+        CHECK(json["code"] == code);
+        CHECK("vesselbench: " + json["error"].get<std::string>() + "\n" == result.err);
+        CHECK_FALSE(json.contains("diagnostics"));
+        return json;
+    };
+    CHECK_FALSE(failure({"operations", "smoth"}, 2).contains("edit"));
+    failure({"measure", folder + "/no.vtp"}, 3);
+    failure({"apply", project, "extract-surface"}, 1);
+    CHECK(failure({"change", project, "7"}, 2)["edit"] == 7);
+    CHECK(failure({"remove", project, "8"}, 2)["edit"] == 8);
+    THEN("so it is where the arguments cannot be parsed, or are not UTF-8") {
+        const ProgramRun refused = run({"log", "--json"});
+        CHECK(refused.exit_code == 2);
+        CHECK_THAT(Json::parse(refused.out)["error"].get<std::string>(), Contains("PROJECT"));
+        const ProgramRun named = run({"measure", folder + "/\xff.vtp", "--json"});
+        CHECK(named.exit_code == 3);
+        CHECK(Json::parse(named.out)["code"] == 3);
+    }
+}
+
 SCENARIO("The operation table is printed for people and for programs",
          "[workbench][command-line]") {
     const Json table = Json::parse(run({"operations", "--json"}).out);

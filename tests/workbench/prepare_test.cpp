@@ -280,7 +280,7 @@ SCENARIO("An end that should be open ends prepare with a command that goes on",
         command.insert(command.end(), more.begin(), more.end());
         return run(command);
     };
-    const ProgramRun stopped = prepared({});
+    const ProgramRun stopped = prepared({"--json"});
     INFO(stopped.err);
     REQUIRE(stopped.exit_code == 1);
     std::size_t listed = 0;
@@ -292,6 +292,12 @@ SCENARIO("An end that should be open ends prepare with a command that goes on",
     REQUIRE_FALSE(diagnostics.empty());
     CHECK(diagnostics[0]["code"] == "end-in-doubt");
     CHECK(diagnostics[0]["remedies"][0]["commands"][0].back() == "clip-opening.accept_doubts=true");
+    const Json printed = Json::parse(stopped.out)["diagnostics"];
+    REQUIRE(printed.size() == diagnostics.size());
+    CHECK(printed[0]["place_mm"] == diagnostics[0]["place_mm"]);
+    CHECK(printed[0]["figures"] == diagnostics[0]["figures"]);
+    CHECK(printed[0]["remedies"][0]["operation"] == "clip-opening");
+    CHECK(printed[0]["remedies"][0]["arguments"]["accept_doubts"] == "true");
     const std::vector<std::string> way_on = options_in(stopped.err);
     REQUIRE(way_on.size() == 3);
     const ProgramRun resumed = prepared(way_on);

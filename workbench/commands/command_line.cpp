@@ -1,10 +1,12 @@
 #include "workbench/commands/command_line.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
@@ -125,15 +127,21 @@ std::string help_hint(const CLI::App& app) {
     return " (see 'vesselbench " + command + "--help')";
 }
 
+/// An option of the chosen command; null: it has none of this name, or was not given it.
+const CLI::Option* given_option(const CLI::App& app, const char* name) {
+    const auto chosen = app.get_subcommands();
+    if (chosen.empty()) return nullptr;
+    const CLI::Option* found = chosen.front()->get_option_no_throw(name);
+    return found != nullptr && found->count() > 0 ? found : nullptr;
+}
+
 /// The project that the command works on; empty: none.
 std::string project_of(const CLI::App& app) {
-    const auto chosen = app.get_subcommands();
-    if (chosen.empty()) return "";
-    const auto value = [&](const char* option) {
-        const CLI::Option* found = chosen.front()->get_option_no_throw(option);
-        return found != nullptr && found->count() > 0 ? found->as<std::string>() : "";
+    const auto value = [&](const char* name) {
+        const CLI::Option* given = given_option(app, name);
+        return given != nullptr ? given->as<std::string>() : "";
     };
-    if (chosen.front()->get_name() == "prepare")
+    if (app.got_subcommand("prepare"))
         return (std::filesystem::path(value("--out")) / "project.vbench").string();
     return value("PROJECT");
 }
@@ -148,6 +156,8 @@ int run_command(const CommandLine& line) {
         throw UsageError(with_project(error.what(), project));
     } catch (const InvalidInput& error) {
         throw InvalidInput(with_project(error.what(), project));
+    } catch (const DiagnosedFailure& error) {
+        throw DiagnosedFailure(with_project(error.what(), project), error.diagnostics());
     } catch (const AlgorithmFailure& error) {
         throw AlgorithmFailure(with_project(error.what(), project));
     }
@@ -155,10 +165,12 @@ int run_command(const CommandLine& line) {
 
 }  // namespace
 
-int run_command_line(int argc, char** argv, const std::stop_token& stop) {
+int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedCommand& command) {
     CommandLine line(stop);
     set_up(line);
     std::vector<std::string> arguments = arguments_of(argc, argv);
+    // Not asked from the parser: it may refuse another argument first.
+    command.json = std::ranges::find(arguments, "--json") != arguments.end();
     refuse_unknown_command(line.app, arguments);
     std::ranges::reverse(arguments);  // as the parser wants them
     try {
@@ -172,6 +184,8 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop) {
         show_window(line);
         return 0;
     }
+    if (const CLI::Option* edit = given_option(line.app, "EDIT"))
+        command.edit = edit->as<std::int64_t>();
     return run_command(line);
 }
 

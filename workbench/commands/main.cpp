@@ -5,12 +5,15 @@
 #include <new>
 #include <stop_token>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/failure.h"
 #include "workbench/operations/table.h"
 #include "workbench/worker/worker.h"
 
@@ -21,28 +24,30 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
 
-int tell(const char* text, int code) {
-    vesselbench::complain(text);
-    return code;
-}
-
 int run(int argc, char** argv, const std::stop_token& stop) {
+    vesselbench::FailedCommand command;
+    const auto fail = [&](const char* text, int code,
+                          const std::vector<vesselbench::Diagnostic>& diagnostics = {}) {
+        return vesselbench::report_failure({text, code, diagnostics}, command);
+    };
     try {
-        return vesselbench::run_command_line(argc, argv, stop);
+        return vesselbench::run_command_line(argc, argv, stop, command);
     } catch (const vesselbench::UsageError& error) {
-        return tell(error.what(), kWrongUsage);
+        return fail(error.what(), kWrongUsage);
     } catch (const vesselbench::InvalidInput& error) {
-        return tell(error.what(), kBadInput);
+        return fail(error.what(), kBadInput);
     } catch (const vesselbench::Cancelled&) {
-        return tell("stopped (cancelled); what was finished before is kept", kFailed);
+        return fail("stopped (cancelled); what was finished before is kept", kFailed);
     } catch (const vesselbench::IoError& error) {
-        return tell(error.what(), kBadInput);
+        return fail(error.what(), kBadInput);
+    } catch (const vesselbench::DiagnosedFailure& error) {
+        return fail(error.what(), kFailed, error.diagnostics());
     } catch (const nlohmann::json::exception&) {
-        return tell("stored or given JSON data are not as expected", kFailed);
+        return fail("stored or given JSON data are not as expected", kFailed);
     } catch (const std::bad_alloc&) {
-        return tell("not enough memory for this model: crop it or make it coarser", kFailed);
+        return fail("not enough memory for this model: crop it or make it coarser", kFailed);
     } catch (const std::exception& error) {
-        return tell(error.what(), kFailed);
+        return fail(error.what(), kFailed);
     }
 }
 
@@ -52,8 +57,9 @@ int with_output_written(int code) {
     std::cout.flush();
     const bool flushed = std::fflush(stdout) == 0;
     if (code != 0 || (flushed && std::cout && std::ferror(stdout) == 0)) return code;
-    return tell("the output could not be written: its disk is full, or its reader has ended",
-                kFailed);
+    vesselbench::complain(
+        "the output could not be written: its disk is full, or its reader has ended");
+    return kFailed;
 }
 
 }  // namespace

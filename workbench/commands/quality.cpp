@@ -165,8 +165,9 @@ void draw_quality(const QualityOptions& options, const Progress& progress) {
                                 ? quality_bars_svg(figures(), title, order_from(options.sort))
                                 : quality_graphs_svg(figures(), title));
     }
-    if (options.json) std::cout << json_of(figures()).dump(2) << "\n";
+    const std::string json = options.json ? json_of(figures()).dump(2) + "\n" : "";
     files.commit();
+    std::cout << json;
     if (options.json) return;
     for (const std::string& out : options.out) std::cout << "wrote " << out << "\n";
 }

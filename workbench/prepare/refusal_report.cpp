@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "workbench/operations/table.h"
+#include "workbench/case/diagnostic_json.h"
 
 namespace vesselbench {
 
@@ -49,15 +49,11 @@ Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
     return commands;
 }
 
-Json diagnostic_json(const PrepareOptions& options, const Diagnostic& diagnostic) {
-    Json json = {{"code", diagnostic.code}, {"place_mm", nullptr}, {"figures", diagnostic.figures}};
-    if (const auto& place = diagnostic.place)
-        json["place_mm"] = {place->x(), place->y(), place->z()};
-    json["remedies"] = Json::array();
-    for (const Remedy& remedy : diagnostic.remedies)
-        json["remedies"].push_back({{"operation", remedy.operation},
-                                    {"arguments", remedy.arguments},
-                                    {"commands", commands_of(options, remedy)}});
+/// With the commands of each remedy.
+Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic) {
+    Json json = diagnostic_json(diagnostic);
+    for (std::size_t i = 0; i < diagnostic.remedies.size(); ++i)
+        json["remedies"][i]["commands"] = commands_of(options, diagnostic.remedies[i]);
     return json;
 }
 
@@ -66,7 +62,7 @@ Json diagnostic_json(const PrepareOptions& options, const Diagnostic& diagnostic
 Json refusal_json(const PrepareOptions& options, const DiagnosedFailure& failure) {
     Json diagnostics = Json::array();
     for (const Diagnostic& diagnostic : failure.diagnostics())
-        diagnostics.push_back(diagnostic_json(options, diagnostic));
+        diagnostics.push_back(with_commands(options, diagnostic));
     return {{"purpose", options.purpose},
             {"stopped", {{"text", failure.what()}, {"diagnostics", std::move(diagnostics)}}}};
 }

@@ -1,0 +1,35 @@
+#include "workbench/commands/failure.h"
+
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/case/diagnostic_json.h"
+#include "workbench/commands/console.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json failure_json(const Failure& failure, const FailedCommand& command) {
+    Json json = {{"error", failure.text}, {"code", failure.code}};
+    if (command.edit) json["edit"] = *command.edit;
+    for (const Diagnostic& diagnostic : failure.diagnostics)
+        json["diagnostics"].push_back(diagnostic_json(diagnostic));
+    return json;
+}
+
+}  // namespace
+
+int report_failure(const Failure& failure, const FailedCommand& command) {
+    complain(failure.text);
+    if (command.json)  // a text may quote a file's name, which need not be UTF-8
+        std::cout
+            << failure_json(failure, command).dump(2, ' ', false, Json::error_handler_t::replace)
+            << "\n";
+    return failure.code;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/diagnostic.h"
+
+namespace vesselbench {
+
+/// What is known of a command when it fails.
+struct FailedCommand {
+    bool json = false;                 ///< --json was given
+    std::optional<std::int64_t> edit;  ///< that it names (EDIT); none: no such argument
+};
+
+/// Why a command failed.
+struct Failure {
+    std::string text;
+    int code = 1;  ///< exit code
+    std::vector<Diagnostic> diagnostics = {};
+};
+
+/// Writes the failure's line to stderr; with --json also a JSON document to stdout: error, code,
+/// and edit and diagnostics if there are any.
+/// \return the exit code
+int report_failure(const Failure& failure, const FailedCommand& command);
+
+}  // namespace vesselbench
