@@ -225,6 +225,34 @@ SCENARIO("Two processes on one project: the second is read-only", "[session][pro
     }
 }
 
+SCENARIO("A project is created under its lock", "[session][project]") {
+    const std::string file = new_project(), other = file + ".earlier";
+    const auto put_away = [&] { fs::rename(file, other); };
+    WHEN("another process has one of this name open") {
+        Helper writer("hold", file);
+        REQUIRE(writer.line() == "writing");
+        const std::string text =
+            error_of<IoError>([&] { (void)Session::create(file, options(), put_away); });
+        CHECK(text.find("process " + std::to_string(writer.pid())) != std::string::npos);
+        CHECK_FALSE(fs::exists(other));
+    }
+    WHEN("nobody has") {
+        std::string while_made;
+        Session session = Session::create(file, options(), [&] {
+            while_made = Session::open(file, options()).read_only_reason();
+            put_away();
+        });
+        CHECK(while_made.find("has it open") != std::string::npos);
+        CHECK(session.log().empty());
+        CHECK(Session::open(other, options()).log().size() == 1);
+        THEN("nothing is left when it is discarded") {
+            session.discard();
+            session = Session::unsaved(options());
+            CHECK(std::distance(fs::directory_iterator(fs::path(file).parent_path()), {}) == 1);
+        }
+    }
+}
+
 SCENARIO("A read-only session runs pending edits for itself only", "[session][project]") {
     const std::string file = new_project();
     Session writer = Session::open(file, options());

@@ -18,6 +18,7 @@
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/recipe_warnings.h"
 #include "workbench/prepare/refusal_report.h"
+#include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/session/stored_texts.h"
 
@@ -32,59 +33,6 @@ constexpr const char* kProject = "project.vbench";
 
 /// Fraction of the progress for the edits; the rest is for reports and files.
 constexpr double kEditsShare = 0.8;
-
-/// Removes a project that is empty because its first edit failed.
-void remove_project(const fs::path& project) {
-    std::error_code ignored;
-    for (const char* suffix : {"", "-wal", "-shm", "-journal"})
-        fs::remove(project.string() + suffix, ignored);
-}
-
-/// Removes all traces of a run on an unusable input.
-void clear_away(const fs::path& project, bool new_folder) {
-    remove_project(project);
-    std::error_code ignored;
-    if (new_folder) fs::remove(project.parent_path(), ignored);  // keeps a folder that is not empty
-}
-
-/// An earlier project is kept as project.1.vbench, project.2.vbench ..., another result likewise.
-void keep_earlier(const fs::path& file, const Teller& tell) {
-    if (!fs::exists(file)) return;
-    fs::path other;
-    for (int number = 1; other.empty() || fs::exists(other); ++number)
-        other = file.parent_path() /
-                (file.stem().string() + "." + std::to_string(number) + file.extension().string());
-    std::error_code error;
-    for (const char* suffix : {"", "-wal"})
-        if (fs::exists(file.string() + suffix))
-            fs::rename(file.string() + suffix, other.string() + suffix, error);
-    const std::string name = file.filename().string();
-    if (error) throw IoError("the existing '" + name + "' cannot be renamed: " + error.message());
-    tell("the existing " + name + " was renamed to " + other.filename().string());
-}
-
-/// What an export may not replace, such as the results of a flow, is kept.
-void keep_earlier_products(const PrepareOptions& options, const Teller& tell) {
-    for (const std::string& name : product_names(options.purpose)) try {
-            check_export_place(options.out / name);
-        } catch (const IoError&) {
-            keep_earlier(options.out / name, tell);
-        }
-}
-
-/// Products of another purpose are not of this model.
-void name_other_products(const PrepareOptions& options, const Teller& tell) {
-    const std::vector<std::string> own = product_names(options.purpose);
-    std::vector<std::string> others;
-    for (const Purpose& purpose : purposes())
-        for (const std::string& name : purpose.products)
-            if (std::ranges::count(own, name) + std::ranges::count(others, name) == 0 &&
-                fs::exists(options.out / name))
-                others.push_back(name);
-    if (!others.empty())
-        tell("warning: " + enumerated(others) + " in this folder " +
-             (others.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
-}
 
 /// \throw UsageError if a result would replace what it is made from
 void refuse_own_input(const PrepareOptions& options, const Input& input) {
@@ -136,6 +84,14 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
     return recipe;
 }
 
+/// The folder's project: a new one, for which an earlier one is renamed while no other process can
+/// open it for writing, or the one that is resumed.
+Session opened_project(const PrepareOptions& options, const Teller& tell) {
+    const fs::path project = options.out / kProject;
+    if (options.resume) return resumed(project, options.purpose);
+    return Session::create(project, {.find = find_operation}, [&] { keep_earlier(project, tell); });
+}
+
 /// So that a reopened project has them.
 void keep_recipes(const fs::path& project, const Input& input) {
     if (input.recipes) store_text(project, StoredText::Recipes, input.recipes->dump());
@@ -154,6 +110,18 @@ void tell_rest(const Recipe& rest, const std::vector<std::string>& removed,
                     joined(removed) + "): ") +
          (pending == 0 ? "" : "running " + counted(pending, "pending edit") + ", then ") +
          "writing the results");
+}
+
+/// What is left of the recipe in a resumed project.
+/// \param settings of the recipe's edits
+Recipe rest_in(Session& session, const Recipe& recipe, const PrepareOptions& options,
+               const std::vector<std::string>& settings, const Teller& tell) {
+    const auto made = session.snapshot();
+    const auto removed = removed_entries(recipe, *made, options.purpose);
+    Recipe rest = rest_of(recipe, *made, options.purpose);
+    refuse_late_settings(settings, rest, made->log);
+    tell_rest(rest, removed, made->log, tell);
+    return rest;
 }
 
 /// What was given of the flow, if it is of use; a resumed preparation says where it is from.
@@ -197,7 +165,7 @@ std::string make_model(Session& session, const Recipe& recipe, const PrepareOpti
 
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
-    keep_earlier_products(options, tell);
+    keep_earlier_products(options.out, options.purpose, tell);
     PendingFiles files;
     progress.report(0.0, "writing the products");
     prepared.products =
@@ -208,7 +176,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
                    report_html(report.document, report.pictures, report.sections));
     progress.check_cancelled();
     files.commit();
-    name_other_products(options, tell);
+    name_other_products(options.out, options.purpose, tell);
     return {prepared.products, report.warnings};
 }
 
@@ -247,20 +215,13 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     prepared.flow = flow.parameters();
     Recipe recipe = recipe_for(for_recipe, input);
     refuse_own_input(options, input);
-    const bool new_folder = !fs::exists(options.out);
-    make_folder(options.out);
-    if (!options.resume) keep_earlier(project, tell);
+    const ResultFolder folder(options.out);
+    Session session = opened_project(options, tell);
     bool any_edit = options.resume;
     try {
-        Session session = options.resume ? resumed(project, options.purpose)
-                                         : Session::create(project, {.find = find_operation});
         if (options.resume) {
             refuse_other_input(session, input);
-            const auto made = session.snapshot();
-            const auto removed = removed_entries(recipe, *made, options.purpose);
-            recipe = rest_of(recipe, *made, options.purpose);
-            refuse_late_settings(for_recipe.arguments, recipe, made->log);
-            tell_rest(recipe, removed, made->log, tell);
+            recipe = rest_in(session, recipe, options, for_recipe.arguments, tell);
             tell_flow(options, flow, tell);
         } else {
             keep_recipes(project, input);
@@ -273,10 +234,10 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         return finished(session, recipe, options, std::move(prepared), noting,
                         progress.part(0.02, 1.0));
     } catch (const UnusableSource&) {
-        if (!options.resume) clear_away(project, new_folder);
+        if (!options.resume) session.discard();
         throw;
     } catch (const UsageError&) {
-        if (!any_edit) clear_away(project, new_folder);
+        if (!any_edit) session.discard();
         throw;
     } catch (const DiagnosedFailure& failure) {
         PendingFiles files;
@@ -288,7 +249,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         throw;
     } catch (const std::exception&) {
         if (!any_edit)
-            clear_away(project, new_folder);
+            session.discard();
         else
             tell("the completed edits are kept in " + project.filename().string() +
                  "; no other file was written; --resume goes on there, also after an edit by hand");
@@ -304,7 +265,7 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
         keep_recipes(project, input);
         apply_recipe(session, loading, "", tell, progress);
     } catch (const std::exception&) {
-        remove_project(project);
+        session.discard();
         throw;
     }
     return session;

@@ -35,26 +35,28 @@ bool missing(const std::filesystem::path& path) {
     return !there;
 }
 
-/// A project that was deleted after a crash leaves its log behind, which SQLite would replay into a
-/// new project of the same name.
-void remove_leftovers(const std::filesystem::path& project) {
+/// \throw IoError if there is a file
+void require_missing(const std::filesystem::path& path) {
+    if (!missing(path))
+        throw IoError(path.filename().string() +
+                      " already exists; choose another name or remove it first");
+}
+
+/// Removes what SQLite keeps beside a project. The log of a project that was deleted after a crash
+/// would be replayed into a new one of the same name.
+void remove_companions(const std::filesystem::path& project) {
     for (const char* suffix : {"-wal", "-shm"}) {
-        std::filesystem::path leftover = project;
+        std::filesystem::path companion = project;
         std::error_code error;  // where nothing can be removed, nothing can be written either
-        std::filesystem::remove(leftover += suffix, error);
+        std::filesystem::remove(companion += suffix, error);
     }
 }
 
-/// Writes a file under another name, then renames it: nobody sees a partial file, and an existing
+/// Gives a project written under another name its own: nobody sees a partial file, and an existing
 /// file is kept.
-void write_whole(const std::filesystem::path& path,
-                 const std::function<void(const std::filesystem::path&)>& write) {
-    const std::string name = path.filename().string();
-    if (!missing(path))
-        throw IoError(name + " already exists; choose another name or remove it first");
-    remove_leftovers(path);
-    PendingFiles files;
-    write(files.add(path));
+void name_new_project(const std::filesystem::path& path, PendingFiles& files) {
+    require_missing(path);
+    remove_companions(path);
     files.commit(Existing::Keep);
 }
 
@@ -102,6 +104,34 @@ struct ProjectFile::Parts {
         return parts;
     }
 
+    static std::unique_ptr<Parts> open_to_write(const std::filesystem::path& path,
+                                                std::size_t embed_limit,
+                                                std::unique_ptr<FileLock> lock) {
+        auto parts = open(path, OpenMode::Write, embed_limit);
+        parts->database.run("PRAGMA journal_mode = WAL");
+        parts->database.run("PRAGMA synchronous = FULL");
+        parts->database.run("PRAGMA journal_size_limit = 16777216");
+        parts->lock = std::move(lock);
+        return parts;
+    }
+
+    static std::unique_ptr<Parts> open_to_read(const std::filesystem::path& path,
+                                               std::size_t embed_limit, const std::string& reason) {
+        std::unique_ptr<Parts> parts;
+        try {
+            parts = open(path, OpenMode::Read, embed_limit);
+        } catch (const IoError&) {
+            // WAL mode writes beside the file even for reading; without a log of unfinished
+            // changes, the file alone is complete.
+            std::filesystem::path log = path;
+            log += "-wal";
+            if (!missing(log) && std::filesystem::file_size(log) > 0) throw;
+            parts = open(path, OpenMode::Frozen, embed_limit);
+        }
+        parts->read_only_reason = path.filename().string() + " is opened read-only: " + reason;
+        return parts;
+    }
+
     /// \throw IoError if nothing can be written, or would be lost
     void check_writable() const {
         if (!read_only_reason.empty()) throw IoError(read_only_reason);
@@ -137,11 +167,16 @@ ProjectFile::ProjectFile(ProjectFile&&) noexcept = default;
 ProjectFile& ProjectFile::operator=(ProjectFile&&) noexcept = default;
 ProjectFile::~ProjectFile() = default;
 
-ProjectFile ProjectFile::create(const std::filesystem::path& path, std::size_t embed_limit) {
-    write_whole(path, [](const std::filesystem::path& unfinished) {
-        make_tables(Database(unfinished, OpenMode::Create));
-    });
-    return open(path, embed_limit);
+ProjectFile ProjectFile::create(const std::filesystem::path& path, std::size_t embed_limit,
+                                const std::function<void()>& make_room) {
+    PendingFiles files;
+    make_tables(Database(files.add(path), OpenMode::Create));
+    FileLock::Attempt attempt = FileLock::acquire(path);
+    if (!attempt.lock)
+        throw IoError(path.filename().string() + " cannot be created: " + attempt.reason);
+    if (make_room) make_room();
+    name_new_project(path, files);
+    return ProjectFile(Parts::open_to_write(path, embed_limit, std::move(attempt.lock)));
 }
 
 ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t embed_limit) {
@@ -154,27 +189,9 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t emb
         attempt.reason = "it cannot be written";
     else
         attempt = FileLock::acquire(path);
-    std::unique_ptr<Parts> parts;
-    if (attempt.lock) {
-        parts = Parts::open(path, OpenMode::Write, embed_limit);
-        parts->database.run("PRAGMA journal_mode = WAL");
-        parts->database.run("PRAGMA synchronous = FULL");
-        parts->database.run("PRAGMA journal_size_limit = 16777216");
-        remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
-    } else {
-        try {
-            parts = Parts::open(path, OpenMode::Read, embed_limit);
-        } catch (const IoError&) {
-            // WAL mode writes beside the file even for reading; without a log of unfinished
-            // changes, the file alone is complete.
-            std::filesystem::path log = path;
-            log += "-wal";
-            if (!missing(log) && std::filesystem::file_size(log) > 0) throw;
-            parts = Parts::open(path, OpenMode::Frozen, embed_limit);
-        }
-        parts->read_only_reason = name + " is opened read-only: " + attempt.reason;
-    }
-    parts->lock = std::move(attempt.lock);
+    if (!attempt.lock) return ProjectFile(Parts::open_to_read(path, embed_limit, attempt.reason));
+    auto parts = Parts::open_to_write(path, embed_limit, std::move(attempt.lock));
+    remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
     return ProjectFile(std::move(parts));
 }
 
@@ -304,15 +321,25 @@ void ProjectFile::drop_scenes(const std::set<ResultId>& kept) {
     database.run("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
+void ProjectFile::discard() {
+    if (parts_->path.empty() || !parts_->lock || parts_->database.has_moved()) return;
+    remove_companions(parts_->path);
+    std::error_code ignored;
+    std::filesystem::remove(parts_->path, ignored);
+}
+
 void ProjectFile::save_as(const std::filesystem::path& path, const Progress& progress) const {
-    write_whole(path, [&](const std::filesystem::path& unfinished) {
-        progress.check_cancelled();
+    require_missing(path);
+    progress.check_cancelled();
+    PendingFiles files;
+    {
         const CopyingAllowed allowed(parts_->database, !parts_->read_only_reason.empty());
         const Interruptible copying(parts_->database, progress);
         Statement copy = parts_->database.prepare("VACUUM INTO ?");
-        const std::string name = unfinished.string();
+        const std::string name = files.add(path).string();
         copy.bind(0, name).step();
-    });
+    }
+    name_new_project(path, files);
 }
 
 bool is_project_file(const std::filesystem::path& path) {

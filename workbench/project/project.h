@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -52,9 +53,12 @@ struct ProjectChange {
 class ProjectFile {
 public:
     /// \param embed_limit [bytes] see kEmbeddedImageBytes
-    /// \throw IoError if the file exists or cannot be written
+    /// \param make_room called once no other process can open a project of this path for writing:
+    /// it may rename an earlier one
+    /// \throw IoError if the file exists, is open elsewhere, or cannot be written
     [[nodiscard]] static ProjectFile create(const std::filesystem::path& path,
-                                            std::size_t embed_limit = kEmbeddedImageBytes);
+                                            std::size_t embed_limit = kEmbeddedImageBytes,
+                                            const std::function<void()>& make_room = {});
     /// \throw IoError if it cannot be read, InvalidInput if it is no project, damaged, or newer
     [[nodiscard]] static ProjectFile open(const std::filesystem::path& path,
                                           std::size_t embed_limit = kEmbeddedImageBytes);
@@ -114,6 +118,10 @@ public:
     /// records stay: an edit whose result was dropped is pending there, with what it had resolved.
     /// The history has to be read again. \throw IoError if it cannot be written
     void drop_scenes(const std::set<ResultId>& kept);
+
+    /// Removes the file while no other process can open it for writing, unless it was replaced. The
+    /// object can then only be destroyed.
+    void discard();
 
     /// \throw IoError if the file exists or cannot be written; Cancelled: then there is no file
     void save_as(const std::filesystem::path& path, const Progress& progress = {}) const;

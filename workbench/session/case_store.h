@@ -41,6 +41,9 @@ public:
     /// \throw IoError if the case is read-only or cannot be written
     void set_note(EditRef edit, const std::string& note);
 
+    /// Removes the project's file; the case can then only be destroyed.
+    void discard() { project_.discard(); }
+
     /// True if the result is kept in memory because the case is read-only.
     [[nodiscard]] bool is_own(ResultId id) const { return own_scenes_.contains(id); }
 

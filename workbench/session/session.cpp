@@ -208,8 +208,9 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
-Session Session::create(const std::filesystem::path& project, SessionOptions options) {
-    auto file = ProjectFile::create(project, options.embed_limit);
+Session Session::create(const std::filesystem::path& project, SessionOptions options,
+                        const std::function<void()>& make_room) {
+    auto file = ProjectFile::create(project, options.embed_limit, make_room);
     return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
 }
 
@@ -357,6 +358,10 @@ std::vector<ReplayEntry> Session::replay(Progress progress) {
 
 void Session::save_as(const std::filesystem::path& project, Progress progress) const {
     parts_->store.project().save_as(project, progress);
+}
+
+void Session::discard() {
+    parts_->store.discard();
 }
 
 void Session::run_in_workers() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,9 +21,13 @@ namespace vesselbench {
 /// stay done. Not thread-safe; a window's session belongs to a SessionRunner.
 class Session {
 public:
-    /// Creates a new project file. \throw IoError if it exists or cannot be written
+    /// Creates a new project file.
+    /// \param make_room called once no other process can open a project of this path for writing:
+    /// it may rename an earlier one
+    /// \throw IoError if it exists, is open in another process, or cannot be written
     [[nodiscard]] static Session create(const std::filesystem::path& project,
-                                        SessionOptions options = {});
+                                        SessionOptions options = {},
+                                        const std::function<void()>& make_room = {});
 
     /// Opens a project. If another process has it open for writing, or it cannot be written, this
     /// session only reads; read_only_reason() says why.
@@ -143,6 +148,10 @@ public:
     /// one.
     /// \throw IoError if the file exists or cannot be written
     void save_as(const std::filesystem::path& project, Progress progress = {}) const;
+
+    /// Removes the project's file while no other process can open it for writing, for a session
+    /// whose edits are of no use. The session can then only be destroyed.
+    void discard();
 
     /// From now on every operation runs in a worker process, not only the `isolated` ones: a cancel
     /// then ends it at once. See WorkerOptions::every_operation.

@@ -1,0 +1,136 @@
+// What `prepare` does with the folder of its results, and with what is there already.
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/whole_file.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "workbench/operations/table.h"
+#include "workbench/session/session.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+ProgramRun run(const std::vector<std::string>& arguments) {
+    return run_program(test::program_path(), arguments);
+}
+
+/// A folder with a tube, a short recipe for it, and the folder `out` of its results.
+struct Place {
+    std::string folder = temporary_folder();
+    std::string out = folder + "/out";
+
+    Place() {
+        write_surface(closed_tube(2.0, 20.0, 16, 20), folder + "/tube.stl");
+        write_text(folder + "/recipe.json", R"([{"operation": "repair"}])");
+    }
+
+    [[nodiscard]] Names command(const Names& more = {}) const {
+        Names words = {"prepare",  folder + "/tube.stl",    "--units", "mm", "--for", "planning",
+                       "--recipe", folder + "/recipe.json", "--out",   out};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+
+    [[nodiscard]] ProgramRun prepared(const Names& more = {}) const { return run(command(more)); }
+};
+
+/// The results in a folder by name; of folders and of the project's files only the names: this
+/// process would lose its locks on a project that it reads.
+std::map<std::string, std::string> content_of(const std::string& folder) {
+    std::map<std::string, std::string> content;
+    for (const std::string& name : names_in(folder)) {
+        const fs::path file = fs::path(folder) / name;
+        const bool only_name = fs::is_directory(file) || name.starts_with("project.");
+        content[name] = only_name ? "" : file_content(file);
+    }
+    return content;
+}
+
+}  // namespace
+
+SCENARIO("prepare does not touch a folder whose project is open elsewhere",
+         "[workbench][prepare-folder]") {
+    const Place place;
+    REQUIRE(place.prepared().exit_code == 0);
+    const Session open = Session::open(place.out + "/project.vbench", {.find = find_operation});
+    const auto before = content_of(place.out);
+    for (const Names& more : {Names{}, Names{"--resume"}}) {
+        const ProgramRun refused = place.prepared(more);
+        INFO(refused.err);
+        CHECK(refused.exit_code == 3);
+        CHECK_THAT(refused.err, Contains("project.vbench") && Contains("has it open"));
+        CHECK(std::ranges::count(refused.err, '\n') == 1);
+        CHECK(content_of(place.out) == before);
+    }
+    CHECK(open.log().size() == 2);
+}
+
+SCENARIO("Of two preparations into one folder, one works and leaves a whole result",
+         "[workbench][prepare-folder]") {
+    const Place place;
+    write_text(place.folder + "/both.sh",
+               "\"$@\" 2>\"$OTHER\" &\nother=$!\n\"$@\"\none=$?\nwait $other\n"
+               "echo $one $?\n");
+    for (int round = 0; round < 4; ++round) {
+        Names words = {place.folder + "/both.sh", test::program_path()};
+        for (const std::string& word : place.command()) words.push_back(word);
+        const ProgramRun both =
+            run_program("/bin/bash", words, "export OTHER='" + place.folder + "/err';");
+        const std::string errors = both.err + file_content(place.folder + "/err");
+        INFO(both.out << errors);
+        std::istringstream last(both.out.substr(both.out.rfind('\n', both.out.size() - 2) + 1));
+        int one = -1, other = -1;
+        last >> one >> other;
+        CHECK(std::min(one, other) == 0);  // 0 is also the second one's that began after the first
+        if (std::max(one, other) != 0) {
+            CHECK(std::max(one, other) == 3);
+            CHECK_THAT(errors, Contains("has it open"));
+        }
+        CHECK(fs::exists(place.out + "/report.json"));
+        for (const std::string& name : names_in(place.out)) {
+            if (!name.ends_with(".vbench")) continue;
+            INFO(name);
+            const ProgramRun log = run({"log", place.out + "/" + name, "--json"});
+            REQUIRE(log.exit_code == 0);
+            CHECK(Json::parse(log.out)["edits"].size() == 2);
+        }
+    }
+}
+
+SCENARIO("A preparation that fails at once leaves the folder of another one alone",
+         "[workbench][prepare-folder]") {
+    const Place place;
+    write_text(place.folder + "/bad.stl", "solid\nendsolid\n");
+    const auto bad = [&] {
+        return run({"prepare", place.folder + "/bad.stl", "--units", "mm", "--for", "planning",
+                    "--out", place.out});
+    };
+    WHEN("there is no folder") {
+        CHECK(bad().exit_code == 3);
+        CHECK_FALSE(fs::exists(place.out));
+    }
+    WHEN("a project in it is open") {
+        fs::create_directory(place.out);
+        const Session open =
+            Session::create(place.out + "/project.vbench", {.find = find_operation});
+        CHECK(bad().exit_code == 3);
+        CHECK(fs::exists(place.out + "/project.vbench"));
+        CHECK_FALSE(fs::exists(place.out + "/project.1.vbench"));
+    }
+}
