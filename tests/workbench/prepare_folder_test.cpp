@@ -14,6 +14,8 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/refusal_report.h"
+#include "workbench/prepare/result_folder.h"
 #include "workbench/session/session.h"
 
 using namespace vesselbench;
@@ -132,5 +134,96 @@ SCENARIO("A preparation that fails at once leaves the folder of another one alon
         CHECK(bad().exit_code == 3);
         CHECK(fs::exists(place.out + "/project.vbench"));
         CHECK_FALSE(fs::exists(place.out + "/project.1.vbench"));
+    }
+}
+
+SCENARIO("prepare keeps files of others under another name", "[workbench][prepare-folder]") {
+    const Place place;
+    fs::create_directory(place.out);
+    const std::map<std::string, std::string> own = {{"surface.stl", "a drawing"},
+                                                    {"surface.vtp", "notes"},
+                                                    {"report.html", "<p>a letter</p>"},
+                                                    {"report.json", R"({"products": []})"}};
+    for (const auto& [name, text] : own) write_text(place.out + "/" + name, text);
+    const ProgramRun first = place.prepared();
+    INFO(first.err);
+    REQUIRE(first.exit_code == 0);
+    for (const auto& [name, text] : own) {
+        const fs::path kept =
+            fs::path(name).stem().string() + ".1" + fs::path(name).extension().string();
+        CHECK(file_content(place.out / kept) == text);
+        CHECK_THAT(first.err,
+                   Contains("the existing " + name + " was renamed to " + kept.string()));
+    }
+    THEN("its own results are replaced") {
+        const Names names = names_in(place.out);
+        const ProgramRun again = place.prepared();
+        INFO(again.err);
+        REQUIRE(again.exit_code == 0);
+        CHECK_THAT(again.err, !Contains("surface.stl was renamed"));
+        Names more = names;
+        more.emplace_back("project.1.vbench");
+        std::ranges::sort(more);
+        CHECK(names_in(place.out) == more);
+    }
+    THEN("what its report does not list is kept again") {
+        write_text(place.out + "/report.json", "{ no report");
+        REQUIRE(place.prepared({"--resume"}).exit_code == 0);
+        CHECK(file_content(place.out + "/report.2.json") == "{ no report");
+        for (const char* name : {"surface.2.stl", "surface.2.vtp", "report.2.html"})
+            CHECK(fs::exists(place.out + "/" + name));
+    }
+    THEN("a folder of one of the names is kept, too") {
+        fs::remove(place.out + "/surface.stl");
+        fs::create_directory(place.out + "/surface.stl");
+        write_text(place.out + "/surface.stl/scan.txt", "slices");
+        REQUIRE(place.prepared({"--resume"}).exit_code == 0);
+        CHECK(file_content(place.out + "/surface.2.stl/scan.txt") == "slices");
+        CHECK(fs::is_regular_file(place.out + "/surface.stl"));
+    }
+}
+
+SCENARIO("The report knows results of earlier preparations", "[workbench][prepare-folder]") {
+    const Place place;
+    const auto report = [&] { return Json::parse(file_content(place.out + "/report.json")); };
+    const auto prepared_for = [&](const std::string& purpose) {
+        return run({"prepare", place.folder + "/tube.stl", "--units", "mm", "--for", purpose,
+                    "--recipe", place.folder + "/recipe.json", "--out", place.out});
+    };
+    REQUIRE(prepared_for("rp").exit_code == 0);
+    CHECK(report()["earlier_results"].empty());
+    const ProgramRun planned = prepared_for("planning");
+    INFO(planned.err);
+    REQUIRE(planned.exit_code == 0);
+    CHECK(report()["earlier_results"] == Json({"print.stl", "print.3mf"}));
+    CHECK_THAT(planned.err, Contains("print.stl and print.3mf in this folder are of an earlier"));
+    const ProgramRun printed = prepared_for("rp");
+    REQUIRE(printed.exit_code == 0);
+    CHECK_THAT(printed.err, !Contains("print.stl was renamed"));
+    CHECK(report()["earlier_results"].empty());
+}
+
+SCENARIO("A report that stopped knows them as well", "[workbench][prepare-folder]") {
+    const fs::path folder = temporary_folder();
+    const DiagnosedFailure failure("the ends are in doubt", {});
+    const Json report =
+        refusal_json({.purpose = "cfd"}, failure, {"surface.stl", "report.html", "../secret"});
+    write_text(folder / "report.json", report.dump());
+    for (const char* name : {"surface.stl", "surface.vtp", "report.html"})
+        write_text(folder / name, name);
+    const Names earlier = earlier_results(folder);
+    CHECK(earlier == Names{"report.html", "report.json", "surface.stl"});
+    CHECK(remaining_results(folder, {"report.json"}, earlier) ==
+          Names{"report.html", "surface.stl"});
+    Names told;
+    keep_others(folder, result_names("planning"), earlier,
+                [&](const std::string& text) { told.push_back(text); });
+    CHECK(told == Names{"the existing surface.vtp was renamed to surface.1.vtp"});
+    THEN("reports of others list nothing") {
+        for (const char* text : {"", "[]", R"({"products": ["surface.stl"]})",
+                                 R"({"program_version": "1"})", "\"products\""}) {
+            write_text(folder / "report.json", text);
+            CHECK(earlier_results(folder).empty());
+        }
     }
 }

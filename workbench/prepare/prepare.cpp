@@ -36,8 +36,7 @@ constexpr double kEditsShare = 0.8;
 
 /// \throw UsageError if a result would replace what it is made from
 void refuse_own_input(const PrepareOptions& options, const Input& input) {
-    std::vector<std::string> names = product_names(options.purpose);
-    names.insert(names.end(), {"report.json", "report.html"});
+    const std::vector<std::string> names = result_names(options.purpose);
     std::vector<fs::path> sources = {input.file, input.mask, options.recipe};
     for (const RecipeEntry& entry : input.neighbours)
         sources.emplace_back(entry.given->optional_text("file").value_or(""));
@@ -163,9 +162,19 @@ std::string make_model(Session& session, const Recipe& recipe, const PrepareOpti
     return checks.warning();
 }
 
+/// Earlier results of another purpose are not of this model.
+void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
+    if (!names.empty())
+        tell("warning: " + enumerated(names) + " in this folder " +
+             (names.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
-    keep_earlier_products(options.out, options.purpose, tell);
+    const std::vector<std::string> names = result_names(options.purpose);
+    const std::vector<std::string> earlier = earlier_results(options.out);
+    keep_others(options.out, names, earlier, tell);
+    prepared.earlier_results = remaining_results(options.out, names, earlier);
     PendingFiles files;
     progress.report(0.0, "writing the products");
     prepared.products =
@@ -176,8 +185,19 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
                    report_html(report.document, report.pictures, report.sections));
     progress.check_cancelled();
     files.commit();
-    name_other_products(options.out, options.purpose, tell);
+    tell_remaining(prepared.earlier_results, tell);
     return {prepared.products, report.warnings};
+}
+
+/// report.json of a preparation that stopped.
+void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failure,
+                   const Teller& tell) {
+    const std::vector<std::string> names = {"report.json"};
+    const std::vector<std::string> earlier = earlier_results(options.out);
+    keep_others(options.out, names, earlier, tell);
+    const Json report =
+        refusal_json(options, failure, remaining_results(options.out, names, earlier));
+    write_file(options.out / names.front(), report.dump(2) + "\n");
 }
 
 /// Makes what is missing of the model, and writes the results.
@@ -240,9 +260,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         if (!any_edit) session.discard();
         throw;
     } catch (const DiagnosedFailure& failure) {
-        PendingFiles files;
-        files.add_text(options.out / "report.json", refusal_json(options, failure).dump(2) + "\n");
-        files.commit();
+        write_refusal(options, failure, tell);
         tell(
             "the completed edits are kept in " + project.filename().string() +
             "; report.json has what was found; --resume goes on there, also after an edit by hand");

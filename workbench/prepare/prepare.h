@@ -27,9 +27,9 @@ struct PrepareSummary {
 
 /// Turns the input into a CFD or print model: a project with one edit per entry of the recipe,
 /// then surface.vtp, surface.stl, report.json, report.html and the product's files. Results appear
-/// only when all of them are complete. An earlier project in the folder is kept under another
-/// name, or resumed: the entries of the recipe that have no edit in it are applied (rest_of),
-/// whatever else was edited meanwhile.
+/// only when all of them are complete. Files of others that have their names are kept under another
+/// one. An earlier project in the folder is kept so as well, or resumed: the entries of the recipe
+/// that have no edit in it are applied (rest_of), whatever else was edited meanwhile.
 /// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
 /// the edits that were done; there is no project if the input cannot be loaded or repaired
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);

@@ -242,6 +242,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     add_pictures(made, surface, compared_with);
     report["warnings"] = made.warnings;
     report["products"] = prepared.products;
+    report["earlier_results"] = prepared.earlier_results;
     return made;
 }
 

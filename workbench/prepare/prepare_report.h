@@ -18,8 +18,9 @@ struct PreparedCase {
     Input input;
     Scene scene;  ///< the result
     CfdParameters flow;
-    std::vector<std::string> products;  ///< names of the files and folders written
-    std::vector<std::string> warnings;  ///< beside those of the edits
+    std::vector<std::string> products;         ///< names of the files and folders written
+    std::vector<std::string> earlier_results;  ///< names of those in the same folder
+    std::vector<std::string> warnings;         ///< beside those of the edits
 };
 
 struct PreparedReport {

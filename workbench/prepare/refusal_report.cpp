@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "workbench/case/diagnostic_json.h"
+#include "workbench/case/version.h"
 
 namespace vesselbench {
 
@@ -59,12 +60,15 @@ Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic) 
 
 }  // namespace
 
-Json refusal_json(const PrepareOptions& options, const DiagnosedFailure& failure) {
+Json refusal_json(const PrepareOptions& options, const DiagnosedFailure& failure,
+                  const std::vector<std::string>& earlier_results) {
     Json diagnostics = Json::array();
     for (const Diagnostic& diagnostic : failure.diagnostics())
         diagnostics.push_back(with_commands(options, diagnostic));
-    return {{"purpose", options.purpose},
-            {"stopped", {{"text", failure.what()}, {"diagnostics", std::move(diagnostics)}}}};
+    return {{"program_version", version()},
+            {"purpose", options.purpose},
+            {"stopped", {{"text", failure.what()}, {"diagnostics", std::move(diagnostics)}}},
+            {"earlier_results", earlier_results}};
 }
 
 }  // namespace vesselbench

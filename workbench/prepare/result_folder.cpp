@@ -1,18 +1,49 @@
 #include "workbench/prepare/result_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
-#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
-#include "geometry/kernel/wording.h"
+#include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
 
 namespace vesselbench {
 
+namespace {
+
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The last one lists the results.
+constexpr std::array kReports = {"report.html", "report.json"};
+
+/// True for the report of a preparation, also of one that stopped.
+bool is_own_report(const Json& report) {
+    if (!report.is_object() || !report.contains("program_version")) return false;
+    return report.contains("products") || report.contains("stopped");
+}
+
+bool lists(const Json& report, const char* key, const std::string& name) {
+    const auto list = report.find(key);
+    return list != report.end() && list->is_array() && std::ranges::count(*list, Json(name)) > 0;
+}
+
+bool may_replace(const fs::path& place) {
+    try {
+        check_export_place(place);
+        return true;
+    } catch (const IoError&) {
+        return false;
+    }
+}
+
+}  // namespace
 
 ResultFolder::ResultFolder(fs::path path) : path_(std::move(path)), is_new_(!fs::exists(path_)) {
     make_folder(path_);
@@ -43,25 +74,45 @@ void keep_earlier(const fs::path& file, const Teller& tell) {
     tell("the existing " + name + " was renamed to " + other.filename().string());
 }
 
-void keep_earlier_products(const fs::path& folder, const std::string& purpose, const Teller& tell) {
-    for (const std::string& name : product_names(purpose)) try {
-            check_export_place(folder / name);
-        } catch (const IoError&) {
-            keep_earlier(folder / name, tell);
-        }
+std::vector<std::string> result_names(const std::string& purpose) {
+    std::vector<std::string> names = product_names(purpose);
+    names.insert(names.end(), kReports.begin(), kReports.end());
+    return names;
 }
 
-void name_other_products(const fs::path& folder, const std::string& purpose, const Teller& tell) {
-    const std::vector<std::string> own = product_names(purpose);
-    std::vector<std::string> others;
-    for (const Purpose& other : purposes())
-        for (const std::string& name : other.products)
-            if (std::ranges::count(own, name) + std::ranges::count(others, name) == 0 &&
-                fs::exists(folder / name))
-                others.push_back(name);
-    if (!others.empty())
-        tell("warning: " + enumerated(others) + " in this folder " +
-             (others.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
+std::vector<std::string> earlier_results(const fs::path& folder) {
+    Json report;
+    try {
+        report = json_from_text(file_content(folder / kReports.back()), kReports.back(),
+                                kLargestStoredJson);
+    } catch (const std::exception&) {
+        return {};
+    }
+    if (!is_own_report(report)) return {};
+    std::vector<std::string> names(kReports.begin(), kReports.end());
+    for (const Purpose& purpose : purposes())
+        for (std::string& name : product_names(purpose.name))
+            if (std::ranges::count(names, name) == 0 &&
+                (lists(report, "products", name) || lists(report, "earlier_results", name)))
+                names.push_back(std::move(name));
+    return names;
+}
+
+void keep_others(const fs::path& folder, const std::vector<std::string>& names,
+                 const std::vector<std::string>& earlier, const Teller& tell) {
+    for (const std::string& name : names)
+        if (std::ranges::count(earlier, name) == 0 || !may_replace(folder / name))
+            keep_earlier(folder / name, tell);
+}
+
+std::vector<std::string> remaining_results(const fs::path& folder,
+                                           const std::vector<std::string>& names,
+                                           const std::vector<std::string>& earlier) {
+    std::vector<std::string> remaining;
+    for (const std::string& name : earlier)
+        if (std::ranges::count(names, name) == 0 && fs::exists(folder / name))
+            remaining.push_back(name);
+    return remaining;
 }
 
 }  // namespace vesselbench

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "workbench/prepare/apply_recipe.h"
 
@@ -26,12 +27,23 @@ private:
 /// \throw IoError if it cannot be renamed
 void keep_earlier(const std::filesystem::path& file, const Teller& tell);
 
-/// Renames what an export of the purpose's products may not replace, such as the results of a flow.
-void keep_earlier_products(const std::filesystem::path& folder, const std::string& purpose,
-                           const Teller& tell);
+/// Names of the files and folders that a preparation for a purpose writes: products and reports.
+/// \throw UsageError as find_purpose
+[[nodiscard]] std::vector<std::string> result_names(const std::string& purpose);
 
-/// Says which products of other purposes are in the folder: they are not of this model.
-void name_other_products(const std::filesystem::path& folder, const std::string& purpose,
-                         const Teller& tell);
+/// Names of what earlier preparations wrote to the folder: its report.json lists them. Empty if
+/// there is no such file, or it is not of `prepare`.
+[[nodiscard]] std::vector<std::string> earlier_results(const std::filesystem::path& folder);
+
+/// Renames, as keep_earlier(), what is not to be replaced by results of these names: what is no
+/// earlier result, and what an export may not replace, such as the results of a flow.
+/// \param earlier earlier_results()
+void keep_others(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                 const std::vector<std::string>& earlier, const Teller& tell);
+
+/// The earlier results that remain beside new ones of these names.
+[[nodiscard]] std::vector<std::string> remaining_results(const std::filesystem::path& folder,
+                                                         const std::vector<std::string>& names,
+                                                         const std::vector<std::string>& earlier);
 
 }  // namespace vesselbench
