@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <ranges>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -51,6 +52,12 @@ void rename_over(const fs::path& from, const fs::path& to) {
     if (fs::is_directory(to, error) && fs::is_directory(from, error)) fs::remove_all(to, error);
     fs::rename(from, to, error);
     if (error) cannot_write(to, error.value());
+}
+
+void remove_file(const fs::path& file) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) cannot_write(file, error.value());
 }
 
 void rename_to_free_name(const fs::path& from, const fs::path& to) {
@@ -146,13 +153,31 @@ void PendingFiles::add_text(const fs::path& final_name, const std::string& text)
     add_stream(final_name, [&](std::ostream& out) { out << text; });
 }
 
+void PendingFiles::add_mark(const fs::path& final_name, const std::string& text) {
+    add_text(final_name, text);
+    marks_.push_back(std::move(files_.back()));
+    files_.pop_back();
+}
+
+void PendingFiles::flush_parents() const {
+    for (const TemporaryFolder& folder : folders_) flush_to_disk(folder.parent, folder.parent);
+}
+
 void PendingFiles::commit(Existing existing) {
-    for (const auto& [temporary, own] : files_) flush_to_disk(temporary, own);
-    for (const auto& [temporary, own] : files_)
-        existing == Existing::Keep ? rename_to_free_name(temporary, own)
-                                   : rename_over(temporary, own);
-    for (const auto& [temporary, own] : files_) flush_to_disk(folder_of(own), own);
-    files_.clear();
+    for (const Names* names : {&files_, &marks_})
+        for (const auto& [temporary, own] : *names) flush_to_disk(temporary, own);
+    if (existing == Existing::Replace && !marks_.empty()) {
+        for (const auto& [temporary, own] : marks_ | std::views::reverse) remove_file(own);
+        flush_parents();
+    }
+    for (Names* names : {&files_, &marks_}) {
+        if (names->empty()) continue;
+        for (const auto& [temporary, own] : *names)
+            existing == Existing::Keep ? rename_to_free_name(temporary, own)
+                                       : rename_over(temporary, own);
+        flush_parents();
+        names->clear();
+    }
     remove_folders();
 }
 

@@ -34,6 +34,12 @@ public:
     /// Adds a text file. \throw IoError if it cannot be written entirely
     void add_text(const std::filesystem::path& final_name, const std::string& text);
 
+    /// Adds a text file that says that the others are complete: commit() removes earlier files of
+    /// the marks' names, the last one first, before it replaces anything, and gives the marks their
+    /// names at the end, in their order. Where the last one is, all files are of one commit,
+    /// whenever a process was killed. \throw IoError if it cannot be written entirely
+    void add_mark(const std::filesystem::path& final_name, const std::string& text);
+
     /// Flushes all of them to disk and gives them their final names.
     /// \throw IoError that names the file and the cause; with Existing::Keep also if one of the
     /// files already exists
@@ -45,12 +51,14 @@ private:
         int lock = -1;  // held for as long as the folder is in use
     };
 
+    using Names = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;
+
     [[nodiscard]] std::filesystem::path folder_beside(const std::filesystem::path& final_name);
+    void flush_parents() const;
     void remove_folders();
 
     std::vector<TemporaryFolder> folders_;
-    std::vector<std::pair<std::filesystem::path, std::filesystem::path>>
-        files_;  // temporary, final
+    Names files_, marks_;  // temporary, final
 };
 
 /// Removes the temporary folders that killed processes have left in a folder. Never throws.

@@ -58,6 +58,82 @@ SCENARIO("Files appear only when all of them are complete", "[workbench][pending
     }
 }
 
+SCENARIO("Marks say whether files are complete", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder();
+    const auto write = [&](const std::string& text, PendingFiles& files) {
+        files.add_mark(folder / "list.html", text);
+        files.add_mark(folder / "list.json", text);
+        for (const char* name : {"a.txt", "b.txt", "c.txt"}) files.add_text(folder / name, text);
+    };
+    {
+        PendingFiles files;
+        write("old", files);
+        files.commit();
+        CHECK(test::names_in(folder.string()) ==
+              std::vector<std::string>{"a.txt", "b.txt", "c.txt", "list.html", "list.json"});
+    }
+    PendingFiles files;
+    write("new", files);
+    WHEN("they are replaced") {
+        files.commit();
+        for (const std::string& name : test::names_in(folder.string()))
+            CHECK(file_content(folder / name) == "new");
+    }
+    WHEN("the process ends between two names") {
+        // What no file can replace ends the commit where a kill would.
+        fs::remove(folder / "b.txt");
+        fs::create_directories(folder / "b.txt" / "full");
+        CHECK_THROWS_AS(files.commit(), IoError);
+        CHECK(file_content(folder / "a.txt") == "new");
+        CHECK(file_content(folder / "c.txt") == "old");
+        CHECK_FALSE(fs::exists(folder / "list.html"));
+        CHECK_FALSE(fs::exists(folder / "list.json"));
+    }
+    WHEN("a mark cannot be removed") {
+        fs::remove(folder / "list.json");
+        fs::create_directories(folder / "list.json" / "full");
+        CHECK_THROWS_AS(files.commit(), IoError);
+        THEN("nothing has been replaced") {
+            CHECK(file_content(folder / "a.txt") == "old");
+            CHECK(file_content(folder / "list.html") == "old");
+            CHECK(fs::exists(folder / "list.json" / "full"));
+        }
+    }
+}
+
+SCENARIO("A killed commit leaves no mark beside a mixture", "[workbench][pending-files]") {
+    const fs::path folder = test::temporary_folder(), mark = folder / "list.json";
+    constexpr int kFiles = 20;
+    const auto write = [&](const std::string& text) {
+        PendingFiles files;
+        files.add_mark(mark, text);
+        for (int i = 0; i < kFiles; ++i) files.add_text(folder / std::to_string(i), text);
+        files.commit();
+    };
+    for (int round = 0; round < 10; ++round) {
+        write("old");
+        const pid_t child = fork();
+        if (child == 0) {
+            try {
+                write("new");
+            } catch (const std::exception&) {
+                _exit(1);
+            }
+            _exit(0);
+        }
+        bool ended = false;
+        while (!ended && fs::exists(mark)) ended = waitpid(child, nullptr, WNOHANG) == child;
+        if (!ended) {
+            usleep(static_cast<useconds_t>(30 * round));  // a kill in another place of the commit
+            ::kill(child, SIGKILL);
+            waitpid(child, nullptr, 0);
+        }
+        if (!fs::exists(mark)) continue;
+        for (int i = 0; i < kFiles; ++i)
+            CHECK(file_content(folder / std::to_string(i)) == file_content(mark));
+    }
+}
+
 SCENARIO("Temporary folders cannot be foreseen or read by others", "[workbench][pending-files]") {
     const fs::path folder = test::temporary_folder();
     PendingFiles first, second;

@@ -180,9 +180,9 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     prepared.products =
         write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
-    files.add_text(options.out / "report.json", report.document.dump(2) + "\n");
-    files.add_text(options.out / "report.html",
+    files.add_mark(options.out / "report.html",
                    report_html(report.document, report.pictures, report.sections));
+    files.add_mark(options.out / "report.json", report.document.dump(2) + "\n");
     progress.check_cancelled();
     files.commit();
     tell_remaining(prepared.earlier_results, tell);
@@ -270,7 +270,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             session.discard();
         else
             tell("the completed edits are kept in " + project.filename().string() +
-                 "; no other file was written; --resume goes on there, also after an edit by hand");
+                 "; the results were not written; --resume goes on there, also after an edit by "
+                 "hand");
         throw;
     }
 }
