@@ -361,6 +361,36 @@ SCENARIO("A full disk leaves the project as it was", "[session][project]") {
     }
 }
 
+SCENARIO("The file alone is the project once its log is folded in", "[session][project]") {
+    const std::string file = new_project(4);
+    Session session = Session::open(file, options());
+    session.apply("bump", small_bump(100.0));
+    const auto edits_in_copy = [&] {
+        const std::string copy = test::temporary_folder() + "/copy.vbench";
+        fs::copy_file(file, copy);
+        return Session::open(copy, options()).log().size();
+    };
+    CHECK(edits_in_copy() == 1);
+    WHEN("there is room") {
+        session.fold_log();
+        CHECK(edits_in_copy() == 2);
+    }
+    WHEN("the file cannot grow") {
+        rlimit old{};
+        getrlimit(RLIMIT_FSIZE, &old);
+        const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit full{fs::file_size(file), old.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &full);
+        const std::string text = error_of<IoError>([&] { session.fold_log(); });
+        setrlimit(RLIMIT_FSIZE, &old);
+        std::signal(SIGXFSZ, handler);
+        CHECK(text.find("the last edits are in case.vbench-wal only: ") == 0);
+        CHECK(session.log().size() == 2);
+        session.fold_log();
+        CHECK(edits_in_copy() == 2);
+    }
+}
+
 SCENARIO("An edit takes at most 64 bytes per moved vertex and 16 KiB", "[session][project]") {
     const std::string file = new_project(5);
     const double reach = GENERATE(0.5, 3.0, 9.0, 100.0);

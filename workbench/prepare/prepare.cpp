@@ -200,6 +200,15 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     write_file(options.out / names.front(), report.dump(2) + "\n");
 }
 
+/// \throw AlgorithmFailure if the project's file cannot be made whole
+void fold_log(const Session& session) {
+    try {
+        session.fold_log();
+    } catch (const IoError& error) {
+        throw AlgorithmFailure(error.what());  // the input is good
+    }
+}
+
 /// Makes what is missing of the model, and writes the results.
 PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptions& options,
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
@@ -209,6 +218,7 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
     if (!warning.empty()) prepared.warnings.push_back(warning);
     prepared.scene = session.scene(options.purpose);
     refuse_stale_edits(session.log());
+    fold_log(session);
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);
     try {
@@ -293,8 +303,9 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
 void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
                  const Progress& progress) {
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
-    static_cast<void>(
-        start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0)));
+    const Session session =
+        start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0));
+    fold_log(session);
 }
 
 }  // namespace vesselbench

@@ -183,6 +183,14 @@ std::int64_t Database::number(const std::string& sql) const {
     return statement.integer(0);
 }
 
+bool Database::fold_log() const {
+    Statement fold = prepare("PRAGMA wal_checkpoint(TRUNCATE)");
+    fold.step();
+    const bool busy = fold.integer(0) != 0;
+    const auto pages = fold.integer(1), moved = fold.integer(2);  // -1: not even looked at
+    return !busy || (pages >= 0 && moved == pages);
+}
+
 std::uint64_t Database::bytes() const {
     return static_cast<std::uint64_t>(number("PRAGMA page_count") * number("PRAGMA page_size"));
 }

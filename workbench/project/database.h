@@ -66,6 +66,11 @@ public:
     /// The first column of the first row, an integer.
     [[nodiscard]] std::int64_t number(const std::string& sql) const;
 
+    /// Moves the write-ahead log into the file, so that the file alone is the whole database. Waits
+    /// for others that read it.
+    /// \return false if they do not end in time: the log is then still needed
+    bool fold_log() const;
+
     [[nodiscard]] const std::string& name() const { return name_; }
 
     /// [bytes] of the file's pages.

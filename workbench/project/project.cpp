@@ -318,7 +318,20 @@ void ProjectFile::drop_scenes(const std::set<ResultId>& kept) {
         transaction.commit();
     }
     database.run("VACUUM");
-    database.run("PRAGMA wal_checkpoint(TRUNCATE)");
+    database.fold_log();
+}
+
+void ProjectFile::fold_log() const {
+    if (parts_->path.empty()) return;
+    parts_->check_writable();
+    const std::string log = name() + "-wal";
+    try {
+        if (parts_->database.fold_log()) return;
+    } catch (const IoError& error) {
+        throw IoError("the last edits are in " + log + " only: " + error.what());
+    }
+    throw IoError("the last edits are in " + log + " only: another program is reading " + name() +
+                  "; close it there, and keep both files together until then");
 }
 
 void ProjectFile::discard() {

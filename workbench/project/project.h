@@ -119,6 +119,11 @@ public:
     /// The history has to be read again. \throw IoError if it cannot be written
     void drop_scenes(const std::set<ResultId>& kept);
 
+    /// After this, the file alone is the whole project, without the write-ahead log beside it.
+    /// \throw IoError if it cannot be written, or another process does not end reading it: the edits
+    /// are then in the log
+    void fold_log() const;
+
     /// Removes the file while no other process can open it for writing, unless it was replaced. The
     /// object can then only be destroyed.
     void discard();

@@ -41,6 +41,9 @@ public:
     /// \throw IoError if the case is read-only or cannot be written
     void set_note(EditRef edit, const std::string& note);
 
+    /// \throw IoError as ProjectFile::fold_log
+    void fold_log() const { project_.fold_log(); }
+
     /// Removes the project's file; the case can then only be destroyed.
     void discard() { project_.discard(); }
 

@@ -360,6 +360,10 @@ void Session::save_as(const std::filesystem::path& project, Progress progress) c
     parts_->store.project().save_as(project, progress);
 }
 
+void Session::fold_log() const {
+    parts_->store.fold_log();
+}
+
 void Session::discard() {
     parts_->store.discard();
 }

@@ -149,6 +149,12 @@ public:
     /// \throw IoError if the file exists or cannot be written
     void save_as(const std::filesystem::path& project, Progress progress = {}) const;
 
+    /// After this, the project's file alone holds all edits; until then, or the session's end, the
+    /// last ones are in its write-ahead log.
+    /// \throw IoError that says where the edits are if the file cannot be written, or another
+    /// process does not end reading it
+    void fold_log() const;
+
     /// Removes the project's file while no other process can open it for writing, for a session
     /// whose edits are of no use. The session can then only be destroyed.
     void discard();
