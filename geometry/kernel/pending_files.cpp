@@ -139,18 +139,19 @@ fs::path PendingFiles::add(const fs::path& final_name) {
     return files_.back().first;
 }
 
-void PendingFiles::add_stream(const fs::path& final_name,
-                              const std::function<void(std::ostream&)>& write) {
-    const fs::path temporary = add(final_name);
+fs::path PendingFiles::add_stream(const fs::path& final_name,
+                                  const std::function<void(std::ostream&)>& write) {
+    fs::path temporary = add(final_name);
     errno = 0;
     std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
     if (stream) write(stream);
     stream.close();
     if (!stream) cannot_write(final_name, errno);
+    return temporary;
 }
 
-void PendingFiles::add_text(const fs::path& final_name, const std::string& text) {
-    add_stream(final_name, [&](std::ostream& out) { out << text; });
+fs::path PendingFiles::add_text(const fs::path& final_name, const std::string& text) {
+    return add_stream(final_name, [&](std::ostream& out) { out << text; });
 }
 
 void PendingFiles::add_mark(const fs::path& final_name, const std::string& text) {

@@ -27,12 +27,15 @@ public:
     /// \throw IoError if that folder cannot be created
     [[nodiscard]] std::filesystem::path add(const std::filesystem::path& final_name);
 
-    /// Adds a file that `write` fills. \throw IoError if it cannot be written entirely
-    void add_stream(const std::filesystem::path& final_name,
-                    const std::function<void(std::ostream&)>& write);
+    /// Adds a file that `write` fills.
+    /// \return its path until commit()
+    /// \throw IoError if it cannot be written entirely
+    std::filesystem::path add_stream(const std::filesystem::path& final_name,
+                                     const std::function<void(std::ostream&)>& write);
 
-    /// Adds a text file. \throw IoError if it cannot be written entirely
-    void add_text(const std::filesystem::path& final_name, const std::string& text);
+    /// Adds a text file, as add_stream().
+    std::filesystem::path add_text(const std::filesystem::path& final_name,
+                                   const std::string& text);
 
     /// Adds a text file that says that the others are complete: commit() removes earlier files of
     /// the marks' names, the last one first, before it replaces anything, and gives the marks their

@@ -143,6 +143,8 @@ SCENARIO("Settings remember recent projects", "[window][settings]") {
     settings.remember(folder + "/a.vbench");
     settings.dark = false;
     REQUIRE(settings.save());
+    CHECK(fs::status(folder + "/config/settings.json").permissions() ==
+          (fs::perms::owner_read | fs::perms::owner_write));
     fs::remove(folder + "/b.vbench");
     const Settings again(folder + "/config");
     CHECK_FALSE(again.dark);

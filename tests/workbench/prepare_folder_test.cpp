@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -225,5 +226,44 @@ SCENARIO("A report that stopped knows them as well", "[workbench][prepare-folder
             write_text(folder / "report.json", text);
             CHECK(earlier_results(folder).empty());
         }
+    }
+}
+
+SCENARIO("The author and the input's name can be given", "[workbench][prepare-folder]") {
+    const Place place;
+    const std::string named = place.folder + "/smith_jane.stl";
+    const std::string project = place.out + "/project.vbench";
+    fs::rename(place.folder + "/tube.stl", named);
+    const auto authors = [&] {
+        std::set<std::string> names;
+        const Json log = Json::parse(run({"log", project, "--json"}).out);
+        for (const Json& edit : log["edits"]) names.insert(edit["author"].get<std::string>());
+        return names;
+    };
+    Names command = place.command({"--author", "reader-2", "--name", "case 7"});
+    command[1] = named;
+    WHEN("a model is prepared") {
+        const ProgramRun result = run(command);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        CHECK(authors() == std::set<std::string>{"reader-2"});
+        const std::string text = file_content(place.out + "/report.json");
+        const Json report = Json::parse(text);
+        CHECK(report["input"]["name"] == "case 7");
+        for (const Json& step : report["steps"]) CHECK(step["author"] == "reader-2");
+        CHECK_THAT(text, !Contains("smith"));
+        CHECK_THAT(file_content(place.out + "/report.html"),
+                   Contains("<title>case 7</title>") && !Contains("smith"));
+    }
+    WHEN("a project is made and gone on with") {
+        fs::create_directory(place.out);
+        REQUIRE(run({"new", project, named, "--units", "mm", "--author", "reader-1"}).exit_code ==
+                0);
+        CHECK(authors() == std::set<std::string>{"reader-1"});
+        command.emplace_back("--resume");
+        const ProgramRun resumed = run(command);
+        INFO(resumed.err);
+        CHECK(resumed.exit_code == 0);
+        CHECK(authors() == std::set<std::string>{"reader-1", "reader-2"});
     }
 }

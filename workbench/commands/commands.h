@@ -186,6 +186,8 @@ struct PrepareArguments {
     std::vector<std::string> settings;  ///< "operation.parameter=value"
     EndArguments ends;
     std::string out;
+    std::string author;  ///< empty: the login name
+    std::string name;    ///< of the input in the report; empty: the file's
     bool resume = false;
     bool json = false;
 };
@@ -212,6 +214,7 @@ void list_ends(const EndsOptions& options, const Progress& progress);
 struct NewArguments {
     std::string project;
     InputArguments input;
+    std::string author;  ///< empty: the login name
     bool json = false;
 };
 

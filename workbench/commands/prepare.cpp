@@ -42,8 +42,8 @@ void refuse_source(const Session& session, const std::string& file) {
                       "' is a source of this project: it is not replaced; give another name");
 }
 
-InputOptions input_options(const InputArguments& arguments) {
-    return {arguments.input, arguments.mask, arguments.units, arguments.neighbours};
+InputOptions input_options(const InputArguments& arguments, const std::string& name = "") {
+    return {arguments.input, arguments.mask, arguments.units, arguments.neighbours, name};
 }
 
 }  // namespace
@@ -62,12 +62,13 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const std::filesystem::path out = arguments.out;
     const std::string project = (out / "project.vbench").string();
     const auto tell = [&](const std::string& text) { remark(with_project(text, project)); };
-    const PrepareSummary made = prepare({.input = input_options(arguments.input),
+    const PrepareSummary made = prepare({.input = input_options(arguments.input, arguments.name),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,
                                          .arguments = with_ends(arguments.settings, arguments.ends),
                                          .out = arguments.out,
-                                         .resume = arguments.resume},
+                                         .resume = arguments.resume,
+                                         .author = arguments.author},
                                         tell, progress);
     if (arguments.json) return print_prepared(arguments, made);
     std::string what = purpose.result + ":";
@@ -78,7 +79,8 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
 }
 
 void make_project(const NewArguments& arguments, const Progress& progress) {
-    new_project(arguments.project, input_options(arguments.input), remark, progress);
+    new_project(arguments.project, input_options(arguments.input), arguments.author, remark,
+                progress);
     if (!arguments.json) return void(std::cout << "made " << arguments.project << "\n");
     Json edits = Json::array();
     const Session session = Session::open(arguments.project, {.find = find_operation});

@@ -70,6 +70,11 @@ void add_neighbours(CLI::App& command, InputArguments& input) {
         ->type_name("FILE|N,N");
 }
 
+void add_author(CLI::App& command, std::string& author) {
+    command.add_option("--author", author, "Author of the edits (default: login name)")
+        ->type_name("NAME");
+}
+
 void add_end_options(CLI::App& command, EndArguments& ends) {
     const auto add = [&](const char* name, std::vector<std::string>& texts, const char* help) {
         command.add_option(name, texts, help)->allow_extra_args(false)->type_name("N|X,Y,Z");
@@ -100,6 +105,12 @@ void add_prepare(CommandLine& line) {
                      "Go on in the folder's project with the edits of the recipe that are missing");
     add_settings(command, options->settings);
     add_end_options(command, options->ends);
+    add_author(command, options->author);
+    command
+        .add_option("--name", options->name,
+                    "The input's name in the report and its title, in place of those of files "
+                    "(default: the file's); the project keeps the files' names")
+        ->type_name("NAME");
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
@@ -127,6 +138,7 @@ void add_new(CommandLine& line) {
     add_project(command, options->project);
     add_input(command, options->input);
     add_neighbours(command, options->input);
+    add_author(command, options->author);
     add_json(command, options->json);
 }
 

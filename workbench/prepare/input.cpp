@@ -189,6 +189,8 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
         input.file = path;
         if (input.is_image) require_known_image(path);
     }
+    input.is_renamed = !options.name.empty();
+    if (input.is_renamed) input.name = options.name;
     if (!options.mask.empty()) input.mask = options.mask;
     if (!options.units.empty()) input.units = options.units;
     if (!input.mask.empty() && !fs::exists(input.mask))

@@ -22,12 +22,14 @@ struct InputOptions {
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
     /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8".
     std::vector<std::string> neighbours = {};
+    std::string name = {};  ///< in the report and in messages; empty: the file's or the case's
 };
 
 /// The INPUT after inspection.
 struct Input {
     bool is_image = false;
-    std::string name;            ///< the file's or case's name without its folder
+    std::string name;            ///< the given one, or the file's or case's without its folder
+    bool is_renamed = false;     ///< the name was given: the report has it in place of files' names
     std::filesystem::path file;  ///< surface, image, or folder of DICOM slices
     std::filesystem::path mask;
     std::string units;

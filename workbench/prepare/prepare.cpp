@@ -87,8 +87,9 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
 /// open it for writing, or the one that is resumed.
 Session opened_project(const PrepareOptions& options, const Teller& tell) {
     const fs::path project = options.out / kProject;
-    if (options.resume) return resumed(project, options.purpose);
-    return Session::create(project, {.find = find_operation}, [&] { keep_earlier(project, tell); });
+    const SessionOptions how{.author = options.author, .find = find_operation};
+    if (options.resume) return resumed(project, options.purpose, how);
+    return Session::create(project, how, [&] { keep_earlier(project, tell); });
 }
 
 /// So that a reopened project has them.
@@ -300,11 +301,11 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
     return session;
 }
 
-void new_project(const fs::path& project, const InputOptions& options, const Teller& tell,
-                 const Progress& progress) {
+void new_project(const fs::path& project, const InputOptions& options, const std::string& author,
+                 const Teller& tell, const Progress& progress) {
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
-    const Session session =
-        start_project(project, input, {.find = find_operation}, tell, progress.part(0.3, 1.0));
+    const Session session = start_project(
+        project, input, {.author = author, .find = find_operation}, tell, progress.part(0.3, 1.0));
     fold_log(session);
 }
 

@@ -18,6 +18,7 @@ struct PrepareOptions {
     std::vector<std::string> arguments;  ///< "operation.parameter=value"
     std::filesystem::path out;           ///< folder of the results
     bool resume = false;                 ///< goes on in the folder's project
+    std::string author;                  ///< of the edits; empty: the login name
 };
 
 struct PrepareSummary {
@@ -41,8 +42,10 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell, const 
                                     SessionOptions options, const Teller& tell,
                                     const Progress& progress);
 
-/// The same for the command line. \throw IoError if the file exists
+/// The same for the command line.
+/// \param author of the edits; empty: the login name
+/// \throw IoError if the file exists
 void new_project(const std::filesystem::path& project, const InputOptions& options,
-                 const Teller& tell, const Progress& progress);
+                 const std::string& author, const Teller& tell, const Progress& progress);
 
 }  // namespace vesselbench

@@ -183,10 +183,27 @@ void add_pictures(PreparedReport& report, const Surface& surface,
     }
 }
 
-void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits) {
+/// The name of a file that was read, unless the input has another one.
+std::string shown_file(const Input& input, const std::string& name) {
+    return input.is_renamed && !name.empty() ? input.name : name;
+}
+
+Json step_json(const LogEntry& entry, const Input& input) {
+    Json step = log_json(entry);
+    for (const Parameter& parameter : find_operation(entry.edit.operation).parameters)
+        for (const char* part : {"given", "resolved", "report"}) {
+            if (parameter.type != ParameterType::File || !step.contains(part)) continue;
+            const auto file = step[part].find(parameter.name);
+            if (file != step[part].end() && file->is_string())
+                *file = shown_file(input, file->get<std::string>());
+        }
+    return step;
+}
+
+void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const Input& input) {
     report.document["steps"] = Json::array();
     for (const LogEntry& entry : edits) {
-        report.document["steps"].push_back(log_json(entry));
+        report.document["steps"].push_back(step_json(entry, input));
         if (!entry.result) continue;
         for (std::string& warning : warnings_of(entry))
             report.warnings.push_back(std::move(warning));
@@ -213,9 +230,9 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
               {"input",
                {{"name", prepared.input.name},
                 {"kind", prepared.input.is_image ? "image" : "surface"},
-                {"mask", prepared.input.mask.filename().string()}}},
+                {"mask", shown_file(prepared.input, prepared.input.mask.filename().string())}}},
               {"warnings", Json::array()}};
-    add_steps(made, edits);
+    add_steps(made, edits, prepared.input);
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");

@@ -17,6 +17,8 @@ Json resume_command(const PrepareOptions& options) {
     Json command = {"vesselbench", "prepare", options.input.input};
     if (!options.input.mask.empty()) command.insert(command.end(), {"--mask", options.input.mask});
     if (!options.recipe.empty()) command.insert(command.end(), {"--recipe", options.recipe});
+    if (!options.author.empty()) command.insert(command.end(), {"--author", options.author});
+    if (!options.input.name.empty()) command.insert(command.end(), {"--name", options.input.name});
     for (const char* part : {"--for", options.purpose.c_str(), "--out"}) command.push_back(part);
     command.push_back(options.out.string());
     command.push_back("--resume");

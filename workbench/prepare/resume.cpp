@@ -58,8 +58,9 @@ bool does(EditId id, const Snapshot& made, const RecipeEntry& entry, const std::
 
 }  // namespace
 
-Session resumed(const std::filesystem::path& project, const std::string& purpose) {
-    Session session = Session::open(project, {.find = find_operation});
+Session resumed(const std::filesystem::path& project, const std::string& purpose,
+                const SessionOptions& options) {
+    Session session = Session::open(project, options);
     if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
     std::string other;
     for (const LogEntry& entry : session.log()) {

@@ -13,7 +13,8 @@ namespace vesselbench {
 
 /// Opens the project of an earlier preparation to go on in it.
 /// \throw IoError if it cannot be written, UsageError if it is for another purpose
-[[nodiscard]] Session resumed(const std::filesystem::path& project, const std::string& purpose);
+[[nodiscard]] Session resumed(const std::filesystem::path& project, const std::string& purpose,
+                              const SessionOptions& options);
 
 /// Large images are not embedded: they are read again from the input, wherever it is.
 /// \throw UsageError if the project was made from another file than the input, or was read in

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/pending_files.h"
 #include "workbench/case/json_text.h"
 #include "workbench/window/model/local_time.h"
 
@@ -32,7 +32,11 @@ constexpr std::array<std::pair<const char*, bool ShownLayers::*>, 6> kLayers = {
 bool written(const fs::path& folder, const std::string& text) {
     try {
         fs::create_directories(folder);
-        write_file(folder / kFile, text);
+        PendingFiles files;
+        // The names of projects are often those of patients.
+        fs::permissions(files.add_text(folder / kFile, text),
+                        fs::perms::owner_read | fs::perms::owner_write);
+        files.commit();
     } catch (const std::exception&) {
         return false;
     }
