@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stop_token>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/prepare.h"
 #include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/result_folder.h"
 #include "workbench/session/session.h"
@@ -266,4 +268,32 @@ SCENARIO("The author and the input's name can be given", "[workbench][prepare-fo
         CHECK(resumed.exit_code == 0);
         CHECK(authors() == std::set<std::string>{"reader-1", "reader-2"});
     }
+}
+
+SCENARIO("A cancel is heard between the products", "[workbench][prepare-folder]") {
+    const Place place;
+    Names command = place.command();
+    std::ranges::replace(command, std::string("planning"), std::string("rp"));
+    REQUIRE(run(command).exit_code == 0);
+    const auto before = content_of(place.out);
+    std::stop_source stop;
+    int written = 0;
+    const Progress progress(
+        [&](double, std::string_view what) {
+            if (what == "writing the products" && ++written == 2) stop.request_stop();
+        },
+        stop.get_token());
+    const PrepareOptions options{
+        .input = {.input = place.folder + "/tube.stl", .mask = "", .units = "mm"},
+        .purpose = "rp",
+        .recipe = place.folder + "/recipe.json",
+        .out = place.out,
+        .resume = true};
+    Names told;
+    CHECK_THROWS_AS(prepare(
+                        options, [&](const std::string& text) { told.push_back(text); }, progress),
+                    Cancelled);
+    CHECK(written == 2);
+    CHECK_THAT(told.back(), Contains("the results were not written"));
+    CHECK(content_of(place.out) == before);
 }

@@ -77,14 +77,6 @@ std::vector<std::string> product_names(const std::string& purpose) {
     return names;
 }
 
-std::vector<std::string> write_products(PendingFiles& files, const fs::path& folder,
-                                        const Scene& scene, const std::string& purpose,
-                                        const CfdParameters& flow) {
-    const std::vector<std::string> names = product_names(purpose);
-    for (const std::string& name : names) export_scene(files, folder / name, scene, flow);
-    return names;
-}
-
 void check_export_name(const fs::path& file) {
     if (format_of(file)) return;
     const std::string suffix = lower_suffix(without_last_slash(file).string());

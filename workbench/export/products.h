@@ -35,18 +35,9 @@ private:
     Arguments given_;
 };
 
-/// Names of the files that write_products writes: the surface, and the purpose's own products.
+/// Names of the files that a purpose's model is exported as: the surface, and its own products.
 /// \throw UsageError as find_purpose
 [[nodiscard]] std::vector<std::string> product_names(const std::string& purpose);
-
-/// Writes the files of product_names().
-/// \return their names
-/// \throw AlgorithmFailure if the scene has no volume mesh for cfd, IoError
-[[nodiscard]] std::vector<std::string> write_products(PendingFiles& files,
-                                                      const std::filesystem::path& folder,
-                                                      const Scene& scene,
-                                                      const std::string& purpose,
-                                                      const CfdParameters& flow);
 
 /// \throw UsageError that lists the suffixes unless export_scene can write such a file
 void check_export_name(const std::filesystem::path& file);
@@ -56,7 +47,8 @@ void check_export_name(const std::filesystem::path& file);
 void check_export_place(const std::filesystem::path& file);
 
 /// Writes one file or folder in the format of export_formats() that matches its name.
-/// \throw UsageError that lists the suffixes if none matches
+/// \throw UsageError that lists the suffixes if none matches, AlgorithmFailure if the scene has no
+/// such content, IoError
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
                   const CfdParameters& flow);
 

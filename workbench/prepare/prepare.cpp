@@ -170,6 +170,19 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
              (names.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
 }
 
+/// Hears a cancel between the products: each of them takes a fraction of a second.
+void write_products(PendingFiles& files, const PrepareOptions& options, PreparedCase& prepared,
+                    const Progress& progress) {
+    const std::vector<std::string> names = product_names(options.purpose);
+    for (const std::string& name : names) {
+        progress.report(
+            static_cast<double>(prepared.products.size()) / static_cast<double>(names.size()),
+            "writing the products");
+        export_scene(files, options.out / name, prepared.scene, prepared.flow);
+        prepared.products.push_back(name);
+    }
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
     const std::vector<std::string> names = result_names(options.purpose);
@@ -177,9 +190,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     keep_others(options.out, names, earlier, tell);
     prepared.earlier_results = remaining_results(options.out, names, earlier);
     PendingFiles files;
-    progress.report(0.0, "writing the products");
-    prepared.products =
-        write_products(files, options.out, prepared.scene, options.purpose, prepared.flow);
+    write_products(files, options, prepared, progress.part(0.0, 0.3));
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_mark(options.out / "report.html",
                    report_html(report.document, report.pictures, report.sections));
