@@ -60,20 +60,15 @@ private:
     bad_file(name, "it is truncated or damaged", "copy or download the file again");
 }
 
-/// The text of an attribute (`WholeExtent="..."`) within the file's first bytes.
-std::string attribute(std::string_view head, const std::string& key) {
-    auto at = head.find(key + "=\"");
-    if (at == std::string_view::npos) return {};
-    at += key.size() + 2;
-    return std::string(head.substr(at, head.find('"', at) - at));
-}
-
 /// VTK allocates according to the header, so the header is checked before VTK reads it.
 void check_vti_header(std::string_view bytes, const std::string& name) {
-    const std::string_view head = bytes.substr(0, 1 << 16);
-    if (head.find("ImageData") == std::string_view::npos)
+    const std::vector<VtkXmlElement> elements = require_vtk_xml(bytes, name);
+    const auto image = std::ranges::find_if(elements, [](const VtkXmlElement& element) {
+        return element.parent == 0U && element.name == "ImageData";
+    });
+    if (image == elements.end())
         bad_file(name, "it is not a VTK image (type ImageData)", "export it as image data");
-    const auto words = words_of(attribute(head, "WholeExtent"));
+    const auto words = words_of(attribute(*image, "WholeExtent").value_or(""));
     if (words.size() != 6) damaged(name);
     std::array<long long, 3> size{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -82,10 +77,9 @@ void check_vti_header(std::string_view bytes, const std::string& name) {
         size[i] = static_cast<long long>(*high) - static_cast<long long>(*low) + 1;
     }
     const std::size_t count = checked_voxel_count(size, name);
-    const bool compressed = head.find(" compressor=\"") != std::string_view::npos;
+    const bool compressed = attribute(elements.front(), "compressor").has_value();
     constexpr std::size_t kLargestRatio = 8000;  // of LZMA, the best of VTK's compressors
     if (count / (compressed ? kLargestRatio : 1) > bytes.size()) damaged(name);
-    require_vtk_xml(bytes, name);
 }
 
 void check_legacy_header(std::string_view bytes, const std::string& name) {

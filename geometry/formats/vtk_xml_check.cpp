@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <sstream>
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 
 namespace vesselbench {
 
@@ -17,15 +18,6 @@ namespace {
 /// Largest content of a compressed byte [bytes]: zlib's limit, and far above LZ4's.
 constexpr std::uint64_t kZlibRatio = 1032;
 constexpr std::uint64_t kLzmaRatio = 8000;
-
-/// The text of an attribute (`offset="12"`) of a tag; nothing if it has none.
-std::optional<std::string_view> attribute(std::string_view tag, const std::string& key) {
-    const std::string start = " " + key + "=\"";
-    auto at = tag.find(start);
-    if (at == std::string_view::npos) return std::nullopt;
-    at += start.size();
-    return tag.substr(at, tag.find('"', at) - at);
-}
 
 std::optional<std::uint64_t> number(std::optional<std::string_view> text) {
     std::uint64_t value = 0;
@@ -55,18 +47,17 @@ std::string decoded(std::string_view text, std::size_t wanted) {
 
 class Checker {
 public:
-    Checker(std::string_view bytes, const std::string& name) : name_(name) {
-        const auto appended = bytes.find("<AppendedData");
-        head_ = bytes.substr(0, appended);
-        if (appended != std::string_view::npos) {
-            const std::string_view rest = bytes.substr(appended);
-            const auto begin = rest.find('_');
-            if (begin == std::string_view::npos) damaged("its appended data is missing");
-            raw_ = attribute(rest.substr(0, begin), "encoding") == "raw";
-            data_ = rest.substr(begin + 1);
+    Checker(std::string_view bytes, const std::vector<VtkXmlElement>& elements,
+            const std::string& name)
+        : bytes_(bytes), elements_(elements), name_(name) {
+        if (elements.back().name == "AppendedData") {
+            raw_ = attribute(elements.back(), "encoding") == "raw";
+            data_ = bytes.substr(content_at(elements.back()));
+            if (!data_.starts_with('_')) damaged("its appended data is missing");
+            data_.remove_prefix(1);
             data_ = data_.substr(0, data_.rfind("</AppendedData"));
         }
-        const std::string_view file = tag_at(head_.find("<VTKFile"));
+        const VtkXmlElement& file = elements.front();
         wide_ = attribute(file, "header_type") == "UInt64";
         big_endian_ = attribute(file, "byte_order") == "BigEndian";
         const std::string_view compressor = attribute(file, "compressor").value_or("");
@@ -75,66 +66,115 @@ public:
         ratio_ = !compressed_                                        ? 1
                  : compressor.find("LZMA") != std::string_view::npos ? kLzmaRatio
                                                                      : kZlibRatio;
-        size_ = bytes.size();
     }
 
     void check_counts() const {
-        for (const char* key : {"NumberOfPoints", "NumberOfVerts", "NumberOfLines",
-                                "NumberOfStrips", "NumberOfPolys", "NumberOfTuples"}) {
-            const std::string start = std::string(" ") + key + "=\"";
-            for (auto at = head_.find(start); at != std::string_view::npos;
-                 at = head_.find(start, at + 1)) {
-                const auto count = number(attribute(head_.substr(at), key));
-                if (!count || *count / ratio_ > size_)
+        for (const VtkXmlElement& element : elements_) {
+            for (const char* key : {"NumberOfPoints", "NumberOfVerts", "NumberOfLines",
+                                    "NumberOfStrips", "NumberOfPolys", "NumberOfTuples"}) {
+                const auto text = attribute(element, key);
+                const auto count = number(text);
+                if (text && (!count || *count / ratio_ > bytes_.size()))
                     damaged(std::string("it announces more data (") + key + ") than it can hold");
             }
+            check_components(element);
         }
     }
 
+    /// Whatever the element is called: VTK takes any element for an array where it expects one.
     void check_arrays() const {
-        for (auto at = head_.find("<DataArray"); at != std::string_view::npos;
-             at = head_.find("<DataArray", at + 1)) {
-            const std::string_view tag = tag_at(at);
-            const auto format = attribute(tag, "format");
-            if (format == "appended")
-                check_appended(tag);
-            else if (format == "binary")
-                check_inline(head_.substr(at + tag.size()));
-        }
-    }
-
-    /// Lists of texts: VTK writes as many as the data holds, beyond the announced number too.
-    void check_texts() const {
-        for (auto at = head_.find("<Array"); at != std::string_view::npos;
-             at = head_.find("<Array", at + 1)) {
-            const std::string_view tag = tag_at(at);
-            const auto texts = number(attribute(tag, "NumberOfTuples"));
-            const auto parts = number(attribute(tag, "NumberOfComponents").value_or("1"));
-            if (!texts || !parts) damaged("a list of texts does not announce its length");
-            if (texts_in(tag, head_.substr(at + tag.size())) > *texts * std::min(*parts, size_))
-                damaged("a list of texts is longer than announced");
+        for (const VtkXmlElement& element : elements_) {
+            const bool is_list = element.name == "Array" || attribute(element, "type") == "String";
+            if (is_appended(element))
+                check_appended(element);
+            else if (attribute(element, "format") == "binary" && !is_list)
+                check_inline(content_of(element));
+            if (is_list) check_texts(element);
         }
     }
 
 private:
-    /// Texts of a list, each of which ends with a zero. \param rest of the file after the tag
-    [[nodiscard]] std::uint64_t texts_in(std::string_view tag, std::string_view rest) const {
-        const auto format = attribute(tag, "format");
-        const std::string_view text =
-            rest.substr(0, rest.find('<', 1)).substr(rest.empty() ? 0 : 1);
-        if (format == "appended") {
-            check_appended(tag);
-            return zeros(content(data_.substr(*number(attribute(tag, "offset"))), raw_));
-        }
-        if (format == "binary") {
-            const auto first = text.find_first_not_of(" \t\r\n");
-            if (first == std::string_view::npos) return 0;
-            check_block(text.substr(first), false);
-            return zeros(content(text.substr(first), false));
-        }
+    /// VTK allocates any number of components.
+    void check_components(const VtkXmlElement& element) const {
+        constexpr std::uint64_t kMost = 1000;
+        const auto text = attribute(element, "NumberOfComponents");
+        const std::uint64_t count = text ? number(text).value_or(0) : 1;
+        if (count < 1 || count > kMost)
+            throw InvalidInput(name_ + " announces an array with " + shortened(printable(*text)) +
+                               " numbers per point or cell: it is damaged; copy or download it "
+                               "again");
+    }
+
+    /// VTK goes by the offset, whatever the format says.
+    static bool is_appended(const VtkXmlElement& element) {
+        return attribute(element, "offset") || attribute(element, "format") == "appended";
+    }
+
+    /// Lists of texts: VTK writes as many as the data holds, beyond the announced number too.
+    void check_texts(const VtkXmlElement& element) const {
+        const auto texts = number(attribute(element, "NumberOfTuples"));
+        const auto parts = number(attribute(element, "NumberOfComponents").value_or("1"));
+        if (!texts || !parts) damaged("a list of texts does not announce its length");
+        if (texts_in(element) > std::min(*texts, room_around(element)) * *parts)
+            damaged("a list of texts is longer than announced");
+    }
+
+    /// Lists of a piece's points and cells are as long as the piece is large.
+    [[nodiscard]] std::uint64_t room_around(const VtkXmlElement& list) const {
+        const VtkXmlElement* around = parent_of(list);
+        const VtkXmlElement* piece = around ? parent_of(*around) : nullptr;
+        const auto count = [&](const char* key) {
+            return piece ? number(attribute(*piece, key)).value_or(0) : 0;
+        };
+        if (around && around->name == "PointData") return count("NumberOfPoints");
+        if (around && around->name == "CellData")
+            return count("NumberOfVerts") + count("NumberOfLines") + count("NumberOfStrips") +
+                   count("NumberOfPolys");
+        return std::numeric_limits<std::uint64_t>::max();
+    }
+
+    [[nodiscard]] const VtkXmlElement* parent_of(const VtkXmlElement& element) const {
+        return element.parent ? &elements_[*element.parent] : nullptr;
+    }
+
+    /// Where VTK starts to read an element's data: behind the first '>', be it in a value.
+    [[nodiscard]] std::size_t content_at(const VtkXmlElement& element) const {
+        const auto close = bytes_.find('>', element.offset);
+        const auto start = close == std::string_view::npos
+                               ? close
+                               : bytes_.find_first_not_of(" \t\n\v\f\r", close + 1);
+        return std::min(start, bytes_.size());
+    }
+
+    [[nodiscard]] std::string_view content_of(const VtkXmlElement& element) const {
+        const std::size_t start = content_at(element);
+        return bytes_.substr(start, bytes_.find('<', start) - start);
+    }
+
+    /// Texts of a list, each of which ends with a zero.
+    [[nodiscard]] std::uint64_t texts_in(const VtkXmlElement& list) const {
+        if (is_appended(list))
+            return zeros(content(data_.substr(*number(attribute(list, "offset"))), raw_));
+        const std::string_view text = content_of(list);
+        if (attribute(list, "format") != "binary") return zeros_written(text);
+        if (text.empty()) return 0;
+        check_block(text, false);
+        return zeros(content(text, false));
+    }
+
+    /// Zeros among bytes written as numbers, of which VTK takes the last eight bits.
+    [[nodiscard]] std::uint64_t zeros_written(std::string_view text) const {
         std::istringstream words{std::string(text)};
         std::uint64_t count = 0;
-        for (std::string word; words >> word;) count += std::strtol(word.c_str(), nullptr, 10) == 0;
+        for (std::string word; words >> word;) {
+            int value = 0;
+            const char* const end = word.data() + word.size();
+            const auto [read, error] = std::from_chars(word.data(), end, value);
+            if (error != std::errc{} || read != end)
+                damaged("a list of texts has '" + shortened(printable(word)) +
+                        "' where a byte should be");
+            count += value % 256 == 0;
+        }
         return count;
     }
 
@@ -177,21 +217,13 @@ private:
         throw InvalidInput(name_ + ": " + what + ": it is damaged; copy or download it again");
     }
 
-    [[nodiscard]] std::string_view tag_at(std::size_t at) const {
-        if (at == std::string_view::npos) return {};
-        return head_.substr(at, head_.find('>', at) - at);
-    }
-
-    void check_appended(std::string_view tag) const {
-        const auto offset = number(attribute(tag, "offset"));
+    void check_appended(const VtkXmlElement& element) const {
+        const auto offset = number(attribute(element, "offset"));
         if (!offset || *offset >= data_.size()) damaged("an array's appended data is missing");
         check_block(data_.substr(*offset), raw_);
     }
 
     void check_inline(std::string_view text) const {
-        const auto first = text.find_first_not_of("> \t\r\n");
-        if (first == std::string_view::npos) damaged("an array's data is missing");
-        text = text.substr(first, text.find('<', first) - first);
         if (!text.empty()) check_block(text, false);
     }
 
@@ -239,24 +271,21 @@ private:
     /// VTK's usual block size [bytes], which short arrays announce as well.
     static constexpr std::uint64_t kSmallBlock = std::uint64_t{1} << 20;
 
+    std::string_view bytes_, data_;
+    const std::vector<VtkXmlElement>& elements_;
     const std::string& name_;
-    std::string_view head_, data_;
     bool raw_ = false, wide_ = false, big_endian_ = false, compressed_ = false, zlib_ = false;
-    std::uint64_t ratio_ = 1, size_ = 0;
+    std::uint64_t ratio_ = 1;
 };
 
 }  // namespace
 
-void require_vtk_xml(std::string_view bytes, const std::string& name) {
-    if (bytes.find("<VTKFile") == std::string_view::npos)
-        throw InvalidInput(name + " is not a VTK XML file: '<VTKFile' is missing");
-    if (bytes.rfind("</VTKFile>") == std::string_view::npos)
-        throw InvalidInput(
-            name + " ends without '</VTKFile>': it is truncated; copy or download it again");
-    const Checker checker(bytes, name);
+std::vector<VtkXmlElement> require_vtk_xml(std::string_view bytes, const std::string& name) {
+    std::vector<VtkXmlElement> elements = vtk_xml_elements(bytes, name);
+    const Checker checker(bytes, elements, name);
     checker.check_counts();
     checker.check_arrays();
-    checker.check_texts();
+    return elements;
 }
 
 }  // namespace vesselbench

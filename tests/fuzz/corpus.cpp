@@ -127,6 +127,13 @@ void write_surface_reproductions(const fs::path& folder) {
     vtps.add("no-data.vtp", piece + "</VTKFile>\n");
     vtps.add("block-of-nothing.vtp", piece + "<AppendedData encoding=\"raw\">\n_" + block +
                                          std::string(40, 'x') + "</AppendedData></VTKFile>\n");
+    const std::string texts =
+        "<FieldData><Array type='String' Name='n' NumberOfTuples='1' format='ascii'>97 0 98 0"
+        "</Array></FieldData>";
+    const std::string root = "<VTKFile type='PolyData' version='0.1'><PolyData>";
+    vtps.add("entity.vtp", "<!DOCTYPE VTKFile [<!ENTITY e \"" + texts + "\">]>\n" + root +
+                               "&e;</PolyData></VTKFile>\n");
+    vtps.add("too-many-texts.vtp", root + texts + "</PolyData></VTKFile>\n");
 }
 
 void write_images(const fs::path& folder) {

@@ -65,6 +65,25 @@ std::string vtp_with(const std::string& points, const std::string& appended,
            offset + "\"/></Points></Piece></PolyData>\n" + appended + "</VTKFile>\n";
 }
 
+/// A triangle in VTK XML. \param inside in front of its piece \param end behind the poly data
+std::string triangle_vtp(const std::string& inside, const std::string& end = "") {
+    return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>" +
+           inside +
+           "<Piece NumberOfPoints='3' NumberOfPolys='1'><Points><DataArray type='Float32' "
+           "NumberOfComponents='3' format='ascii'>0 0 0 1 0 0 0 1 0</DataArray></Points>\n<Polys>"
+           "<DataArray type='Int64' Name='connectivity' format='ascii'>0 1 2</DataArray>"
+           "<DataArray type='Int64' Name='offsets' format='ascii'>3</DataArray></Polys></Piece>"
+           "</PolyData>\n" +
+           end + "</VTKFile>\n";
+}
+
+/// ASCII text as UTF-16, the low byte first.
+std::string wide(const std::string& text) {
+    std::string bytes = "\xff\xfe";
+    for (const char c : text) bytes += {c, '\0'};
+    return bytes;
+}
+
 std::string appended(const std::string& bytes) {
     return "<AppendedData encoding=\"raw\">\n_" + bytes + "</AppendedData>";
 }
@@ -105,6 +124,59 @@ SCENARIO("VTP files with impossible data never reach VTK", "[workbench][hostile]
         const std::string file = temporary_folder() + "/tube.vtp";
         write_surface(closed_tube(2.0, 8.0, 12, 4), file);
         CHECK(read_surface(file).surface.patches.size() == 3);
+    }
+}
+
+SCENARIO("No list of a VTK XML file hides from the checks", "[workbench][hostile]") {
+    const auto check = [](const std::string& text, const std::string& why) {
+        INFO(text.substr(0, 200));
+        const std::string error = refusal(written("a.vtp", text));
+        CHECK_THAT(error, Contains(why) && Contains("a.vtp") && !Contains("\n"));
+    };
+    const auto list = [](const std::string& attributes, const std::string& bytes) {
+        return "<FieldData><Array Name='n' NumberOfTuples='1' " + attributes + ">" + bytes +
+               "</Array></FieldData>";
+    };
+    const std::string texts = list("type='String' format='ascii'", "97 0 98 0");
+    check(triangle_vtp(texts), "texts is longer");
+    const std::string entity = "<?xml version='1.0'?>\n<!DOCTYPE VTKFile [<!ENTITY e \"";
+    check(entity + texts + "\">]>\n" + triangle_vtp("&e;"), "<!DOCTYPE");
+    check(wide(triangle_vtp(texts)), "UTF-16");
+    check(wide(triangle_vtp(texts)).substr(2), "UTF-16");
+    check(std::string("\0\0\xfe\xff", 4) + triangle_vtp(texts), "UTF-16");
+    // VTK would go on reading 4096 bytes further on.
+    check("<!-- <AppendedData>" + std::string(4096, ' ') + "-->" + triangle_vtp(texts), "XML");
+    check(triangle_vtp(list("type='String' format='ascii'", "97 256 98 256")), "texts is longer");
+    check(triangle_vtp(list("type='String' format='ascii'", "97 0+0+0+0")), "a byte should be");
+    check(triangle_vtp("<FieldData><DataArray type='String' Name='n' NumberOfTuples='1' "
+                       "format='ascii'>0 0</DataArray></FieldData>"),
+          "texts is longer");
+    check(triangle_vtp("<FieldData><DataArray type='Int8' NumberOfTuples='9' format='ascii' "
+                       "offset='4'>0 0</DataArray></FieldData>"),
+          "appended data is missing");
+    check(triangle_vtp("<FieldData><DataArray type='Int8' NumberOfComponents\n= '999999999' "
+                       "format='ascii'>0 0</DataArray></FieldData>"),
+          "announces an array");
+    std::string deep;
+    for (int i = 0; i < 100; ++i) deep = "<a>" + deep + "</a>";
+    check(triangle_vtp(deep), "XML");
+    THEN("appended data may hold any bytes") {
+        const std::string bytes = "<!DOCTYPE <!ENTITY <AppendedData \xff\xfe";
+        const auto size = static_cast<char>(bytes.size());
+        const std::string file =
+            written("good.vtp",
+                    triangle_vtp("<FieldData><DataArray type='UInt8' Name='n' NumberOfTuples='" +
+                                     std::to_string(bytes.size()) +
+                                     "' format='appended' offset='0'/></FieldData>",
+                                 appended(std::string({size, '\0', '\0', '\0'}) + bytes)));
+        CHECK(read_surface(file, LengthUnit::Millimetre).surface.triangle_count() == 1);
+    }
+    THEN("images are checked as well") {
+        const std::string vti = written(
+            "a.vti", entity + texts +
+                         "\">]><VTKFile type='ImageData'><ImageData WholeExtent='0 1 0 1 0 1'>"
+                         "&e;</ImageData></VTKFile>");
+        CHECK_THAT(error_of<InvalidInput>([&] { (void)read_image(vti); }), Contains("<!DOCTYPE"));
     }
 }
 
