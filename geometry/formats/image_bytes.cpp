@@ -16,6 +16,7 @@
 #include <zlib.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/inner_file.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
 
@@ -158,9 +159,8 @@ std::string detached_bytes(const std::string& header, const std::string& other,
     if (other.empty() || printable(other) != other)
         bad_file(name, "the name of its voxel file is '" + shortened(printable(other)) + "'",
                  "export the file again");
-    const std::filesystem::path file(other);
     return file_content(
-        (file.is_absolute() ? file : std::filesystem::path(header).parent_path() / file).string());
+        inner_file(std::filesystem::path(header).parent_path(), other, name + ": its voxel file"));
 }
 
 bool is_gzip(std::string_view bytes) {

@@ -41,7 +41,8 @@ struct ImageHeader {
 
 /// The content of the voxel file that a detached header names, relative to the header's folder.
 /// \param header path \param other name of the voxel file, as in the header
-/// \throw InvalidInput if these are several files, or no file can have the name; IoError
+/// \throw InvalidInput if these are several files, no file can have the name, or the file is not in
+/// the header's folder; IoError
 [[nodiscard]] std::string detached_bytes(const std::string& header, const std::string& other,
                                          const std::string& name);
 

@@ -18,6 +18,7 @@
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/prepare/case_files.h"
 
 namespace vesselbench {
 
@@ -70,21 +71,12 @@ void make_phantom_files(Input& input, PhantomDescription description, const Prog
     input.exact = phantom.exact;
 }
 
-/// The file that case.json names; empty if it has no such key.
-fs::path case_file(const fs::path& folder, JsonFields& fields, const char* key) {
-    const auto name = fields.optional<std::string>(key);
-    if (!name) return {};
-    const fs::path file = folder / *name;
-    if (!fs::exists(file))
-        throw IoError("its " + std::string(key) + " '" + file.filename().string() +
-                      "' does not exist");
-    return file;
-}
-
-void check_recipes(const Json& recipes) {
+void check_recipes(const Json& recipes, const fs::path& folder) {
     if (!recipes.is_array() && !recipes.is_object())
         refuse_json(recipes, "case.json.recipe",
                     "a list of operations, or an object with such a list for each purpose");
+    if (recipes.is_array()) static_cast<void>(recipe_in(folder, recipes));
+    for (const Json& recipe : recipes) static_cast<void>(recipe_in(folder, recipe));
 }
 
 void fill_from_case(Input& input, const fs::path& folder, const Json& json,
@@ -93,7 +85,8 @@ void fill_from_case(Input& input, const fs::path& folder, const Json& json,
     fields.read("name", input.name);
     fields.read("units", input.units);
     if (const Json* recipes = fields.child("recipe")) {
-        check_recipes(*recipes);
+        check_recipes(*recipes, folder);
+        input.folder = folder;
         input.recipes = std::make_shared<const Json>(*recipes);
     }
     if (const auto phantom = fields.optional<std::string>("phantom")) {
@@ -209,10 +202,10 @@ RecipeUse recipe_use(const Input& input, const std::string& purpose) {
 
 Json own_recipe(const Input& input, const std::string& purpose) {
     if (!input.recipes) return nullptr;
-    if (input.recipes->is_array()) return *input.recipes;
+    if (input.recipes->is_array()) return recipe_in(input.folder, *input.recipes);
     if (!input.recipes->is_object())
         throw UsageError("the recipes are neither a list nor an object");
-    return input.recipes->value(purpose, Json());
+    return recipe_in(input.folder, input.recipes->value(purpose, Json()));
 }
 
 Recipe loading_entries(const Input& input) {

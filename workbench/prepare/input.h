@@ -36,18 +36,21 @@ struct Input {
     Recipe neighbours;             ///< the edits that load them
     std::optional<Surface> exact;  ///< the true surface, if a phantom provides it
     std::shared_ptr<const nlohmann::ordered_json> recipes;  ///< a case's own: by "cfd" and "rp"
+    std::filesystem::path folder;      ///< of a case: what its recipes name is in it
     std::shared_ptr<const void> keep;  ///< folder of files made for this input; removed with it
 };
 
 /// Inspects INPUT and reads the description of a case; of surfaces and images it determines only
 /// the kind. A phantom's image and mask are created.
-/// \throw IoError if it does not exist, InvalidInput if it is none of these
+/// \throw IoError if it does not exist, InvalidInput if it is none of these, or a case names files
+/// outside its folder
 [[nodiscard]] Input resolve_input(const InputOptions& options, const Progress& progress);
 
 /// The words of "when" that apply to the input.
 [[nodiscard]] RecipeUse recipe_use(const Input& input, const std::string& purpose);
 
-/// The case's own recipe for a purpose, a JSON list; null: it has none.
+/// The case's own recipe for a purpose, a JSON list, with the paths of its files; null: it has
+/// none. \throw InvalidInput if a file is outside the case's folder
 [[nodiscard]] nlohmann::ordered_json own_recipe(const Input& input, const std::string& purpose);
 
 /// The edits that load the input: the image or surface, then its neighbours.

@@ -60,6 +60,7 @@ std::optional<Input> remembered_input(const fs::path& project, std::vector<std::
         const std::string text = stored_text(project, StoredText::Recipes);
         if (text.empty()) return std::nullopt;
         Input input;
+        input.folder = fs::absolute(project).parent_path();
         input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
         check_recipes(input);
         return input;
