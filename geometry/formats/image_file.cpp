@@ -1,7 +1,5 @@
 #include "geometry/formats/image_file.h"
 
-#include <filesystem>
-
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/image_formats.h"
 #include "geometry/kernel/errors.h"
@@ -17,8 +15,7 @@ std::string image_formats_text() {
 }
 
 ImageFile read_image_file(const std::string& path) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) throw IoError(bare_name(path) + ": no such file");
+    if (!file_exists(path)) throw IoError(bare_name(path) + ": no such file");
     refuse_special_file(path);
     const ImageFormat* format = row_that_reads(image_formats(), path);
     if (!format)

@@ -225,6 +225,43 @@ SCENARIO("Devices, pipes and sockets are no input", "[workbench][hostile]") {
     CHECK_FALSE(std::filesystem::exists(folder + "/p.vbench"));
 }
 
+SCENARIO("A link that leads to itself is refused in our words", "[workbench][hostile]") {
+    const std::string folder = temporary_folder();
+    write_surface(cube(10.0), folder + "/cube.stl");
+    for (const char* name : {"loop.stl", "loop.nrrd", "loop.vtk", "loop"})
+        std::filesystem::create_symlink(name, folder + "/" + name);
+    std::filesystem::create_directories(folder + "/case");
+    std::filesystem::create_symlink("case.json", folder + "/case/case.json");
+    std::filesystem::create_directories(folder + "/slices");
+    std::filesystem::create_symlink("1.dcm", folder + "/slices/1.dcm");
+    const auto check = [](const std::vector<std::string>& arguments, const std::string& why) {
+        const ProgramRun run = run_program(program_path(), arguments);
+        INFO(arguments[0] << " " << arguments.back() << ": " << run.err);
+        CHECK(run.exit_code == 3);
+        CHECK_THAT(run.err, Contains(why) && !Contains("filesystem"));
+        CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    };
+    const std::string loop = "a link that leads to itself", project = folder + "/p.vbench";
+    const auto prepare = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"prepare", "--for", "rp", "--out", folder + "/out"};
+        words.insert(words.end(), more.begin(), more.end());
+        check(words, loop);
+    };
+    for (const char* name : {"/loop.stl", "/loop.nrrd", "/loop.vtk", "/loop", "/case"}) {
+        check({"new", project, folder + name}, loop);
+        prepare({folder + name});
+    }
+    check({"measure", folder + "/loop.stl"}, loop);
+    check({"measure", folder + "/cube.stl", folder + "/loop.stl"}, loop);
+    CHECK(run_program(program_path(), {"new", project, folder + "/slices"}).exit_code == 3);
+    check({"log", folder + "/loop"}, loop);
+    prepare({folder + "/cube.stl", "--recipe", folder + "/loop"});
+    prepare({folder + "/cube.stl", "--neighbour", folder + "/loop.stl"});
+    prepare({folder + "/cube.stl", "--mask", folder + "/loop.nrrd"});
+    check({"prepare", folder + "/cube.stl", "--for", "rp", "--out", folder + "/loop"}, "loop");
+    CHECK_FALSE(std::filesystem::exists(project));
+}
+
 SCENARIO("What notes and names contain is shown escaped", "[workbench][hostile]") {
     const std::string folder = temporary_folder(), project = folder + "/p.vbench";
     write_surface(cube(10.0), folder + "/cube.stl");

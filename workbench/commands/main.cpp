@@ -1,9 +1,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stop_token>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,6 +13,7 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
 #include "workbench/commands/failure.h"
@@ -40,6 +43,12 @@ int run(int argc, char** argv, const std::stop_token& stop) {
         return fail("stopped (cancelled); what was finished before is kept", kFailed);
     } catch (const vesselbench::IoError& error) {
         return fail(error.what(), kBadInput);
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string name = vesselbench::bare_name(error.path1());
+        return fail((name + " cannot be used (" + error.code().message() +
+                     "): check its name and the permissions of its folders")
+                        .c_str(),
+                    kBadInput);
     } catch (const vesselbench::DiagnosedFailure& error) {
         return fail(error.what(), kFailed, error.diagnostics());
     } catch (const nlohmann::json::exception&) {

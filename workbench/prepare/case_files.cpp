@@ -2,6 +2,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/inner_file.h"
+#include "geometry/kernel/regular_file.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -42,7 +43,7 @@ fs::path case_file(const fs::path& folder, JsonFields& fields, const char* key) 
     const auto name = fields.optional<std::string>(key);
     if (!name) return {};
     fs::path file = inner_file(folder, *name, "its " + std::string(key));
-    if (!fs::exists(file))
+    if (!file_exists(file))
         throw IoError("its " + std::string(key) + " '" + file.filename().string() +
                       "' does not exist");
     return file;

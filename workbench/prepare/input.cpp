@@ -128,7 +128,7 @@ void require_known_image(const fs::path& path) {
 /// "7" or "7,8": labels and no file.
 bool is_label_list(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789,") == std::string::npos &&
-           !fs::exists(text);
+           !file_exists(text);
 }
 
 /// The edits that load the neighbours, each named after its file or its labels.
@@ -145,7 +145,7 @@ Recipe neighbour_entries(const std::vector<std::string>& neighbours, bool of_ima
             entry.given.set("labels", neighbour);
         } else {
             const fs::path file = neighbour;
-            if (!fs::exists(file))
+            if (!file_exists(file))
                 throw IoError("the neighbour '" + file.filename().string() + "' does not exist");
             entry.given.set("name", names.add(file.stem().string()));
             entry.given.set("file", neighbour);
@@ -171,9 +171,9 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     Input input;
     const fs::path path = plain_path(options.input);
     input.name = path.filename().string();
-    if (!fs::exists(path)) throw IoError("'" + input.name + "' does not exist");
+    if (!file_exists(path)) throw IoError("'" + input.name + "' does not exist");
     refuse_special_file(path);
-    if (fs::exists(path / kCaseFile)) {
+    if (file_exists(path / kCaseFile)) {
         read_case(input, path, progress);
     } else {
         // A folder of DICOM slices is often called after the patient.
@@ -186,7 +186,7 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     if (input.is_renamed) input.name = options.name;
     if (!options.mask.empty()) input.mask = options.mask;
     if (!options.units.empty()) input.units = options.units;
-    if (!input.mask.empty() && !fs::exists(input.mask))
+    if (!input.mask.empty() && !file_exists(input.mask))
         throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
     if (!input.mask.empty() && !input.is_image)
         throw UsageError("--mask requires an image, but '" + input.name + "' is a surface");

@@ -68,8 +68,9 @@ std::string ContentHash::hex() {
 std::string hash_of_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path)) return hash_of_regular_file(path);
     std::vector<std::filesystem::path> files;
+    std::error_code ignored;  // a link that leads to itself is no file
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
-        if (entry.is_regular_file()) files.push_back(entry.path());
+        if (entry.is_regular_file(ignored)) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     ContentHash all;
     for (const auto& file : files) add_text(all, hash_of_regular_file(file));

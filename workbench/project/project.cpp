@@ -11,6 +11,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/regular_file.h"
 #include "workbench/project/compression.h"
 #include "workbench/project/database.h"
 #include "workbench/project/file_lock.h"
@@ -27,17 +28,9 @@ namespace {
 /// [bytes] of a scene's parts: an embedded image and its mask take half of it.
 constexpr std::uint64_t kLargestScene = std::uint64_t{1} << 30;
 
-/// \throw IoError if that cannot be determined
-bool missing(const std::filesystem::path& path) {
-    std::error_code error;
-    const bool there = std::filesystem::exists(path, error);
-    if (error) throw IoError("cannot reach " + path.filename().string() + ": " + error.message());
-    return !there;
-}
-
 /// \throw IoError if there is a file
 void require_missing(const std::filesystem::path& path) {
-    if (!missing(path))
+    if (file_exists(path))
         throw IoError(path.filename().string() +
                       " already exists; choose another name or remove it first");
 }
@@ -55,7 +48,7 @@ void remove_companions(const std::filesystem::path& project) {
 /// Gives a project written under another name its own: nobody sees a partial file, and an existing
 /// file is kept.
 void name_new_project(const std::filesystem::path& path, PendingFiles& files) {
-    require_missing(path);
+    require_!file_exists(path);
     remove_companions(path);
     files.commit(Existing::Keep);
 }
@@ -181,7 +174,7 @@ ProjectFile ProjectFile::create(const std::filesystem::path& path, std::size_t e
 
 ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t embed_limit) {
     const std::string name = path.filename().string();
-    if (missing(path)) throw IoError(name + " does not exist");
+    if (!file_exists(path)) throw IoError(name + " does not exist");
     if (!std::filesystem::is_regular_file(path)) throw InvalidInput(name + " is not a file");
     if (access(path.c_str(), R_OK) != 0) throw IoError("cannot read " + name + ": no permission");
     FileLock::Attempt attempt;
@@ -342,7 +335,7 @@ void ProjectFile::discard() {
 }
 
 void ProjectFile::save_as(const std::filesystem::path& path, const Progress& progress) const {
-    require_missing(path);
+    require_!file_exists(path);
     progress.check_cancelled();
     PendingFiles files;
     {
