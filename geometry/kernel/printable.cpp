@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "geometry/kernel/errors.h"
+
 namespace vesselbench {
 
 namespace {
@@ -17,6 +19,13 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;
 }
 
+/// False for characters written longer than needed, surrogates, and those beyond U+10FFFF.
+bool may_follow(unsigned char first, unsigned char second) {
+    const unsigned char least = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+    const unsigned char most = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+    return second >= least && second <= most;
+}
+
 /// Bytes of the UTF-8 character at the front; 0 if there is none.
 std::size_t character_size(std::string_view text) {
     const auto first = static_cast<unsigned char>(text.front());
@@ -29,6 +38,7 @@ std::size_t character_size(std::string_view text) {
     if (size > text.size()) return 0;
     for (std::size_t i = 1; i < size; ++i)
         if (!continues(text[i])) return 0;
+    if (size > 1 && !may_follow(first, static_cast<unsigned char>(text[1]))) return 0;
     return size;
 }
 
@@ -44,6 +54,21 @@ bool is_control(std::string_view character) {
 }
 
 }  // namespace
+
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        if (size == 0) return false;
+        text.remove_prefix(size);
+    }
+    return true;
+}
+
+void require_utf8(std::string_view text, const std::string& what) {
+    if (!is_utf8(text))
+        throw UsageError(what + " '" + shortened(printable(text)) +
+                         "' is not UTF-8 text: write it in a terminal that uses UTF-8");
+}
 
 std::string printable(std::string_view text) {
     std::string shown;

@@ -5,6 +5,13 @@
 
 namespace vesselbench {
 
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+/// For texts that are stored, and printed as JSON later.
+/// \param what it is: "the note"
+/// \throw UsageError that shows the text unless it is UTF-8
+void require_utf8(std::string_view text, const std::string& what);
+
 /// A text of unknown origin (notes, authors, names) as it may be shown on a terminal: control
 /// characters become "\x1b", bytes that are no UTF-8 too, so that no escape sequence gets through.
 /// Line breaks and tabs stay.

@@ -156,12 +156,15 @@ SCENARIO("Stored arguments keep type and bits", "[session][serialization]") {
                                  {"third", 1.0 / 3.0},
                                  {"endless", -std::numeric_limits<double>::infinity()},
                                  {"text", std::string("Jürgen \"x\"\n")},
+                                 {"bytes", std::string("J\xfcrgen \x80\xc2 \xff\x01.stl")},
                                  {"at", Vec3(0.1, -2.0, 1e-17)},
                                  {"list", std::vector<double>{1.0, 2.5, 3.0}},
                                  {"nothing", std::vector<double>{}}};
     CHECK(arguments_from_stored(stored_text(arguments)) == arguments);
     CHECK_THROWS_AS(arguments_from_stored("{\"a\": null}"), InvalidInput);
     CHECK_THROWS_AS(arguments_from_stored("{\"a\": "), InvalidInput);
+    CHECK_THROWS_AS(arguments_from_stored("{\"a\": {\"bytes\": \"\u20ac\"}}"), InvalidInput);
+    CHECK_THROWS_AS(arguments_from_stored("{\"a\": {\"bytes\": 7}}"), InvalidInput);
     THEN("so do packed texts") {
         for (const std::string& text :
              {std::string(), std::string("short"), std::string(5000, 'x')})

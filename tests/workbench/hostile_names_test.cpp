@@ -82,6 +82,69 @@ SCENARIO("Texts of unknown origin are shown without terminal escapes", "[workben
     CHECK(printable("\xe2\x80\xae") == "\\xe2\\x80\\xae");  // right-to-left override
 }
 
+SCENARIO("UTF-8 is told from other bytes", "[workbench][names]") {
+    for (const char* text :
+         {"", "plain\n", "Gef\xc3\xa4\xc3\x9f", "\xe2\x82\xac", "\xf0\x9f\x98\x80"})
+        CHECK(is_utf8(text));
+    for (const char* text : {"Gef\xe4\xdf", "\xc3", "\x80", "\xc0\xaf", "\xe0\x80\x80",
+                             "\xed\xa0\x80", "\xf0\x80\x80\x80", "\xf4\x90\x80\x80", "\xff"}) {
+        CHECK_FALSE(is_utf8(text));
+        CHECK(is_utf8(printable(text)));
+    }
+}
+
+SCENARIO("Texts that are not UTF-8 are refused before they are stored", "[workbench][names]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    write_surface(cube(10.0), folder + "/cube.stl");
+    const auto run = [](const std::vector<std::string>& arguments) {
+        return run_program(program_path(), arguments);
+    };
+    REQUIRE(run({"new", project, folder + "/cube.stl"}).exit_code == 0);
+    const std::string text = "Gef\xe4\xdf";
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"note", project, "1", text},
+          {"apply", project, "repair", "--note", text},
+          {"apply", project, "repair", "--author", text},
+          {"change", project, "1", "--note", text},
+          {"change", project, "1", "--author", text},
+          {"apply", project, "load-neighbour", "name=" + text, "file=" + folder + "/cube.stl"},
+          {"apply", project, "repair", "unknown=" + text},
+          {"apply", project, "remesh", "--variant", text}}) {
+        const ProgramRun refused = run(arguments);
+        INFO(arguments[0] << " " << arguments[3] << ": " << refused.err);
+        CHECK(refused.exit_code == 2);
+        CHECK_THAT(refused.err, !Contains("\xe4"));
+        if (arguments[3] == "--note" || arguments[0] == "note")
+            CHECK_THAT(refused.err, Contains("the note 'Gef\\xe4\\xdf' is not UTF-8"));
+    }
+    const ProgramRun log = run({"log", project, "--json"});
+    REQUIRE(log.exit_code == 0);
+    CHECK(Json::parse(log.out)["edits"].size() == 1);
+    REQUIRE(run({"note", project, "1", "Gef\xc3\xa4\xc3\x9f"}).exit_code == 0);
+    CHECK(Json::parse(run({"log", project, "--json"}).out)["edits"][0]["note"] ==
+          "Gef\xc3\xa4\xc3\x9f");
+}
+
+SCENARIO("A file whose name is not UTF-8 is read, and found again", "[workbench][names]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    const std::string file = folder + "/Gef\xe4\xdf.stl";
+    write_surface(cube(10.0), file);
+    const auto run = [](const std::vector<std::string>& arguments) {
+        const ProgramRun result = run_program(program_path(), arguments);
+        INFO(result.err);
+        CHECK(result.exit_code == 0);
+        return result.out;
+    };
+    CHECK(Json::accept(run({"measure", file, "--json"})));
+    const Json made = Json::parse(run({"new", project, file, "--json"}));
+    const Json log = Json::parse(run({"log", project, "--json"}));
+    CHECK_THAT(log["edits"][0]["given"]["file"].get<std::string>(),
+               Catch::Matchers::StartsWith("Gef\xef\xbf\xbd"));
+    CHECK(made["edits"][0]["given"] == log["edits"][0]["given"]);
+    CHECK_THAT(run({"log", project}), !Contains("\xe4"));
+    run({"replay", project});
+}
+
 SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") {
     for (const auto& [operation, parameter] :
          std::vector<std::pair<std::string, std::string>>{{"clip-opening", "name"},

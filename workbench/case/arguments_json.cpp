@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/point_json.h"
 
 namespace vesselbench {
@@ -29,7 +30,7 @@ struct JsonOf {
 };
 
 std::string shown(const Json& json) {
-    return shortened(printable(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+    return shortened(printable(text_from_json(json)));
 }
 
 Value plain_value(const std::string& name, const Json& json) {

@@ -14,6 +14,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
+#include "workbench/case/json_text.h"
 
 namespace vesselbench {
 
@@ -22,9 +23,8 @@ namespace vesselbench {
 
 [[noreturn]] inline void refuse_json(const nlohmann::ordered_json& json, const std::string& place,
                                      const std::string& wanted) {
-    using Json = nlohmann::ordered_json;
-    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    throw InvalidInput(place + " must be " + wanted + ", not " + shortened(printable(text)));
+    throw InvalidInput(place + " must be " + wanted + ", not " +
+                       shortened(printable(text_from_json(json))));
 }
 
 template <class T>

@@ -81,4 +81,8 @@ nlohmann::ordered_json json_from_file(const std::filesystem::path& file) {
     return json_from_text(file_content(file), bare_name(file));
 }
 
+std::string text_from_json(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace vesselbench

@@ -201,6 +201,9 @@ std::string to_string(const Condition& condition) {
 }
 
 Value checked_value(const Parameter& parameter, const Value& value) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (text != nullptr && parameter.type != ParameterType::File)
+        require_utf8(*text, "parameter '" + parameter.name + "' =");
     const std::optional<Value> typed = in_type(parameter, value);
     if (!typed || !in_range(parameter, *typed)) refuse(parameter, to_text(value));
     return *typed;

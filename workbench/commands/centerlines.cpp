@@ -9,6 +9,7 @@
 #include "geometry/formats/centerline_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/shared/foreign_surface.h"
@@ -84,7 +85,7 @@ void find_centerlines(const CenterlineOptions& options, const Progress& progress
     if (options.json) {
         Json document = graph_json(graph);
         document["file_units"] = assumed_units(options.units);
-        std::cout << document.dump(2) << "\n";
+        std::cout << text_from_json(document, 2) << "\n";
         return;
     }
     print_table(graph);

@@ -6,6 +6,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/commands/end_picture.h"
@@ -63,7 +64,8 @@ void list_ends(const EndsOptions& options, const Progress& progress) {
         files.commit();
     }
     if (options.json)
-        std::cout << nlohmann::ordered_json({{"ends", ends_json(plan, names)}}).dump(2) << "\n";
+        std::cout << text_from_json(nlohmann::ordered_json({{"ends", ends_json(plan, names)}}), 2)
+                  << "\n";
     else
         print_table(plan, names);
 }

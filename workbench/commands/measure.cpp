@@ -10,6 +10,7 @@
 #include "geometry/kernel/reference_comparison.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
@@ -100,7 +101,7 @@ void measure_surface(const MeasureOptions& options) {
     }
     if (options.json) {
         document["file_units"] = assumed_units(options.units);
-        std::cout << document.dump(2) << "\n";
+        std::cout << text_from_json(document, 2) << "\n";
     } else {
         print_table(document, options.units);
         if (options.histogram) print_histogram(document["reference"]["histogram"]);

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/operation.h"
 #include "workbench/case/parameter_texts.h"
 #include "workbench/commands/commands.h"
@@ -123,7 +124,7 @@ void list_operations(const OperationsOptions& options) {
     if (!options.name.empty()) {
         const Operation& operation = find_operation(options.name);
         if (options.json)
-            std::cout << json_of(operation).dump(2) << "\n";
+            std::cout << text_from_json(json_of(operation), 2) << "\n";
         else
             print_one(operation);
         return;
@@ -131,7 +132,7 @@ void list_operations(const OperationsOptions& options) {
     if (!options.json) return print_all();
     Json all = Json::array();
     for (const Operation& operation : operation_table()) all.push_back(json_of(operation));
-    std::cout << Json({{"operations", all}}).dump(2) << "\n";
+    std::cout << text_from_json(Json({{"operations", all}}), 2) << "\n";
 }
 
 }  // namespace vesselbench

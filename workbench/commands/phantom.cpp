@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/phantoms/phantom_json.h"
 
@@ -28,7 +29,7 @@ constexpr const char *kImage = "image.nii.gz", *kMask = "mask.nii.gz", *kExact =
 std::string case_text(const PhantomDescription& description) {
     Json json = {{"name", description.name}, {"image", kImage}, {"exact", kExact}};
     if (!description.imaging.kept_apart.empty()) json["mask"] = kMask;
-    return json.dump(2) + "\n";
+    return text_from_json(json, 2) + "\n";
 }
 
 /// \throw IoError if the folder describes another case
@@ -44,11 +45,11 @@ void print_json(const PhantomDescription& description, const Phantom& phantom,
     Json files = {kImage, kMask, kExact, "case.json"};
     if (phantom.noisy) files.push_back(kNoisy);
     if (phantom.neighbour) files.push_back(kNeighbour);
-    std::cout << Json({{"name", description.name},
-                       {"seed", description.seed},
-                       {"folder", folder},
-                       {"files", files}})
-                     .dump(2)
+    std::cout << text_from_json(Json({{"name", description.name},
+                                      {"seed", description.seed},
+                                      {"folder", folder},
+                                      {"files", files}}),
+                                2)
               << "\n";
 }
 

@@ -10,6 +10,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/report/colour_scale.h"
@@ -104,7 +105,8 @@ void draw_picture(const PictureArguments& arguments) {
     files.add_text(arguments.out, png(picture));
     files.commit();
     if (arguments.json)
-        std::cout << nlohmann::ordered_json({{"file", arguments.out}, {"legend", legend}}).dump(2)
+        std::cout << text_from_json(
+                         nlohmann::ordered_json({{"file", arguments.out}, {"legend", legend}}), 2)
                   << "\n";
     else
         std::cout << "wrote " << arguments.out << ": " << legend << "\n";

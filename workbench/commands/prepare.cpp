@@ -7,6 +7,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/shell_text.h"
 #include "workbench/commands/commands.h"
@@ -25,13 +26,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void print_prepared(const PrepareArguments& arguments, const PrepareSummary& made) {
-    std::cout << Json({{"purpose", arguments.purpose},
-                       {"folder", arguments.out},
-                       {"project", "project.vbench"},
-                       {"reports", {"report.json", "report.html"}},
-                       {"products", made.products},
-                       {"warnings", made.warnings}})
-                     .dump(2)
+    std::cout << text_from_json(Json({{"purpose", arguments.purpose},
+                                      {"folder", arguments.out},
+                                      {"project", "project.vbench"},
+                                      {"reports", {"report.json", "report.html"}},
+                                      {"products", made.products},
+                                      {"warnings", made.warnings}}),
+                                2)
               << "\n";
 }
 
@@ -85,7 +86,8 @@ void make_project(const NewArguments& arguments, const Progress& progress) {
     Json edits = Json::array();
     const Session session = Session::open(arguments.project, {.find = find_operation});
     for (const LogEntry& entry : session.log()) edits.push_back(log_json(entry));
-    std::cout << Json({{"project", arguments.project}, {"edits", edits}}).dump(2) << "\n";
+    std::cout << text_from_json(Json({{"project", arguments.project}, {"edits", edits}}), 2)
+              << "\n";
 }
 
 void export_project(const ExportArguments& arguments, const Progress& progress) {
@@ -114,7 +116,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     Json json = {{"file", arguments.file}, {"variant", variant}};
     if (scene.surface) json["triangles"] = scene.surface->triangle_count();
     if (scene.volume_mesh) json["tetrahedra"] = scene.volume_mesh->tetrahedra.size();
-    std::cout << json.dump(2) << "\n";
+    std::cout << text_from_json(json, 2) << "\n";
 }
 
 }  // namespace vesselbench

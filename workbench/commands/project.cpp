@@ -8,6 +8,7 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
@@ -204,7 +205,7 @@ void print_moves(const std::string& verb, const std::vector<Move>& moves, const 
                                    {"revision", move.edit->edit.revision},
                                    {"operation", move.edit->operation},
                                    {"change", move_name(move.change)}});
-        std::cout << state.dump(2) << "\n";
+        std::cout << text_from_json(state, 2) << "\n";
         return;
     }
     std::vector<std::string> texts;
@@ -317,7 +318,7 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     const LogEntry entry = session.apply(given, edit, progress);
     remark_warnings(entry, given);
     if (options.json)
-        std::cout << log_json(entry).dump(2) << "\n";
+        std::cout << text_from_json(log_json(entry), 2) << "\n";
     else
         print_edit(entry);
 }
@@ -344,7 +345,7 @@ void change_edit(const ChangeOptions& options, const Progress& progress) {
             json["scaled_places"] = ids_of(rescaled.places);
             json["kept_sizes"] = ids_of(rescaled.sizes);
         }
-        std::cout << json.dump(2) << "\n";
+        std::cout << text_from_json(json, 2) << "\n";
         return;
     }
     print_edit(entry);
@@ -360,7 +361,7 @@ void remove_edit(const RemoveOptions& options) {
     if (options.json) {
         Json json = {{"removed", old.edit.id}, {"operation", old.operation}};
         json.update(state_json(*now));
-        std::cout << json.dump(2) << "\n";
+        std::cout << text_from_json(json, 2) << "\n";
         return;
     }
     std::cout << "removed edit " << edit_list({&old}) << "\n";
@@ -374,7 +375,7 @@ void note_edit(const NoteOptions& options) {
     const std::shared_ptr<const Snapshot> now = session.snapshot();
     const EditRecord& edit = edit_of(*now, options.edit);
     if (options.json)
-        std::cout << Json({{"edit", edit.edit.id}, {"note", edit.note}}).dump(2) << "\n";
+        std::cout << text_from_json(Json({{"edit", edit.edit.id}, {"note", edit.note}}), 2) << "\n";
     else
         std::cout << "edit " << edit_list({&edit})
                   << (edit.note.empty() ? " has no note" : ": \"" + printable(edit.note) + "\"")
@@ -387,12 +388,13 @@ void show_log(const LogOptions& options) {
     if (!options.json) return print_log(now->log);
     Json edits = Json::array();
     for (const LogEntry& entry : now->log) edits.push_back(log_json(entry));
-    std::cout << Json({{"project", std::filesystem::path(options.project).filename().string()},
-                       {"read_only", now->read_only_reason},
-                       {"state", now->history->current()},
-                       {"states", now->history->states().size()},
-                       {"edits", edits}})
-                     .dump(2)
+    std::cout << text_from_json(
+                     Json({{"project", std::filesystem::path(options.project).filename().string()},
+                           {"read_only", now->read_only_reason},
+                           {"state", now->history->current()},
+                           {"states", now->history->states().size()},
+                           {"edits", edits}}),
+                     2)
               << "\n";
 }
 
@@ -425,7 +427,7 @@ bool replay_project(const LogOptions& options, const Progress& progress) {
     const std::vector<ReplayEntry> entries = session.replay(progress);
     const Json json = replay_json(entries);
     if (options.json)
-        std::cout << json.dump(2) << "\n";
+        std::cout << text_from_json(json, 2) << "\n";
     else
         print_replay(entries);
     if (json["same"] == true) return true;
@@ -436,10 +438,10 @@ bool replay_project(const LogOptions& options, const Progress& progress) {
 void compact(const LogOptions& options) {
     const Compaction done = compact_project(options.project);
     if (options.json) {
-        std::cout << Json({{"dropped", done.dropped},
-                           {"bytes_before", done.before},
-                           {"bytes_after", done.after}})
-                         .dump(2)
+        std::cout << text_from_json(Json({{"dropped", done.dropped},
+                                          {"bytes_before", done.before},
+                                          {"bytes_after", done.after}}),
+                                    2)
                   << "\n";
         return;
     }

@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
 #include "smoothing/quality/sensitivity.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/report/quality_gallery.h"
@@ -165,7 +166,7 @@ void draw_quality(const QualityOptions& options, const Progress& progress) {
                                 ? quality_bars_svg(figures(), title, order_from(options.sort))
                                 : quality_graphs_svg(figures(), title));
     }
-    const std::string json = options.json ? json_of(figures()).dump(2) + "\n" : "";
+    const std::string json = options.json ? text_from_json(json_of(figures()), 2) + "\n" : "";
     files.commit();
     std::cout << json;
     if (options.json) return;

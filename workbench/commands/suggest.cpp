@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
@@ -180,7 +181,7 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
         json["presets"].push_back(suggestion_json(search, found[i].first, found[i].second));
     json["work"] = work;
     if (options.grid) json["grid"] = grid_json(search, options, progress);
-    std::cout << json.dump(2) << "\n";
+    std::cout << text_from_json(json, 2) << "\n";
 }
 
 }  // namespace

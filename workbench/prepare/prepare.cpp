@@ -194,7 +194,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_mark(options.out / "report.html",
                    report_html(report.document, report.pictures, report.sections));
-    files.add_mark(options.out / "report.json", report.document.dump(2) + "\n");
+    files.add_mark(options.out / "report.json", text_from_json(report.document, 2) + "\n");
     progress.check_cancelled();
     files.commit();
     tell_remaining(prepared.earlier_results, tell);
@@ -209,7 +209,7 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     keep_others(options.out, names, earlier, tell);
     const Json report =
         refusal_json(options, failure, remaining_results(options.out, names, earlier));
-    write_file(options.out / names.front(), report.dump(2) + "\n");
+    write_file(options.out / names.front(), text_from_json(report, 2) + "\n");
 }
 
 /// \throw AlgorithmFailure if the project's file cannot be made whole

@@ -61,7 +61,7 @@ void keep_warning(const std::filesystem::path& project, const RecipeWarning& war
     for (Json& earlier : stored_list(project))
         if (!same_entry(earlier, added)) list.push_back(std::move(earlier));
     list.push_back(std::move(added));
-    store_text(project, StoredText::Warnings, list.dump());
+    store_text(project, StoredText::Warnings, text_from_json(list));
 }
 
 std::vector<std::string> kept_warnings(const std::filesystem::path& project,

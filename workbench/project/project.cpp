@@ -118,7 +118,7 @@ struct ProjectFile::Parts {
             // changes, the file alone is complete.
             std::filesystem::path log = path;
             log += "-wal";
-            if (!missing(log) && std::filesystem::file_size(log) > 0) throw;
+            if (file_exists(log) && std::filesystem::file_size(log) > 0) throw;
             parts = open(path, OpenMode::Frozen, embed_limit);
         }
         parts->read_only_reason = path.filename().string() + " is opened read-only: " + reason;

@@ -28,11 +28,10 @@ Json stored_change(const SurfaceChange& change) {
 }
 
 Bytes packed_details(const ResultRecord& result) {
-    return pack_text(Json({{"resolved", stored_text(result.resolved)},
-                           {"warnings", result.warnings},
-                           {"change", stored_change(result.change)},
-                           {"report", result.report}})
-                         .dump(-1, ' ', false, Json::error_handler_t::replace));
+    return pack_text(text_from_json(Json({{"resolved", stored_text(result.resolved)},
+                                          {"warnings", result.warnings},
+                                          {"change", stored_change(result.change)},
+                                          {"report", result.report}})));
 }
 
 /// Unpacks the texts of a log: all together must be plausible for a file of its size.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/project/compression.h"
@@ -33,6 +34,32 @@ double number_from_json(const Json& json) {
     return text == "inf" ? infinity : -infinity;
 }
 
+/// File names may consist of any bytes: those that are no UTF-8 are written as {"bytes": "..."}
+/// with a character for each byte, U+0000 to U+00FF.
+std::string as_characters(const std::string& bytes) {
+    std::string text;
+    for (const char c : bytes) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte >= 0x80) text += static_cast<char>(0xc0U | (byte >> 6U));
+        text += static_cast<char>(byte < 0x80 ? byte : 0x80U | (byte & 0x3fU));
+    }
+    return text;
+}
+
+std::string bytes_from_json(const Json& json) {
+    const auto text = JsonFields(json, "a stored text").required<std::string>("bytes");
+    std::string bytes;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        auto byte = static_cast<unsigned char>(text[i]);
+        if (byte > 0xc3) refuse_json(json, "a stored text", "of characters up to U+00FF");
+        if (byte >= 0x80)  // the first of two bytes, as in all UTF-8 up to there
+            byte = static_cast<unsigned char>((byte << 6U) |
+                                              (static_cast<unsigned char>(text[++i]) & 0x3fU));
+        bytes += static_cast<char>(byte);
+    }
+    return bytes;
+}
+
 struct ToJson {
     Json operator()(bool flag) const { return flag; }
 
@@ -40,7 +67,10 @@ struct ToJson {
 
     Json operator()(double number) const { return number_to_json(number); }
 
-    Json operator()(const std::string& text) const { return text; }
+    Json operator()(const std::string& text) const {
+        if (is_utf8(text)) return text;
+        return {{"bytes", as_characters(text)}};
+    }
 
     Json operator()(const Vec3& p) const {
         return {{"x", number_to_json(p.x())},
@@ -59,6 +89,7 @@ Value value_from_json(const Json& json) {
     if (json.is_boolean()) return json.get<bool>();
     if (json.is_number_integer()) return json_integer<std::int64_t>(json, "a stored number");
     if (json.is_string()) return json.get<std::string>();
+    if (json.is_object() && json.contains("bytes")) return bytes_from_json(json);
     if (json.is_object() && json.contains("x")) {
         JsonFields point(json, "a stored point");
         const auto number = [&](const char* key) {
@@ -84,7 +115,7 @@ std::string stored_text(const Arguments& arguments) {
 }
 
 std::string stored_text(const Json& report) {
-    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text_from_json(report);
 }
 
 Arguments arguments_from_stored(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/source_files.h"
 #include "workbench/session/case_store.h"
@@ -70,10 +71,13 @@ struct Session::Parts {
         : options(std::move(o)),
           store(std::move(project), options.scene_bytes),
           runner(store, options) {
-        if (options.author.empty()) options.author = login_name();
+        require_utf8(options.author, "the author");
+        if (options.author.empty()) options.author = printable(login_name());
     }
 
     void describe(EditRecord& edit, const EditOptions& how) const {
+        require_utf8(how.author, "the author");
+        require_utf8(how.note, "the note");
         edit.author = how.author.empty() ? options.author : how.author;
         if (!how.note.empty()) edit.note = how.note;
     }
@@ -331,6 +335,7 @@ void Session::set_note(EditRef edit, const std::string& note) {
     if (!parts_->store.history().edits().contains(edit))
         throw UsageError("there is no revision " + std::to_string(edit.revision) + " of edit " +
                          std::to_string(edit.id) + "; see the edits with log");
+    require_utf8(note, "the note");
     parts_->store.set_note(edit, note);
 }
 

@@ -53,8 +53,7 @@ std::vector<Spot> spots_from(const std::string& text) {
 }  // namespace
 
 void store_spots(const std::filesystem::path& project, const std::vector<Spot>& spots) {
-    store_text(project, StoredText::Spots,
-               json_of(spots).dump(-1, ' ', false, Json::error_handler_t::replace));
+    store_text(project, StoredText::Spots, text_from_json(json_of(spots)));
 }
 
 std::vector<Spot> stored_spots(const std::filesystem::path& project) {

@@ -107,7 +107,7 @@ std::string Settings::text() const {
         if (layers.*layer) shown.push_back(name);
     const Json json = {
         {"theme", dark ? "dark" : "light"}, {"scale", scale}, {"layers", shown}, {"recent", list}};
-    return json.dump(2) + "\n";
+    return text_from_json(json, 2) + "\n";
 }
 
 bool Settings::save() const {
