@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cstdio>
 
+#include "geometry/kernel/printable.h"
+
 namespace vesselbench {
 
 namespace {
@@ -56,7 +58,7 @@ std::string lower_case(std::string_view text) {
 
 std::string xml_escaped(const std::string& text) {
     std::string result;
-    for (const char letter : text)
+    for (const char letter : printable(text))
         result += letter == '&'   ? "&amp;"
                   : letter == '<' ? "&lt;"
                   : letter == '>' ? "&gt;"

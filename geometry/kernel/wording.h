@@ -35,7 +35,8 @@ namespace vesselbench {
 /// ASCII letters only; other bytes stay.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-/// The text escaped for XML and HTML, also in attributes.
+/// The text escaped for XML and HTML, also in attributes; control characters, which XML cannot
+/// hold, and bytes that are no UTF-8 are shown as printable() does.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
 /// A number in a printf format: formatted(0.1234) is "0.123".

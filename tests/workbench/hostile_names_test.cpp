@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <catch2/catch.hpp>
@@ -143,6 +144,21 @@ SCENARIO("A file whose name is not UTF-8 is read, and found again", "[workbench]
     CHECK(made["edits"][0]["given"] == log["edits"][0]["given"]);
     CHECK_THAT(run({"log", project}), !Contains("\xe4"));
     run({"replay", project});
+}
+
+SCENARIO("A case's name cannot put control characters into its reports", "[workbench][names]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_text(folder + "/case.json", R"({"name": "a\u001b[31m\u0007\u009b", "phantom": "tube"})");
+    const ProgramRun run =
+        run_program(program_path(), {"prepare", folder, "--for", "rp", "--out", out});
+    INFO(run.err);
+    REQUIRE(run.exit_code == 0);
+    const std::string report = file_content(out + "/report.json");
+    CHECK(Json::parse(report)["input"]["name"] == "a\\x1b[31m\\x07\\xc2\\x9b");
+    CHECK_THAT(report, !Contains("\\u00"));
+    const std::string page = file_content(out + "/report.html");
+    CHECK_THAT(page, Contains("a\\x1b[31m\\x07") && !Contains("\xc2\x9b"));
+    CHECK(std::ranges::none_of(page, [](char c) { return c >= 0 && c < ' ' && c != '\n'; }));
 }
 
 SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") {

@@ -3,11 +3,28 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "workbench/case/json_text.h"
 #include "workbench/report/log_json.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;
 using Json = nlohmann::ordered_json;
+
+SCENARIO("The report's page has no control characters", "[workbench][report]") {
+    const std::string name = "a\x1b[31m\x07\x7f\r b\xe4\xc2\x9b \xe2\x80\xae";
+    const Json report = {{"program_version", "1"},
+                         {"purpose", "cfd"},
+                         {"input", {{"name", name}}},
+                         {"warnings", {name}},
+                         {"products", {name}}};
+    const std::vector<ReportPicture> pictures = {{name, "png"}};
+    for (const Json& document : {report, printable_json(report)}) {
+        const std::string page = report_html(document, pictures, {});
+        for (const char* part : {"\x1b", "\x07", "\x7f", "\r", "\xe4", "\x9b", "\xe2\x80\xae"})
+            CHECK_THAT(page, !Contains(part));
+        CHECK_THAT(page, Contains("a\\x1b[31m\\x07\\x7f\\x0d b\\xe4\\xc2\\x9b"));
+    }
+}
 
 SCENARIO("The report's page matches its document", "[workbench][report]") {
     const Json report = Json::parse(R"({

@@ -1,10 +1,12 @@
 #include "workbench/case/json_text.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -79,6 +81,13 @@ nlohmann::ordered_json json_from_file(const std::filesystem::path& file) {
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && size > kLargestJsonFile) too_large(bare_name(file), size, kLargestJsonFile);
     return json_from_text(file_content(file), bare_name(file));
+}
+
+nlohmann::ordered_json printable_json(Json json) {
+    if (json.is_string()) return printable(json.get<std::string>());
+    if (json.is_structured())
+        for (Json& part : json) part = printable_json(std::move(part));
+    return json;
 }
 
 std::string text_from_json(const Json& json, int indent) {

@@ -26,6 +26,9 @@ constexpr std::size_t kLargestStoredJson = std::size_t{256} << 20;
 /// The same for a file. \throw IoError if it cannot be read
 [[nodiscard]] nlohmann::ordered_json json_from_file(const std::filesystem::path& file);
 
+/// The same with every text as printable() shows it, for documents that people read.
+[[nodiscard]] nlohmann::ordered_json printable_json(nlohmann::ordered_json json);
+
 /// JSON as text, of any content: bytes that are no UTF-8, as file names may have, become the
 /// replacement character.
 /// \param indent blanks for each level; -1: all in one line

@@ -209,7 +209,7 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     keep_others(options.out, names, earlier, tell);
     const Json report =
         refusal_json(options, failure, remaining_results(options.out, names, earlier));
-    write_file(options.out / names.front(), text_from_json(report, 2) + "\n");
+    write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
 }
 
 /// \throw AlgorithmFailure if the project's file cannot be made whole

@@ -10,6 +10,7 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/point_json.h"
 #include "workbench/case/purposes.h"
@@ -260,6 +261,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     report["warnings"] = made.warnings;
     report["products"] = prepared.products;
     report["earlier_results"] = prepared.earlier_results;
+    report = printable_json(std::move(report));
     return made;
 }
 
