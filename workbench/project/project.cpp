@@ -48,7 +48,7 @@ void remove_companions(const std::filesystem::path& project) {
 /// Gives a project written under another name its own: nobody sees a partial file, and an existing
 /// file is kept.
 void name_new_project(const std::filesystem::path& path, PendingFiles& files) {
-    require_!file_exists(path);
+    require_missing(path);
     remove_companions(path);
     files.commit(Existing::Keep);
 }
@@ -335,7 +335,7 @@ void ProjectFile::discard() {
 }
 
 void ProjectFile::save_as(const std::filesystem::path& path, const Progress& progress) const {
-    require_!file_exists(path);
+    require_missing(path);
     progress.check_cancelled();
     PendingFiles files;
     {
