@@ -86,7 +86,7 @@ SCENARIO("A form shows its command", "[window][form]") {
     OperationForm form(find_operation("smooth"));
     form.set("lambda", "0.5");
     CHECK(form.as_command("/data/it's a case.vbench", "cfd") ==
-          R"(vesselbench apply '/data/it'\''s a case.vbench' smooth lambda=0.5)");
+          R"(vesselbench apply '/data/it'\''s a case.vbench' smooth lambda=0.5 --variant cfd)");
     OperationForm remesh(find_operation("remesh"));
     CHECK(remesh.as_command("a.vbench", "rp") == "vesselbench apply a.vbench remesh --variant rp");
     EditRecord edit{.edit = {.id = 3, .revision = 2}, .operation = "smooth"};

@@ -22,7 +22,7 @@ struct SurfaceChange {
     bool operator==(const SurfaceChange&) const = default;
 };
 
-/// The variant of edits of steps 6-8, and of scenes, where none is named.
+/// The variant of edits of steps 4-8, and of scenes, where none is named.
 inline constexpr const char* kDefaultVariant = "cfd";
 
 /// The user's request: one revision of an edit.

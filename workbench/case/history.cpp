@@ -66,7 +66,11 @@ void check_states(const std::map<StateId, HistoryState>& states,
 }  // namespace
 
 bool belongs_to_variant(Step step) {
-    return step >= Step::Deformation && step <= Step::Product;
+    return step >= Step::Openings && step <= Step::Product;
+}
+
+bool is_part_of(const EditPlace& place, const std::string& variant) {
+    return place.variant.empty() || place.variant == variant;
 }
 
 std::string to_string(EditStatus status) {
@@ -153,9 +157,8 @@ std::vector<HistoryEntry> History::entries() const {
 
 std::vector<HistoryEntry> History::line(const std::string& variant) const {
     std::vector<HistoryEntry> result = entries();
-    std::erase_if(result, [&](const HistoryEntry& entry) {
-        return !entry.place.variant.empty() && entry.place.variant != variant;
-    });
+    std::erase_if(result,
+                  [&](const HistoryEntry& entry) { return !is_part_of(entry.place, variant); });
     return result;
 }
 
@@ -164,6 +167,15 @@ std::vector<std::string> History::variants() const {
     for (const EditRef& edit : edits_of(current_))
         if (const auto& variant = edits_.at(edit).variant; !variant.empty()) names.insert(variant);
     return {names.begin(), names.end()};
+}
+
+Step History::first_variant_step() const {
+    const std::vector<EditRef> edits = edits_of(current_);
+    const bool shared = std::any_of(edits.begin(), edits.end(), [&](const EditRef& edit) {
+        const EditPlace& place = edits_.at(edit);
+        return place.variant.empty() && belongs_to_variant(place.step);
+    });
+    return shared ? Step::Deformation : Step::Openings;
 }
 
 const HistoryResult* History::result_of(EditRef edit, ResultId input) const {

@@ -26,13 +26,17 @@ struct EditRef {
 /// The place of an edit in the case.
 struct EditPlace {
     Step step = Step::Source;
-    std::string variant;  ///< "cfd", "rp", ...; empty for steps 1-5, the trunk of all variants
+    std::string variant;  ///< "cfd", "rp", ...; empty: the trunk of all variants
 
     bool operator==(const EditPlace&) const = default;
 };
 
-/// True for the steps whose edits belong to a variant: deformation, remeshing, product.
+/// True for the steps whose edits belong to a variant: openings to product. What an opening is for
+/// decides how it is made; steps 1-3 are the trunk.
 [[nodiscard]] bool belongs_to_variant(Step step);
+
+/// True for the edits that a variant consists of: the trunk's and its own.
+[[nodiscard]] bool is_part_of(const EditPlace& place, const std::string& variant);
 
 enum class StateChange : std::uint8_t { Start, Apply, Change, Remove };
 
@@ -107,6 +111,11 @@ public:
 
     /// Names of the variants that have edits in the current state, ascending.
     [[nodiscard]] std::vector<std::string> variants() const;
+
+    /// The first step whose new edits belong to a variant: openings. In a project whose trunk has
+    /// edits of openings or smoothing, it is deformation: further ones join them there, because the
+    /// whole trunk precedes the variants.
+    [[nodiscard]] Step first_variant_step() const;
 
     /// The result of an edit on an input, if it ever ran on it and was not dropped.
     [[nodiscard]] const HistoryResult* result_of(EditRef edit, ResultId input) const;

@@ -124,10 +124,9 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
                         " (default: " + searched_operations().front() + ")")
         ->type_name("NAME");
     command
-        .add_option(
-            "--variant", subject.variant,
-            std::string("Variant of a project, if the operation belongs to one (default: ") +
-                kDefaultVariant + ")")
+        .add_option("--variant", subject.variant,
+                    "Variant of a project, if the operation belongs to one (default: the\n"
+                    "project's only one, else cfd)")
         ->type_name("NAME");
     const std::string filtering = alternatives(searched_operations(searches_filter));
     command

@@ -131,8 +131,7 @@ void print_suggestions(SuggestionSearch& search, const SearchSubject& subject,
     for (const Parameter& parameter : subject.operation->parameters)
         if (const auto at = arguments.values().find(parameter.name); at != arguments.values().end())
             words += " " + parameter.name + "=" + to_text(at->second);
-    if (!subject.variant.empty() && subject.variant != kDefaultVariant)
-        words += " --variant " + subject.variant;
+    if (!subject.variant.empty()) words += " --variant " + subject.variant;
     std::cout << "\nvesselbench apply " << words << "\n";
 }
 

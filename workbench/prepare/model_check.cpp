@@ -33,11 +33,8 @@ bool takes_as_asked(const LogEntry& entry) {
 
 /// The variant's edits that are done or can be, in their order, up to one of them; 0: all.
 std::vector<LogEntry> edits_until(const Session& session, const std::string& variant, EditId last) {
-    std::vector<LogEntry> edits = session.log();
-    std::erase_if(edits, [&](const LogEntry& entry) {
-        const std::string& its = entry.edit.place.variant;
-        return entry.status == EditStatus::Stale || !(its.empty() || its == variant);
-    });
+    std::vector<LogEntry> edits = session.log(variant);
+    std::erase_if(edits, [](const LogEntry& entry) { return entry.status == EditStatus::Stale; });
     const auto end = std::ranges::find(edits, last, [](const auto& e) { return e.edit.edit.id; });
     if (end != edits.end()) edits.erase(end + 1, edits.end());
     return edits;

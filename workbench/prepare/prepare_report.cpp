@@ -44,15 +44,6 @@ Json distances_json(const Positions& points, const Surface& reference) {
     return json;
 }
 
-/// The edits that make the shown variant, in order.
-std::vector<LogEntry> edits_of(const Session& session, const std::string& variant) {
-    std::vector<LogEntry> edits;
-    for (LogEntry& entry : session.log())
-        if (entry.edit.place.variant.empty() || entry.edit.place.variant == variant)
-            edits.push_back(std::move(entry));
-    return edits;
-}
-
 /// The role of the edit's operation in a recipe.
 const RecipePart& part_of(const LogEntry& entry) {
     return find_operation(entry.edit.operation).recipe;
@@ -218,7 +209,7 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const
 
 PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                               const Progress& progress) {
-    const std::vector<LogEntry> edits = edits_of(session, prepared.purpose);
+    const std::vector<LogEntry> edits = session.log(prepared.purpose);
     const Surface& surface = surface_of(prepared.scene);
     PreparedReport made{.warnings = prepared.warnings};
     Json& report = made.document;

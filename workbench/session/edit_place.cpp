@@ -9,13 +9,13 @@
 
 namespace vesselbench {
 
-EditPlace place_of(const Operation& operation, const EditOptions& options) {
+EditPlace place_of(const Operation& operation, const EditOptions& options, const History& history) {
     EditPlace place{options.step.value_or(operation.usual_step), {}};
     if (std::find(operation.allowed.begin(), operation.allowed.end(), place.step) ==
         operation.allowed.end())
         throw UsageError(operation.name + " is not allowed in step " + to_string(place.step) +
                          " (only in: " + joined(step_names(operation.allowed)) + ")");
-    if (!belongs_to_variant(place.step)) return place;
+    if (!belongs_to_variant(place.step) || place.step < history.first_variant_step()) return place;
     if (options.variant.empty())
         throw UsageError("step " + to_string(place.step) +
                          " belongs to a variant; give its name (cfd, rp, ...)");

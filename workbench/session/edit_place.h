@@ -7,9 +7,10 @@
 
 namespace vesselbench {
 
-/// The place of a new edit of an operation.
+/// The place of a new edit of an operation in the current state.
 /// \throw UsageError if the step is not allowed, or belongs to a variant and none is given
-[[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options);
+[[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options,
+                                 const History& history);
 
 /// The entries that precede a new edit of this place.
 [[nodiscard]] std::vector<HistoryEntry> entries_before(const History& history,

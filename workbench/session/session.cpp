@@ -90,7 +90,7 @@ struct Session::Parts {
     PlannedEdit plan(const GivenArguments& given, const EditOptions& how) {
         const Operation& operation = given.operation();
         PlannedEdit planned{&operation, {}, checked_arguments(given), {}};
-        planned.edit.place = place_of(operation, how);
+        planned.edit.place = place_of(operation, how, store.history());
         planned.edit.operation = operation.name;
         planned.edit.given = without_folders(operation, given);
         describe(planned.edit, how);
@@ -351,6 +351,12 @@ bool Session::find_source_in(const std::filesystem::path& file) {
 
 std::vector<LogEntry> Session::log() const {
     return snapshot()->log;
+}
+
+std::vector<LogEntry> Session::log(const std::string& variant) const {
+    std::vector<LogEntry> entries = log();
+    std::erase_if(entries, [&](const LogEntry& e) { return !is_part_of(e.edit.place, variant); });
+    return entries;
 }
 
 std::shared_ptr<const Snapshot> Session::snapshot() const {

@@ -137,6 +137,9 @@ public:
     /// The edits of the current state, by step, then time. Runs nothing.
     [[nodiscard]] std::vector<LogEntry> log() const;
 
+    /// Those that a variant consists of.
+    [[nodiscard]] std::vector<LogEntry> log(const std::string& variant) const;
+
     /// A snapshot of the session, for any thread to hold.
     [[nodiscard]] std::shared_ptr<const Snapshot> snapshot() const;
 

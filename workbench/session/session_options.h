@@ -21,7 +21,7 @@ struct SessionOptions {
 /// How an edit enters the history.
 struct EditOptions {
     std::optional<Step> step;               ///< none: the operation's usual step
-    std::string variant = kDefaultVariant;  ///< for steps 6-8
+    std::string variant = kDefaultVariant;  ///< for steps 4-8
     std::string author;                     ///< empty: the session's
     std::string note;
 };

@@ -33,10 +33,8 @@ bool near_an_end(const Vec3& p, const std::vector<MadeEnd>& ends) {
 std::vector<MadeEnd> made_ends(Session& session, const std::string& variant,
                                const Progress& progress) {
     std::vector<MadeEnd> ends;
-    for (const LogEntry& entry : session.log()) {
-        const EditPlace& place = entry.edit.place;
-        const bool shown = place.variant.empty() || place.variant == variant;
-        if (!shown || place.step != Step::Openings || entry.status != EditStatus::Done) continue;
+    for (const LogEntry& entry : session.log(variant)) {
+        if (entry.edit.place.step != Step::Openings || entry.status != EditStatus::Done) continue;
         const Scene scene = session.scene_after(entry.edit.edit.id, progress);
         if (scene.surface) add_ends(*scene.surface, ends);
     }

@@ -15,6 +15,8 @@ std::string key_of(StoredText which) {
             return "flow";
         case StoredText::Warnings:
             return "warnings";
+        case StoredText::Purposes:
+            return "purposes";
         case StoredText::Spots:
             break;
     }

@@ -7,6 +7,7 @@
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
+#include "workbench/session/edit_place.h"
 #include "workbench/session/session.h"
 #include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/smoothing_search.h"
@@ -18,12 +19,11 @@ namespace {
 void take_project(const SubjectOptions& options, SearchSubject& subject, const Progress& progress) {
     Session session = Session::open(options.source, {.find = find_operation});
     const Operation& operation = *subject.operation;
-    const std::vector<LogEntry> log = session.log();
+    const std::string variant = variant_meant(options.variant, *session.snapshot()->history);
+    const std::vector<LogEntry> log = session.log(variant);
     const LogEntry* last = nullptr;
     for (const LogEntry& entry : log) {
         if (entry.edit.place.step > operation.usual_step) break;
-        if (!entry.edit.place.variant.empty() && entry.edit.place.variant != options.variant)
-            continue;
         last = &entry;
         if (entry.edit.operation == operation.name)
             subject.notes.push_back(
@@ -32,7 +32,7 @@ void take_project(const SubjectOptions& options, SearchSubject& subject, const P
     }
     if (last == nullptr) throw AlgorithmFailure(subject.name + " has no edit that makes a surface");
     subject.is_project = true;
-    if (belongs_to_variant(operation.usual_step)) subject.variant = options.variant;
+    if (belongs_to_variant(operation.usual_step)) subject.variant = variant;
     subject.state = "after edit " + std::to_string(last->edit.edit.id) + " " + last->edit.operation;
     subject.scene = session.scene_after(last->edit.edit.id, progress);
 }

@@ -10,8 +10,7 @@ namespace vesselbench {
 std::vector<NamedPlace> edit_anchors(const Snapshot& snapshot, const std::string& variant) {
     std::vector<NamedPlace> anchors;
     for (const LogEntry& entry : snapshot.log) {
-        const std::string& own = entry.edit.place.variant;
-        if (!own.empty() && own != variant) continue;
+        if (!is_part_of(entry.edit.place, variant)) continue;
         const std::string name =
             std::to_string(entry.edit.edit.id) + "  " + readable(entry.edit.operation);
         for (const Vec3& point : places_of_edit(entry)) {

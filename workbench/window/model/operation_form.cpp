@@ -126,8 +126,7 @@ std::string OperationForm::as_command(const std::string& project, const std::str
             command += " " + shell_quoted(field.parameter->name + "=" + field.text);
     if (edit_) return command;
     if (used != usual) command += " --step " + to_string(used);
-    if (belongs_to_variant(used) && variant != kDefaultVariant)
-        command += " --variant " + shell_quoted(variant);
+    if (belongs_to_variant(used)) command += " --variant " + shell_quoted(variant);
     return command;
 }
 

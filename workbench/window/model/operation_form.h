@@ -55,7 +55,7 @@ public:
     [[nodiscard]] Arguments arguments() const;
 
     /// The command that does the same, quoted for a shell: "vesselbench apply case.vbench smooth
-    /// lambda=0.3".
+    /// lambda=0.3 --variant cfd".
     /// \param step of a new edit; none: the operation's usual one
     [[nodiscard]] std::string as_command(const std::string& project, const std::string& variant,
                                          std::optional<Step> step = {}) const;

@@ -28,10 +28,6 @@ constexpr std::array<StepText, 9> kSteps = {
      {"Product", "Fill with tetrahedra, or check for printing"},
      {"Review", "Check, compare, export"}}};
 
-bool is_shown(const EditPlace& place, const std::string& variant) {
-    return place.variant.empty() || place.variant == variant;
-}
-
 RailEdit rail_edit(const LogEntry& entry) {
     const EditRecord& edit = entry.edit;
     RailEdit row{.id = edit.edit.id,
@@ -79,7 +75,7 @@ std::vector<RailStep> empty_rail() {
 std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& variant) {
     std::vector<RailStep> rail = empty_rail();
     for (const LogEntry& entry : snapshot.log)
-        if (is_shown(entry.edit.place, variant))
+        if (is_part_of(entry.edit.place, variant))
             rail.at(static_cast<std::size_t>(entry.edit.place.step) - 1)
                 .edits.push_back(rail_edit(entry));
     for (RailStep& step : rail) step.state = state_of(step.edits);
@@ -100,14 +96,14 @@ const LogEntry* find_entry(const Snapshot& snapshot, EditId edit) {
 
 const LogEntry* first_stale(const Snapshot& snapshot, const std::string& variant) {
     const auto found = std::ranges::find_if(snapshot.log, [&](const LogEntry& entry) {
-        return entry.status == EditStatus::Stale && is_shown(entry.edit.place, variant);
+        return entry.status == EditStatus::Stale && is_part_of(entry.edit.place, variant);
     });
     return found == snapshot.log.end() ? nullptr : &*found;
 }
 
 int pending_count(const Snapshot& snapshot, const std::string& variant) {
     return static_cast<int>(std::ranges::count_if(snapshot.log, [&](const LogEntry& entry) {
-        return entry.status == EditStatus::Pending && is_shown(entry.edit.place, variant);
+        return entry.status == EditStatus::Pending && is_part_of(entry.edit.place, variant);
     }));
 }
 

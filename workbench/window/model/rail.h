@@ -31,7 +31,7 @@ struct RailStep {
     std::vector<RailEdit> edits;
 };
 
-/// The nine steps in order. \param variant whose edits are listed from deformation on
+/// The nine steps in order. \param variant whose edits are listed from openings on
 [[nodiscard]] std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& variant);
 
 /// The nine steps of a case that is not open.

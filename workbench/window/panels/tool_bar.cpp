@@ -89,7 +89,7 @@ std::vector<std::string> variants_of(const Document& document) {
 }
 
 std::string variant_help() {
-    std::string help = "Steps 6 to 8 belong to a variant:";
+    std::string help = "Steps 4 to 8 belong to a variant:";
     for (const Purpose& purpose : purposes()) help += "\n" + purpose.name + ": " + purpose.title;
     return help;
 }
