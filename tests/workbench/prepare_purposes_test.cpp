@@ -1,4 +1,5 @@
-// Models for treatment planning and for surgery simulation (thesis Table 2.1).
+// Models for treatment planning and for surgery simulation (thesis Table 2.1), and several models
+// of one project.
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,23 @@ Json prepared(const std::string& input, const std::string& purpose, const std::s
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     return Json::parse(text_of(out + "/report.json"));
+}
+
+/// The edits of a project's log.
+Json edits_in(const std::string& project) {
+    return Json::parse(run({"log", project, "--json"}).out)["edits"];
+}
+
+/// Volume of a variant's surface [mm^3].
+double exported_volume(const std::string& project, const std::string& variant) {
+    const std::string file = temporary_folder() + "/" + variant + ".vtp";
+    REQUIRE(run({"export", project, file, "--variant", variant}).exit_code == 0);
+    return Json::parse(run({"measure", file, "--json"}).out)["volume"];
+}
+
+double length_of(const Json& report) {
+    const Json& bounds = report["quality"]["after"]["bounds"];
+    return bounds[5].get<double>() - bounds[2].get<double>();
 }
 
 double least_distance(const Surface& a, const Surface& b) {
@@ -153,5 +171,96 @@ SCENARIO("A label map's other labels are neighbours", "[workbench][prepare]") {
         CHECK(result.exit_code == 3);
         CHECK_THAT(result.err, Contains("the neighbour 'absent.stl' does not exist"));
         CHECK(names_in(out + "-3").empty());
+    }
+}
+
+SCENARIO("One project holds a model for flow and one for printing", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), file = folder + "/tube.stl";
+    const std::string out = folder + "/both", project = out + "/project.vbench";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), file);
+    const Json flow = prepared(file, "cfd", out, {"--units", "mm"});
+    const Json before = edits_in(project);
+    const Json print = prepared(file, "rp", out, {"--units", "mm", "--resume"});
+    const Json now = edits_in(project);
+    THEN("the folder has the products of both") {
+        const Names names = names_in(out);
+        for (const char* name : {"openfoam", "volume.vtu", "print.stl", "print.3mf"})
+            CHECK(std::ranges::count(names, name) == 1);
+        CHECK(print["purpose"] == "rp");
+    }
+    THEN("the model for flow is as it was") {
+        for (const Json& edit : before) {
+            CAPTURE(edit.dump());
+            CHECK(std::ranges::count(now, edit) == 1);
+        }
+        CHECK(exported_volume(project, "cfd") ==
+              Approx(flow["quality"]["after"]["volume"].get<double>()));
+    }
+    THEN("the print has edits of its own in the steps that are not shared, and no extensions") {
+        for (const Json& step : print["steps"]) {
+            CAPTURE(step.dump());
+            const bool shared = step["step"] == "source";
+            CHECK(step["variant"] == (shared ? "" : "rp"));
+            CHECK(step["operation"] != "extrude-opening");
+            if (shared)
+                CHECK(std::ranges::count(before, step["edit"],
+                                         [](const Json& edit) { return edit["edit"]; }) == 1);
+        }
+        CHECK(length_of(print) < 20.5);
+        CHECK(length_of(flow) > length_of(print) + 2.0);
+        CHECK_THAT(print["warnings"].dump(), Contains("is shared with cfd and kept: preset=cfd"));
+    }
+    THEN("neither lacks anything") {
+        for (const std::string purpose : {"cfd", "rp"}) {
+            const ProgramRun again =
+                run({"prepare", file, "--units", "mm", "--for", purpose, "--out", out, "--resume"});
+            INFO(again.err);
+            CHECK(again.exit_code == 0);
+            CHECK_THAT(again.err, Contains("every edit of the recipe has been made"));
+        }
+        CHECK(edits_in(project) == now);
+    }
+}
+
+SCENARIO("What a purpose lacks in shared steps is made in its own", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), file = folder + "/tube.stl";
+    const std::string out = folder + "/both", project = out + "/project.vbench";
+    write_surface(closed_tube(2.0, 20.0, 32, 40), file);
+    write_text(folder + "/recipe.json", R"([
+        {"operation": "repair"},
+        {"operation": "smooth", "step": "source", "arguments": {"iterations": 3}},
+        {"operation": "smooth", "step": "source", "arguments": {"iterations": 8},
+         "when": "simulation"}])");
+    const std::vector<std::string> with = {"--units", "mm", "--recipe", folder + "/recipe.json"};
+    std::vector<std::string> resuming = with;
+    resuming.emplace_back("--resume");
+    const double planned = prepared(file, "planning", out, with)["quality"]["after"]["volume"];
+    CHECK(edits_in(project).size() == 3);
+    THEN("the model made by shared steps alone stays as it is") {
+        prepared(file, "simulation", out, resuming);
+        const Json edits = edits_in(project);
+        REQUIRE(edits.size() == 4);
+        CHECK(edits[3]["step"] == "openings");
+        CHECK(edits[3]["variant"] == "simulation");
+        CHECK(edits[3]["given"]["iterations"] == 8);
+        CHECK(exported_volume(project, "planning") == Approx(planned));
+        CHECK(exported_volume(project, "simulation") != Approx(planned).epsilon(1e-6));
+        prepared(file, "simulation", out, resuming);
+        CHECK(edits_in(project) == edits);
+    }
+    THEN("an edit that only a shared step can hold is refused") {
+        write_text(folder + "/recipe.json",
+                   R"([{"operation": "repair"}, {"operation": "keep-component"}])");
+        const ProgramRun refused =
+            run({"prepare", file, "--units", "mm", "--for", "simulation", "--recipe",
+                 folder + "/recipe.json", "--out", out, "--resume"});
+        CHECK(refused.exit_code == 2);
+        CHECK_THAT(refused.err, Contains("keep-component is missing in step source, which is "
+                                         "shared with planning"));
+        CHECK(edits_in(project).size() == 3);
+    }
+    THEN("an edit by hand is of the purpose that was prepared last") {
+        REQUIRE(run({"apply", project, "smooth", "iterations=2"}).exit_code == 0);
+        CHECK(edits_in(project).back()["variant"] == "planning");
     }
 }

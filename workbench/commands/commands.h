@@ -28,7 +28,7 @@ struct ApplyOptions {
     std::string project;
     std::string operation;
     std::vector<std::string> arguments;  ///< "parameter=value"
-    std::string variant;                 ///< empty: the project's only one, else the default
+    std::string variant;                 ///< empty: variant_of()
     std::string step;    ///< name of the step the edit belongs to; empty: the operation's usual one
     std::string author;  ///< empty: the login name
     std::string note;
@@ -224,7 +224,7 @@ void make_project(const NewArguments& arguments, const Progress& progress);
 struct ExportArguments {
     std::string project;
     std::string file;
-    std::string variant;                ///< empty: the project's only one, else the default
+    std::string variant;                ///< empty: variant_of()
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
     bool json = false;
 };

@@ -15,8 +15,8 @@
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/end_settings.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/report/log_json.h"
-#include "workbench/session/edit_place.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -101,9 +101,10 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         throw UsageError("--set '" + settings.front() +
                          "': export accepts only openfoam.parameter=value");
     refuse_source(session, arguments.file);
-    const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
+    const std::string variant =
+        variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
-    for (const LogEntry& entry : session.log())
+    for (const LogEntry& entry : session.log(variant))
         if (entry.status == EditStatus::Stale)
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
                    printable(entry.edit.operation) +

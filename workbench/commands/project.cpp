@@ -12,10 +12,10 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/compaction.h"
-#include "workbench/session/edit_place.h"
 #include "workbench/session/moved_places.h"
 #include "workbench/session/session.h"
 
@@ -314,7 +314,7 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     EditOptions edit{.author = options.author, .note = options.note};
     if (!options.step.empty()) edit.step = step_from(options.step);
     Session session = Session::open(options.project, {.find = find_operation});
-    edit.variant = variant_meant(options.variant, *session.snapshot()->history);
+    edit.variant = variant_of(options.project, options.variant, *session.snapshot()->history);
     const LogEntry entry = session.apply(given, edit, progress);
     remark_warnings(entry, given);
     if (options.json)

@@ -36,8 +36,8 @@ void add_apply(CommandLine& line) {
     command
         .add_option(
             "--variant", options->variant,
-            "Variant for edits of steps 6-8: cfd, rp or a name (default: the project's only\n"
-            "one, else cfd)")
+            "Variant for edits of steps 4-8: cfd, rp or a name (default: what the project was\n"
+            "prepared for last, else its only one, else cfd)")
         ->type_name("NAME");
     command
         .add_option("--step", options->step,
@@ -154,7 +154,8 @@ void add_export(CommandLine& line) {
     command.footer(export_footer());
     command
         .add_option("--variant", options->variant,
-                    "Variant to write (default: the project's only one, else cfd)")
+                    "Variant to write (default: what the project was prepared for last, else its\n"
+                    "only one, else cfd)")
         ->type_name("NAME");
     add_settings(command, options->settings,
                  "openfoam.parameter=value: change the flow of the case");

@@ -21,7 +21,7 @@ public:
 };
 
 /// Applies a recipe's entries to a session, one edit each, in their order.
-/// \param variant of the edits of steps 6-8
+/// \param variant of the edits of steps 4-8
 /// \return warnings in addition to those of the edits
 /// \throw what an edit throws; UnusableSource. The session keeps the edits that were done
 std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,

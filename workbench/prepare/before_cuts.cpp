@@ -7,6 +7,7 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/checked_arguments.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -25,9 +26,10 @@ const Operation& cutting_operation() {
 
 BeforeCuts of_project(const std::string& project, const Progress& progress) {
     Session session = Session::open(project, {.find = find_operation});
+    const std::string variant = variant_of(project, "", *session.snapshot()->history);
     BeforeCuts before;
     EditId last = 0;
-    for (const LogEntry& entry : session.log()) {
+    for (const LogEntry& entry : session.log(variant)) {
         if (find_operation(entry.edit.operation).recipe.cuts_ends) {
             before.cutting = entry.edit.given;
             break;

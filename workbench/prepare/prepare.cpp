@@ -16,10 +16,12 @@
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe_warnings.h"
 #include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
+#include "workbench/prepare/resumed_recipe.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -88,7 +90,7 @@ Recipe recipe_for(const PrepareOptions& options, const Input& input) {
 Session opened_project(const PrepareOptions& options, const Teller& tell) {
     const fs::path project = options.out / kProject;
     const SessionOptions how{.author = options.author, .find = find_operation};
-    if (options.resume) return resumed(project, options.purpose, how);
+    if (options.resume) return resumed(project, how);
     return Session::create(project, how, [&] { keep_earlier(project, tell); });
 }
 
@@ -98,30 +100,31 @@ void keep_recipes(const fs::path& project, const Input& input) {
 }
 
 /// What a resumed preparation does first, unless edits of the recipe follow.
-/// \param removed operations of the recipe whose edits were removed by hand
-void tell_rest(const Recipe& rest, const std::vector<std::string>& removed,
-               const std::vector<LogEntry>& log, const Teller& tell) {
-    if (!rest.empty()) return;
+/// \param log of the purpose
+void tell_rest(const ResumedRecipe& resumed, const std::vector<LogEntry>& log, const Teller& tell) {
+    for (const std::string& remark : resumed.remarks) tell("warning: " + remark);
+    if (!resumed.rest.empty()) return;
     const auto pending =
         static_cast<std::size_t>(std::ranges::count(log, EditStatus::Pending, &LogEntry::status));
-    tell((removed.empty()
-              ? "every edit of the recipe has been made: "
-              : "every edit of the recipe has been made, except those removed by hand (" +
-                    joined(removed) + "): ") +
+    tell(all_made_text(resumed) + ": " +
          (pending == 0 ? "" : "running " + counted(pending, "pending edit") + ", then ") +
          "writing the results");
 }
 
-/// What is left of the recipe in a resumed project.
-/// \param settings of the recipe's edits
+/// What is left of the recipe in the folder's project. The report warns of what differs.
+/// \param options without the settings of the flow
+/// \throw UsageError if it cannot be made there
 Recipe rest_in(Session& session, const Recipe& recipe, const PrepareOptions& options,
-               const std::vector<std::string>& settings, const Teller& tell) {
-    const auto made = session.snapshot();
-    const auto removed = removed_entries(recipe, *made, options.purpose);
-    Recipe rest = rest_of(recipe, *made, options.purpose);
-    refuse_late_settings(settings, rest, made->log);
-    tell_rest(rest, removed, made->log, tell);
-    return rest;
+               PreparedCase& prepared, const Teller& tell) {
+    refuse_other_input(session, prepared.input);
+    const ResumedRecipe here = resumed_recipe(recipe, *session.snapshot(), options.purpose,
+                                              prepared_purposes(options.out / kProject).done);
+    if (!here.refusal.empty()) throw UsageError("--resume: " + here.refusal);
+    const std::vector<LogEntry> log = session.log(options.purpose);
+    refuse_late_settings(options.arguments, here.rest, log);
+    tell_rest(here, log, tell);
+    prepared.warnings = here.remarks;
+    return here.rest;
 }
 
 /// What was given of the flow, if it is of use; a resumed preparation says where it is from.
@@ -226,10 +229,12 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
     const std::string warning =
         make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
-    prepared.warnings = kept_warnings(options.out / kProject, session.log());
+    end_purpose(options.out / kProject, options.purpose);
+    for (std::string& kept : kept_warnings(options.out / kProject, session, options.purpose))
+        prepared.warnings.push_back(std::move(kept));
     if (!warning.empty()) prepared.warnings.push_back(warning);
     prepared.scene = session.scene(options.purpose);
-    refuse_stale_edits(session.log());
+    refuse_stale_edits(session.log(options.purpose));
     fold_log(session);
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);
@@ -262,12 +267,12 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     bool any_edit = options.resume;
     try {
         if (options.resume) {
-            refuse_other_input(session, input);
-            recipe = rest_in(session, recipe, options, for_recipe.arguments, tell);
+            recipe = rest_in(session, recipe, for_recipe, prepared, tell);
             tell_flow(options, flow, tell);
         } else {
             keep_recipes(project, input);
         }
+        begin_purpose(project, options.purpose);
         if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
         const Teller noting = [&](const std::string& text) {
             any_edit = true;

@@ -30,7 +30,8 @@ struct PrepareSummary {
 /// then surface.vtp, surface.stl, report.json, report.html and the product's files. Results appear
 /// only when all of them are complete. Files of others that have their names are kept under another
 /// one. An earlier project in the folder is kept so as well, or resumed: the entries of the recipe
-/// that have no edit in it are applied (rest_of), whatever else was edited meanwhile.
+/// that have no edit in it are applied (resumed_recipe), whatever else was edited meanwhile. One
+/// project holds the models of several purposes, which share its steps 1-3.
 /// \throw UsageError, InvalidInput, IoError, AlgorithmFailure, Cancelled; the project then keeps
 /// the edits that were done; there is no project if the input cannot be loaded or repaired
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell, const Progress& progress);

@@ -99,6 +99,10 @@ RecipeEntry entry_from_json(const Json& json) {
 
 }  // namespace
 
+Step step_of(const RecipeEntry& entry) {
+    return entry.step.value_or(entry.given.operation().usual_step);
+}
+
 Step step_from(const std::string& name) {
     std::vector<std::string> names;
     for (int step = 1; step <= static_cast<int>(Step::Review); ++step) {

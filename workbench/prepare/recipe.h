@@ -25,6 +25,9 @@ struct RecipeEntry {
 
 using Recipe = std::vector<RecipeEntry>;
 
+/// The step of the edit that an entry becomes.
+[[nodiscard]] Step step_of(const RecipeEntry& entry);
+
 /// The use of a recipe: words that an entry's "when" may contain.
 using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
 

@@ -62,12 +62,7 @@ std::string volume_warning(const LogEntry& entry) {
 
 /// True for an edit of a variant's line, up to a step.
 bool is_of(const EditPlace& place, const std::string& variant, Step last) {
-    return place.step <= last && (place.variant.empty() || place.variant == variant);
-}
-
-/// The step of the edit that an entry becomes.
-Step step_of(const RecipeEntry& entry) {
-    return entry.step.value_or(entry.given.operation().usual_step);
+    return place.step <= last && is_part_of(place, variant);
 }
 
 /// An operation's error text without the operation's name, which the sentence before it has.
@@ -135,7 +130,7 @@ private:
             if (!entry.optional) throw;
             const std::string text = operation.name + " was skipped: " + why;
             tell_("warning: " + text);
-            note({operation.name, step_of(entry), {}, text});
+            note({operation.name, step_of(entry), {}, text, own_variant(entry)});
             return std::nullopt;
         }
     }
@@ -152,8 +147,14 @@ private:
         const std::string text = name + " with " + changed + " instead: " + why;
         tell_("warning: " + text);
         std::optional<LogEntry> done = made(second, progress);
-        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt, text});
+        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt, text,
+              own_variant(entry)});
         return done;
+    }
+
+    [[nodiscard]] std::string own_variant(const RecipeEntry& entry) const {
+        const auto now = session_.snapshot();
+        return step_of(entry) < now->history->first_variant_step() ? "" : variant_;
     }
 
     void note(const RecipeWarning& warning) const {
@@ -184,14 +185,17 @@ bool is_closed_before(Session& session, const std::string& variant, Step step) {
 }
 
 bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& variant) {
-    if (entry.unless_made && std::ranges::any_of(session.log(), [&](const LogEntry& edit) {
-            return was_made(edit, *entry.unless_made);
-        }))
-        return true;
-    return entry.unless_closed && is_closed_before(session, variant, step_of(entry));
+    return is_replaced(entry, session.log(variant)) ||
+           (entry.unless_closed && is_closed_before(session, variant, step_of(entry)));
 }
 
 }  // namespace
+
+bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log) {
+    return entry.unless_made && std::ranges::any_of(log, [&](const LogEntry& edit) {
+               return was_made(edit, *entry.unless_made);
+           });
+}
 
 std::vector<std::string> warnings_of(const LogEntry& entry) {
     std::vector<std::string> warnings;

@@ -15,6 +15,7 @@ struct RecipeWarning {
     Step step = Step::Source;
     std::optional<EditRef> edit;  ///< what was made instead; none: the entry was skipped
     std::string text;
+    std::string variant;  ///< that the entry's edit belongs to; empty: the trunk
 };
 
 /// Who watches a recipe's edits; each may be empty. What they throw ends the recipe.
@@ -28,9 +29,12 @@ struct RecipeWatch {
 /// should be none.
 [[nodiscard]] std::vector<std::string> warnings_of(const LogEntry& entry);
 
+/// True for an entry that is skipped because of an edit that was made (RecipeEntry::unless_made).
+[[nodiscard]] bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log);
+
 /// Applies a recipe's entries to a session, one edit each, in their order. Pending edits before an
 /// entry's place run first, and are told of like new ones.
-/// \param variant of the edits of steps 6-8
+/// \param variant of the edits of steps 4-8
 /// \throw what an edit throws; UnusableSource. The session keeps the edits that were done
 void run_recipe(Session& session, const Recipe& recipe, const std::string& variant,
                 const Teller& tell, const Progress& progress, const RecipeWatch& watch);

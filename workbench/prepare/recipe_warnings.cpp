@@ -31,11 +31,14 @@ Json stored_list(const std::filesystem::path& project) {
 /// True for warnings about the same thing, of which the later one counts.
 bool same_entry(const Json& a, const Json& b) {
     return std::ranges::all_of(
-        std::array{"operation", "step", "edit", "revision"},
+        std::array{"operation", "step", "variant", "edit", "revision"},
         [&](const char* key) { return a.value(key, Json()) == b.value(key, Json()); });
 }
 
-bool holds(const Json& warning, const std::vector<LogEntry>& log) {
+/// \param log of a variant \param variant the same
+bool holds(const Json& warning, const std::vector<LogEntry>& log, const std::string& variant) {
+    const Json its = warning.value("variant", Json());
+    if (!its.is_null() && json_value<std::string>(its, kName) != variant) return false;
     const auto operation = json_value<std::string>(warning.value("operation", Json()), kName);
     const auto step = json_value<std::string>(warning.value("step", Json()), kName);
     const Json edit = warning.value("edit", Json());
@@ -52,6 +55,7 @@ bool holds(const Json& warning, const std::vector<LogEntry>& log) {
 
 void keep_warning(const std::filesystem::path& project, const RecipeWarning& warning) {
     Json added = {{"operation", warning.operation}, {"step", to_string(warning.step)}};
+    if (!warning.variant.empty()) added["variant"] = warning.variant;
     if (warning.edit) {
         added["edit"] = warning.edit->id;
         added["revision"] = warning.edit->revision;
@@ -64,11 +68,12 @@ void keep_warning(const std::filesystem::path& project, const RecipeWarning& war
     store_text(project, StoredText::Warnings, text_from_json(list));
 }
 
-std::vector<std::string> kept_warnings(const std::filesystem::path& project,
-                                       const std::vector<LogEntry>& log) {
+std::vector<std::string> kept_warnings(const std::filesystem::path& project, const Session& session,
+                                       const std::string& variant) {
     std::vector<std::string> texts;
+    const std::vector<LogEntry> log = session.log(variant);
     for (const Json& warning : stored_list(project)) {
-        if (holds(warning, log))
+        if (holds(warning, log, variant))
             texts.push_back(json_value<std::string>(warning.value("text", Json()), kName));
     }
     return texts;

@@ -14,10 +14,12 @@ namespace vesselbench {
 /// \throw IoError if the project cannot be written
 void keep_warning(const std::filesystem::path& project, const RecipeWarning& warning);
 
-/// Those that still hold: what was made instead is as it was, and what was skipped was not made
-/// since.
+/// Those of a variant's model that still hold: what was made instead is as it was, and what was
+/// skipped was not made since.
+/// \param session that has the project open
 /// \throw IoError, InvalidInput if they cannot be read
 [[nodiscard]] std::vector<std::string> kept_warnings(const std::filesystem::path& project,
-                                                     const std::vector<LogEntry>& log);
+                                                     const Session& session,
+                                                     const std::string& variant);
 
 }  // namespace vesselbench

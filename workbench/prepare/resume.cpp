@@ -5,20 +5,15 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/recipe_run.h"
 
 namespace vesselbench {
 
 namespace {
 
-bool is_of(const EditPlace& place, const std::string& variant) {
-    return place.variant.empty() || place.variant == variant;
-}
-
 bool has_place_of(const EditRecord& edit, const RecipeEntry& entry, const std::string& variant) {
-    const Operation& operation = entry.given.operation();
-    return edit.operation == operation.name &&
-           edit.place.step == entry.step.value_or(operation.usual_step) &&
-           is_of(edit.place, variant);
+    return edit.operation == entry.given.operation().name && edit.place.step == step_of(entry) &&
+           is_part_of(edit.place, variant);
 }
 
 /// True for an argument that limits an operation to one vessel's end, or to ends that were decided.
@@ -58,20 +53,9 @@ bool does(EditId id, const Snapshot& made, const RecipeEntry& entry, const std::
 
 }  // namespace
 
-Session resumed(const std::filesystem::path& project, const std::string& purpose,
-                const SessionOptions& options) {
+Session resumed(const std::filesystem::path& project, const SessionOptions& options) {
     Session session = Session::open(project, options);
     if (!session.read_only_reason().empty()) throw IoError(session.read_only_reason());
-    std::string other;
-    for (const LogEntry& entry : session.log()) {
-        const std::string& variant = entry.edit.place.variant;
-        if (variant == purpose) return session;
-        if (!variant.empty()) other = variant;
-    }
-    if (!other.empty())
-        throw UsageError("--resume: the project is for " + other +
-                         ", and its edits are not those of " + purpose +
-                         ": prepare that into another folder");
     return session;
 }
 
@@ -110,18 +94,22 @@ void refuse_stale_edits(const std::vector<LogEntry>& log) {
         " --anew, then --resume: it chooses again what it chose by itself");
 }
 
-Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {
-    std::vector<EditId> left = edits_made(made);
-    std::vector<bool> done(recipe.size(), false);
-    std::size_t behind_last = 0;
-    for (std::size_t i = 0; i < recipe.size(); ++i) {
-        const auto found = std::ranges::find_if(
-            left, [&](EditId id) { return does(id, made, recipe[i], variant); });
-        if (found == left.end()) continue;
-        left.erase(found);
-        done[i] = true;
-        behind_last = i + 1;
+std::vector<EditId> edits_of(const Recipe& recipe, const Snapshot& made,
+                             const std::string& variant) {
+    std::vector<EditId> left = edits_made(made), edits;
+    for (const RecipeEntry& entry : recipe) {
+        const auto found =
+            std::ranges::find_if(left, [&](EditId id) { return does(id, made, entry, variant); });
+        edits.push_back(found == left.end() ? 0 : *found);
+        if (found != left.end()) left.erase(found);
     }
+    return edits;
+}
+
+Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& variant) {
+    const std::vector<EditId> edits = edits_of(recipe, made, variant);
+    std::size_t behind_last = edits.size();
+    while (behind_last > 0 && edits[behind_last - 1] == 0) --behind_last;
     Recipe rest;
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         const bool may_lack =
@@ -130,7 +118,8 @@ Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& va
                              std::ranges::none_of(made.log, [&](const LogEntry& entry) {
                                  return has_place_of(entry.edit, recipe[i], variant);
                              });
-        if (!done[i] && !skipped) rest.push_back(recipe[i]);
+        if (edits[i] == 0 && !skipped && !is_replaced(recipe[i], made.log))
+            rest.push_back(recipe[i]);
     }
     return rest;
 }

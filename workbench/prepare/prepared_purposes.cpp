@@ -1,0 +1,66 @@
+#include "workbench/prepare/prepared_purposes.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/plain_name.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
+#include "workbench/session/edit_place.h"
+#include "workbench/session/stored_texts.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPurposes = "the stored purposes";
+
+void store_purposes(const std::filesystem::path& project, const PreparedPurposes& purposes) {
+    store_text(project, StoredText::Purposes,
+               Json({{"done", purposes.done}, {"last", purposes.last}}).dump());
+}
+
+}  // namespace
+
+PreparedPurposes prepared_purposes(const std::filesystem::path& project) {
+    const std::string text = stored_text(project, StoredText::Purposes);
+    if (text.empty()) return {};
+    const Json json = json_from_text(text, kPurposes);
+    JsonFields fields(json, kPurposes);
+    PreparedPurposes purposes{fields.required<std::vector<std::string>>("done"),
+                              fields.required<std::string>("last")};
+    for (const std::string& name : purposes.done) require_plain_name(name, "a purpose");
+    if (!purposes.last.empty()) require_plain_name(purposes.last, "a purpose");
+    return purposes;
+}
+
+void begin_purpose(const std::filesystem::path& project, const std::string& purpose) {
+    PreparedPurposes purposes = prepared_purposes(project);
+    purposes.last = purpose;
+    store_purposes(project, purposes);
+}
+
+void end_purpose(const std::filesystem::path& project, const std::string& purpose) {
+    PreparedPurposes purposes = prepared_purposes(project);
+    purposes.last = purpose;
+    if (std::ranges::count(purposes.done, purpose) == 0) purposes.done.push_back(purpose);
+    store_purposes(project, purposes);
+}
+
+std::string variant_of(const std::filesystem::path& project, const std::string& asked,
+                       const History& history) {
+    return variant_meant(asked.empty() ? prepared_purposes(project).last : asked, history);
+}
+
+std::vector<std::string> other_purposes(const Snapshot& now, std::vector<std::string> done,
+                                        const std::string& purpose) {
+    for (const std::string& variant : now.history->variants())
+        if (std::ranges::count(done, variant) == 0) done.push_back(variant);
+    std::erase(done, purpose);
+    return done;
+}
+
+}  // namespace vesselbench
