@@ -130,6 +130,7 @@ void Document::close() {
         retire(std::make_unique<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
     snapshot_.reset();
     input_.reset();
+    prepared_.clear();
     failure_.reset();
     project_.clear();
     shown_.clear();
@@ -145,8 +146,9 @@ void Document::take_opened() {
         forget_messages();
         project_ = opened.project;
         input_ = std::move(opened.input);
+        prepared_ = opened.prepared.done;
         runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
-        variant_ = newest_variant(*runner_->snapshot());
+        variant_ = newest_variant(*runner_->snapshot(), opened.prepared.last);
         take_snapshot();
         for (const LogEntry& entry : snapshot_->log)
             if (entry.result) tell_warnings(entry.edit, *entry.result);
@@ -400,20 +402,48 @@ void Document::cancel_preview() {
 
 // --- preparing
 
-Recipe Document::recipe(const std::string& purpose) const {
-    return missing_entries(*snapshot_, input_, current(), purpose);
+ResumedRecipe Document::to_prepare(const std::string& purpose,
+                                   std::optional<Step> again_from) const {
+    ResumedRecipe resumed = missing_entries(*snapshot_, input_, current(), purpose, prepared_);
+    if (again_from) resumed.rest = rest_from(*again_from, resumed);
+    return resumed;
 }
 
-void Document::prepare(const std::string& purpose) {
+void Document::prepare(const std::string& purpose, std::optional<Step> again_from) {
     if (!begin_request(RequestKind::Edit)) return;
-    const Recipe entries = recipe(purpose);
+    const ResumedRecipe resumed = to_prepare(purpose, again_from);
+    if (!resumed.refusal.empty()) return fail(resumed.refusal, {});
     show_variant(purpose);
     drop_preview();
-    preparation_ = Preparation{.recipe = entries, .purpose = purpose};
+    for (const std::string& remark : resumed.remarks) tell(message_from("warning: " + remark));
+    if (resumed.rest.empty()) {
+        tell(make_message(MessageKind::Success, readable_sentence(all_made_text(resumed))));
+        if (pending_count(*snapshot_, variant_) > 0) run_pending();
+        return;
+    }
+    preparation_ = Preparation{.recipe = resumed.rest,
+                               .purpose = purpose,
+                               .project = project_,
+                               .warnings = resumed.remarks.size()};
+    if (again_from) return leave_out(own_edits_from(*again_from, *snapshot_, purpose));
     prepare_next();
 }
 
+/// Before they are made again.
+void Document::leave_out(const std::vector<EditId>& edits) {
+    const auto job = runner_->submit([edits](Session& session, const Progress&) {
+        for (const EditId edit : edits) session.remove_edit(edit);
+        return Nothing{};
+    });
+    watch(job, {.what = "Leaving out " + counted(edits.size(), "edit")},
+          [this](const Nothing&) { prepare_next(); });
+}
+
 void Document::prepare_next() {
+    if (preparation_->cancelled) {
+        preparation_.reset();
+        return tell(make_message(MessageKind::Remark, "Cancelled"));
+    }
     if (preparation_->done()) return end_preparation();
     shown_.pause();
     const auto messages = std::make_shared<RecipeMessages>();
@@ -430,16 +460,13 @@ void Document::end_entry(RecipeMessages& messages) {
         tell(std::move(message));
     }
     ++preparation_->next;
-    if (preparation_->cancelled) {
-        preparation_.reset();
-        return tell(make_message(MessageKind::Remark, "Cancelled"));
-    }
     prepare_next();
 }
 
 /// Edits that were made before it may follow the recipe's.
 void Document::end_preparation() {
     const Preparation done = *std::exchange(preparation_, std::nullopt);
+    if (std::ranges::count(prepared_, done.purpose) == 0) prepared_.push_back(done.purpose);
     std::string model = find_purpose(done.purpose).title;
     model[0] = static_cast<char>(std::tolower(model[0]));
     const std::string text = "Prepared the " + model;

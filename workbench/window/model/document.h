@@ -126,11 +126,20 @@ public:
     void jump(StateId state);
     void run_pending();
 
-    /// Runs the recipe of a purpose on the case: its own, else the default one.
-    void prepare(const std::string& purpose);
+    /// Makes what is missing of a purpose's recipe: the case's own, else the default one. Where
+    /// nothing is, pending edits run.
+    /// \param again_from the purpose's own edits from this step on are left out, and made again:
+    /// one of repeatable_steps()
+    void prepare(const std::string& purpose, std::optional<Step> again_from = {});
+
+    /// What prepare() would make, and why it would not.
+    [[nodiscard]] ResumedRecipe to_prepare(const std::string& purpose,
+                                           std::optional<Step> again_from = {}) const;
 
     /// The operations that prepare() would run.
-    [[nodiscard]] Recipe recipe(const std::string& purpose) const;
+    [[nodiscard]] Recipe recipe(const std::string& purpose) const {
+        return to_prepare(purpose).rest;
+    }
 
     /// Replaces the note on a revision of an edit, also of another state; empty: none.
     void set_note(EditRef edit, const std::string& note);
@@ -206,6 +215,7 @@ private:
     [[nodiscard]] Step stroke_step(const std::string& operation) const;
     void take_opened();
     void take_snapshot();
+    void leave_out(const std::vector<EditId>& edits);
     void prepare_next();
     void end_entry(RecipeMessages& messages);
     void end_preparation();
@@ -221,6 +231,7 @@ private:
     ShownScene shown_;
     std::filesystem::path project_;
     std::optional<Input> input_;
+    std::vector<std::string> prepared_;  ///< purposes whose model was made
     std::string variant_ = kDefaultVariant;
     std::shared_ptr<const Snapshot> snapshot_;
     std::optional<Preparation> preparation_;

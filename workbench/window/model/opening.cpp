@@ -75,6 +75,7 @@ std::optional<Input> remembered_input(const fs::path& project, std::vector<std::
 Opened open_project(const OpenRequest& request, const SessionOptions& options) {
     Opened opened{.session = Session::open(request.path, options), .project = request.path};
     opened.input = remembered_input(request.path, opened.remarks);
+    opened.prepared = prepared_purposes(request.path);
     const std::string reason = opened.session.read_only_reason();
     if (!reason.empty()) opened.remarks.push_back("read-only: " + reason);
     return opened;
@@ -93,7 +94,7 @@ Opened open_input(const fs::path& path, const fs::path& project, const SessionOp
     std::vector<std::string> remarks;
     const Teller tell = [&](const std::string& text) { remarks.push_back(text); };
     Session session = start_project(project, input, options, tell, progress.part(0.4, 1.0));
-    return {std::move(session), project, true, input, std::move(remarks)};
+    return {std::move(session), project, true, input, std::move(remarks), {}};
 }
 
 Opened open_phantom(const OpenRequest& request, const SessionOptions& options,

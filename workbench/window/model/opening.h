@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "workbench/prepare/input.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/session/job.h"
 #include "workbench/session/session.h"
 
@@ -33,6 +34,7 @@ struct Opened {
     bool is_new = false;         ///< the project was made for this input
     std::optional<Input> input;  ///< of a new project, with the case's own recipes
     std::vector<std::string> remarks;
+    PreparedPurposes prepared;
 };
 
 /// Opens a project, or makes one whose first edit loads the input; takes as long as that takes.

@@ -7,20 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "workbench/operations/table.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/window/model/readable.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// True for a recipe's entry of the source's step that the case has an edit for.
-bool is_done(const Snapshot& snapshot, const RecipeEntry& entry) {
-    const Step step = entry.step.value_or(entry.given.operation().usual_step);
-    return step == Step::Source && std::ranges::any_of(snapshot.log, [&](const LogEntry& made) {
-               return made.edit.operation == entry.given.operation().name &&
-                      made.edit.place.step == Step::Source;
-           });
-}
 
 /// Takes the part up to a separator from the text's beginning.
 std::string taken_word(std::string& text, std::string_view separator) {
@@ -66,24 +58,28 @@ std::vector<Message> RecipeMessages::take() {
 
 Job<Nothing> Preparation::start(SessionRunner& runner,
                                 const std::shared_ptr<RecipeMessages>& messages) const {
-    return runner.submit([entry = recipe[next], purpose = purpose, messages](
-                             Session& session, const Progress& progress) {
+    const bool first = next == 0, last = next + 1 == recipe.size();
+    return runner.submit([entry = recipe[next], purpose = purpose, project = project, first, last,
+                          messages](Session& session, const Progress& progress) {
         const Teller note = [&](const std::string& text) { messages->add(text); };
+        if (first) begin_purpose(project, purpose);
         apply_recipe(session, {entry}, purpose, note, progress);
+        if (last) end_purpose(project, purpose);
         return Nothing{};
     });
 }
 
-Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
-                       const Scene* scene, const std::string& purpose) {
+ResumedRecipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
+                              const Scene* scene, const std::string& purpose,
+                              const std::vector<std::string>& done) {
     RecipeUse use = {scene != nullptr && scene->image ? "image" : "surface", purpose};
     if (scene != nullptr && scene->mask) use.emplace_back("mask");
     const nlohmann::ordered_json own = input ? own_recipe(*input, purpose) : nullptr;
     Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
-    std::erase_if(recipe, [&](const RecipeEntry& entry) {
-        return entry.given.operation().recipe.loads.has_value() || is_done(snapshot, entry);
+    std::erase_if(recipe, [](const RecipeEntry& entry) {
+        return entry.given.operation().recipe.loads.has_value();
     });
-    return recipe;
+    return resumed_recipe(recipe, snapshot, purpose, done);
 }
 
 Message message_from(const std::string& text) {

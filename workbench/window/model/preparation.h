@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/prepare.h"
+#include "workbench/prepare/resumed_recipe.h"
 #include "workbench/session/session_runner.h"
 #include "workbench/window/model/message.h"
 
@@ -30,6 +32,7 @@ private:
 struct Preparation {
     Recipe recipe;
     std::string purpose;
+    std::filesystem::path project;
     std::size_t next = 0;      ///< the entry that runs
     std::size_t warnings = 0;  ///< so far
     bool cancelled = false;    ///< no further entry is started
@@ -40,17 +43,20 @@ struct Preparation {
         return recipe[next].given.operation().name;
     }
 
-    /// Starts the next entry. \param messages receives what it reports
+    /// Starts the next entry; after the last one the project is prepared for the purpose.
+    /// \param messages receives what it reports
     [[nodiscard]] Job<Nothing> start(SessionRunner& runner,
                                      const std::shared_ptr<RecipeMessages>& messages) const;
 };
 
-/// The entries of a purpose's recipe that a case needs: its own recipe, else the default one,
-/// without those of the source's step that the case has edits for.
+/// What is left of a purpose's recipe in a case: its own recipe, else the default one.
 /// \param input with the case's own recipes; none: it has none
 /// \param scene the shown one; null: none
-[[nodiscard]] Recipe missing_entries(const Snapshot& snapshot, const std::optional<Input>& input,
-                                     const Scene* scene, const std::string& purpose);
+/// \param done the purposes whose model was made
+[[nodiscard]] ResumedRecipe missing_entries(const Snapshot& snapshot,
+                                            const std::optional<Input>& input, const Scene* scene,
+                                            const std::string& purpose,
+                                            const std::vector<std::string>& done);
 
 /// A message of a text that may begin with "warning: "; the names of a step and an operation at its
 /// beginning are put in the window's words.

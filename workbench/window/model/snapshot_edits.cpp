@@ -27,10 +27,11 @@ bool same_edits(const Snapshot& a, const Snapshot& b) {
            a.read_only_reason == b.read_only_reason;
 }
 
-std::string newest_variant(const Snapshot& snapshot) {
+std::string newest_variant(const Snapshot& snapshot, const std::string& otherwise) {
     const LogEntry* newest =
         newest_of(snapshot, [](const EditRecord& edit) { return !edit.place.variant.empty(); });
-    return newest == nullptr ? kDefaultVariant : newest->edit.place.variant;
+    if (newest != nullptr) return newest->edit.place.variant;
+    return otherwise.empty() ? kDefaultVariant : otherwise;
 }
 
 std::string changed_text(const EditRecord& edit, const ResultRecord& result) {

@@ -11,7 +11,8 @@ namespace vesselbench {
 [[nodiscard]] bool same_edits(const Snapshot& a, const Snapshot& b);
 
 /// The variant of the newest edit that belongs to one.
-[[nodiscard]] std::string newest_variant(const Snapshot& snapshot);
+/// \param otherwise what it is without such an edit; empty: the default
+[[nodiscard]] std::string newest_variant(const Snapshot& snapshot, const std::string& otherwise);
 
 /// The newest edit of an operation; null: none.
 [[nodiscard]] const LogEntry* newest_edit(const Snapshot& snapshot, const std::string& operation);

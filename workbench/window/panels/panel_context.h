@@ -34,6 +34,7 @@ struct Shown {
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
+    std::optional<Step> again_from;         ///< of its own steps, to be made again; none: missing
     std::optional<NoteInProgress> note;     ///< the dialog for it
     bool view = false;                      ///< the view's options
     bool compact = false;                   ///< little room: tool buttons without labels

@@ -1,9 +1,13 @@
 #include "workbench/window/panels/prepare_dialog.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <imgui.h>
 
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
+#include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -29,32 +33,66 @@ void draw_purposes(PanelContext& c) {
                  .title = purpose.title,
                  .detail = purpose.summary,
                  .selected = c.shown.purpose == purpose.name,
-                 .strong = true}))
+                 .strong = true})) {
             c.shown.purpose = purpose.name;
+            c.shown.again_from.reset();
+        }
 }
 
-void draw_entries(PanelContext& c) {
+/// Missing edits only, or also those of the purpose's own steps from one on.
+void draw_extent(PanelContext& c, const ResumedRecipe& resumed) {
+    const std::vector<Step> steps =
+        repeatable_steps(resumed, *c.place.document.snapshot(), c.shown.purpose);
+    const auto text_of = [](const std::optional<Step>& from) {
+        return from ? "Again from " + title_of(*from) : std::string("What is missing");
+    };
+    if (c.shown.again_from && std::ranges::count(steps, *c.shown.again_from) == 0)
+        c.shown.again_from.reset();
+    if (steps.empty()) return;
+    std::vector<std::string> texts = {text_of({})};
+    for (const Step step : steps) texts.push_back(text_of(step));
+    std::string chosen = text_of(c.shown.again_from);
+    if (!choice(c.ui, "prepare.extent", texts, chosen)) return;
+    const auto found = std::ranges::find(steps, chosen, text_of);
+    c.shown.again_from = found == steps.end() ? std::nullopt : std::optional(*found);
+}
+
+void draw_entry(const Ui& ui, const RecipeEntry& entry, int number) {
+    const std::string arguments = argument_summary(entry.given.operation(), entry.given);
+    text(ui, std::to_string(number) + ".  " + readable(entry.given.operation().name),
+         ui.theme.text);
+    ImGui::SameLine();
+    clipped_text(ui, arguments, ui.theme.muted, ImGui::GetContentRegionAvail().x - ui.grid(1));
+}
+
+void draw_entries(PanelContext& c, const ResumedRecipe& resumed) {
+    if (!resumed.refusal.empty())
+        return wrapped(c.ui, readable_sentence(resumed.refusal), c.ui.theme.danger, false);
+    if (resumed.rest.empty())
+        return wrapped(c.ui, readable_sentence(all_made_text(resumed)) + ".", c.ui.theme.muted,
+                       false);
     group_heading(c.ui, "These edits will be made");
     space(c.ui, 0.5F);
     int number = 0;
-    for (const RecipeEntry& entry : c.place.document.recipe(c.shown.purpose)) {
-        const std::string arguments = argument_summary(entry.given.operation(), entry.given);
-        text(c.ui, std::to_string(++number) + ".  " + readable(entry.given.operation().name),
-             c.ui.theme.text);
-        ImGui::SameLine();
-        clipped_text(c.ui, arguments, c.ui.theme.muted,
-                     ImGui::GetContentRegionAvail().x - c.ui.grid(1));
-    }
+    for (const RecipeEntry& entry : resumed.rest) draw_entry(c.ui, entry, ++number);
+    if (!c.shown.again_from) return;
+    space(c.ui, 0.5F);
+    wrapped(c.ui,
+            "Those of the model from " + title_of(*c.shown.again_from) +
+                " on are left out first; the history keeps them.",
+            c.ui.theme.muted);
 }
 
-void draw_buttons(PanelContext& c) {
+void draw_buttons(PanelContext& c, bool possible) {
     const float width = c.ui.em * 8;
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
     if (button(c.ui, "prepare.cancel", "Cancel", {.width = width})) c.shown.prepare = false;
     ImGui::SameLine(0, c.ui.grid(1));
-    if (!button(c.ui, "prepare.run", "Prepare", {.primary = true, .width = width})) return;
+    if (!button(c.ui, "prepare.run", "Prepare",
+                {.primary = true, .enabled = possible, .width = width}))
+        return;
     c.place.leave_form();
-    c.place.document.prepare(c.shown.purpose);
+    c.place.document.prepare(c.shown.purpose, std::exchange(c.shown.again_from, std::nullopt));
     c.shown.prepare = false;
 }
 
@@ -77,10 +115,12 @@ void draw_prepare_dialog(PanelContext& c, const ScreenRect& window) {
     ImGui::EndChild();
     ImGui::SameLine(0, ui.grid(3));
     ImGui::BeginChild("entries", {0, height});
-    draw_entries(c);
+    draw_extent(c, c.place.document.to_prepare(c.shown.purpose));
+    const ResumedRecipe resumed = c.place.document.to_prepare(c.shown.purpose, c.shown.again_from);
+    draw_entries(c, resumed);
     ImGui::EndChild();
     space(ui, 1);
-    draw_buttons(c);
+    draw_buttons(c, resumed.refusal.empty());
     end_frame();
 }
 

@@ -4,7 +4,8 @@
 
 namespace vesselbench {
 
-/// Asks for the purpose and lists the operations that will run.
+/// Asks for the purpose, and whether to make what is missing or to start again from a step; lists
+/// the operations that will run.
 void draw_prepare_dialog(PanelContext& context, const ScreenRect& window);
 
 }  // namespace vesselbench

@@ -1,0 +1,151 @@
+// Preparing a case that was prepared: what is missing is made, and nothing twice.
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/window/model/document.h"
+#include "workbench/window/model/rail.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A tube with a recipe that is quickly made.
+fs::path case_folder() {
+    const fs::path folder = fs::path(temporary_folder()) / "tube";
+    fs::create_directory(folder);
+    fs::copy_file(tube_file(), folder / "tube.stl");
+    write_text(folder / "case.json", R"({"name": "tube", "surface": "tube.stl", "units": "mm",
+        "recipe": [{"operation": "repair"},
+                   {"operation": "smooth", "arguments": {"iterations": 3}},
+                   {"operation": "subdivide", "when": "cfd"},
+                   {"operation": "decimate", "when": "rp"}]})");
+    return folder;
+}
+
+void wait_for_rest(Document& document) {
+    for (const auto end = std::chrono::steady_clock::now() + 60s;
+         document.busy() && std::chrono::steady_clock::now() < end;
+         std::this_thread::sleep_for(2ms))
+        document.poll();
+    REQUIRE_FALSE(document.busy());
+}
+
+void prepare(Document& document, const std::string& purpose, std::optional<Step> again_from = {}) {
+    document.prepare(purpose, again_from);
+    wait_for_rest(document);
+    INFO((document.failure() ? document.failure()->text : "no failure"));
+    REQUIRE_FALSE(document.failure());
+}
+
+bool told(const Document& document, const std::string& text) {
+    return std::ranges::any_of(document.messages(), [&](const Message& message) {
+        return message.text.find(text) != std::string::npos;
+    });
+}
+
+/// Operations of the edits that a variant consists of.
+Names operations_of(const Document& document, const std::string& variant) {
+    Names names;
+    for (const LogEntry& entry : document.snapshot()->log)
+        if (is_part_of(entry.edit.place, variant)) names.push_back(entry.edit.operation);
+    return names;
+}
+
+std::vector<EditRef> edits_of(const Document& document, const std::string& variant) {
+    std::vector<EditRef> edits;
+    for (const HistoryEntry& entry : document.snapshot()->history->line(variant))
+        edits.push_back(entry.edit);
+    return edits;
+}
+
+}  // namespace
+
+SCENARIO("A recipe is not made twice", "[window][prepare]") {
+    const Names all = {"load-surface", "repair", "smooth", "subdivide"};
+    Document document({.session = session_options(), .documents = temporary_folder()});
+    document.open({.path = case_folder()});
+    wait_for_rest(document);
+    prepare(document, "cfd");
+    REQUIRE(operations_of(document, "cfd") == all);
+    const StateId state = document.snapshot()->history->current();
+    const std::vector<EditRef> first = edits_of(document, "cfd");
+    WHEN("the case is prepared for the same purpose") {
+        CHECK(document.recipe("cfd").empty());
+        prepare(document, "cfd");
+        THEN("no edit is made, and a message says so") {
+            CHECK(document.snapshot()->history->current() == state);
+            CHECK(told(document, "Every edit of the recipe has been made"));
+        }
+    }
+    WHEN("an edit is missing") {
+        document.undo();
+        wait_for_rest(document);
+        prepare(document, "cfd");
+        THEN("only that one is made") {
+            CHECK(operations_of(document, "cfd") == all);
+            const std::vector<EditRef> now = edits_of(document, "cfd");
+            CHECK(std::equal(now.begin(), now.end() - 1, first.begin()));
+            CHECK(now.back() != first.back());
+        }
+    }
+    WHEN("it is prepared again from smoothing on") {
+        const auto steps =
+            repeatable_steps(document.to_prepare("cfd"), *document.snapshot(), "cfd");
+        CHECK(steps == std::vector<Step>{Step::Smoothing, Step::Remeshing});
+        prepare(document, "cfd", Step::Smoothing);
+        THEN("these edits are new, and the earlier state is kept") {
+            CHECK(operations_of(document, "cfd") == all);
+            CHECK(edits_of(document, "cfd")[1] == first[1]);
+            CHECK(edits_of(document, "cfd")[2] != first[2]);
+            document.jump(state);
+            wait_for_rest(document);
+            CHECK(edits_of(document, "cfd") == first);
+        }
+    }
+    WHEN("it is prepared for another purpose") {
+        prepare(document, "rp");
+        THEN("that one has edits of its own, and the first one's stay") {
+            CHECK(document.variant() == "rp");
+            CHECK(operations_of(document, "rp") ==
+                  Names{"load-surface", "repair", "smooth", "decimate"});
+            CHECK(edits_of(document, "cfd") == first);
+            CHECK(pending_count(*document.snapshot(), "cfd") == 0);
+            CHECK_FALSE(first_stale(*document.snapshot(), "cfd"));
+        }
+    }
+}
+
+SCENARIO("The dialog offers what is missing, or a step to start again from", "[window][prepare]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, case_folder().string());
+    Document& document = shell->app().place().document;
+    REQUIRE(shell->click_item("tool.prepare"));
+    shell->frame();
+    CHECK_FALSE(shell->has("prepare.extent"));
+    REQUIRE(shell->click_item("prepare.run"));
+    REQUIRE(wait_until_idle(*shell));
+    const StateId state = document.snapshot()->history->current();
+    REQUIRE(operations_of(document, "cfd").size() == 4);
+    REQUIRE(shell->click_item("tool.prepare"));
+    shell->frame();
+    CHECK(shell->has("prepare.extent"));
+    REQUIRE(shell->click_item("prepare.run"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(document.snapshot()->history->current() == state);
+}
