@@ -216,7 +216,7 @@ SCENARIO("Brushes accept any shape, or say why not", "[workbench][brush]") {
     std::size_t brushed = 0;
     for (const auto& [shape, surface] : nasty_shapes()) {
         CAPTURE(shape);
-        const double size = std::max(bounds(surface).diagonal(), 1e-3);
+        const double extent = bounds(surface).diagonal(), size = extent > 0.0 ? extent : 1e-3;
         const Arguments arguments = {{"at", surface.points()[surface.triangles()[0][0]]},
                                      {"radius", size},
                                      {"strength", 0.8}};

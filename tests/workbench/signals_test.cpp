@@ -31,11 +31,13 @@ std::vector<std::string> long_edit(const std::string& project) {
     return {"apply", project, "smooth", "filter=mean-curvature-flow", "iterations=5000"};
 }
 
-/// Waits until the program listens to signals, for 10 s at most.
+/// Waits until the program listens to all stop signals, for 10 s at most.
 bool listens(const ChildProcess& program) {
-    for (int tries = 0; tries < 10000 && !program.handles(SIGTERM); ++tries)
-        std::this_thread::sleep_for(1ms);
-    return program.handles(SIGTERM);
+    const auto all = [&] {
+        return program.handles(SIGINT) && program.handles(SIGTERM) && program.handles(SIGHUP);
+    };
+    for (int tries = 0; tries < 10000 && !all(); ++tries) std::this_thread::sleep_for(1ms);
+    return all();
 }
 
 /// Two signals that arrive together, as coreutils' timeout sends them.

@@ -6,7 +6,7 @@
 namespace vesselbench {
 
 /// The kinds of input a case can begin with.
-enum class InputKind { Surface, Image };
+enum class InputKind { Surface, Image, Neighbour };
 
 /// A part of prepare's report, which its page shows as a table of names and values.
 struct ReportSection {

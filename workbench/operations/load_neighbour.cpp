@@ -65,7 +65,8 @@ Operation load_neighbour_operation() {
                            units_parameter()},
             .run = &load,
             .isolated = true,
-            .thesis = "5.2"};
+            .thesis = "5.2",
+            .recipe = {.loads = InputKind::Neighbour}};
 }
 
 }  // namespace vesselbench

@@ -136,7 +136,7 @@ Recipe neighbour_entries(const std::vector<std::string>& neighbours, bool of_ima
     Recipe entries;
     PlainNames names;
     for (const std::string& neighbour : neighbours) {
-        RecipeEntry entry{.given = GivenArguments(find_operation("load-neighbour"))};
+        RecipeEntry entry{.given = GivenArguments(loading_operation(InputKind::Neighbour))};
         if (is_label_list(neighbour)) {
             if (!of_image)
                 throw UsageError("--neighbour " + neighbour +
