@@ -932,6 +932,7 @@ SCENARIO("Ctrl-C ends prepare and leaves the project", "[workbench][prepare]") {
     ChildProcess program(test::program_path(), {"prepare", tube(), "--for", "cfd", "--out", out});
     for (int tries = 0; tries < 1000 && !fs::exists(out + "/project.vbench"); ++tries)
         std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(500ms);  // an edit or two
     program.signal(SIGINT);
     CHECK(program.wait() == 1);
     CHECK(fs::exists(out + "/project.vbench"));
