@@ -123,8 +123,10 @@ private:
     [[nodiscard]] std::uint64_t room_around(const VtkXmlElement& list) const {
         const VtkXmlElement* around = parent_of(list);
         const VtkXmlElement* piece = around ? parent_of(*around) : nullptr;
+        if (!piece || !attribute(*piece, "NumberOfPoints"))  // an image's piece has an extent
+            return std::numeric_limits<std::uint64_t>::max();
         const auto count = [&](const char* key) {
-            return piece ? number(attribute(*piece, key)).value_or(0) : 0;
+            return number(attribute(*piece, key)).value_or(0);
         };
         if (around && around->name == "PointData") return count("NumberOfPoints");
         if (around && around->name == "CellData")

@@ -36,6 +36,8 @@ SCENARIO("Smoothing starts as the recipe smooths where the voxels are known", "[
     CHECK(smooth.suggested(scene, "cfd") == Arguments{});
     scene.sampling = Sampling{.spacing = Vec3(0.3, 0.3, 0.6), .confidence = 1.0};
     CHECK(smooth.suggested(scene, "cfd") == Arguments{{"preset", "cfd"}, {"staircase", true}});
+    CHECK(smooth.suggested(scene, "simulation") ==
+          Arguments{{"preset", "simulation"}, {"staircase", false}});
     CHECK(smooth.suggested(scene, "my-own-variant") == Arguments{});
 }
 

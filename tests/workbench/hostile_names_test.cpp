@@ -83,7 +83,7 @@ SCENARIO("Texts of unknown origin are shown without terminal escapes", "[workben
     CHECK(printable("\xe2\x80\xae") == "\\xe2\\x80\\xae");  // right-to-left override
 }
 
-SCENARIO("UTF-8 is told from other bytes", "[workbench][names]") {
+SCENARIO("UTF-8 is distinguished from other bytes", "[workbench][names]") {
     for (const char* text :
          {"", "plain\n", "Gef\xc3\xa4\xc3\x9f", "\xe2\x82\xac", "\xf0\x9f\x98\x80"})
         CHECK(is_utf8(text));

@@ -930,9 +930,11 @@ SCENARIO("Each damaged file is prepared, or rejected with a reason", "[workbench
 SCENARIO("Ctrl-C ends prepare and leaves the project", "[workbench][prepare]") {
     const std::string out = temporary_folder() + "/out";
     ChildProcess program(test::program_path(), {"prepare", tube(), "--for", "cfd", "--out", out});
-    for (int tries = 0; tries < 1000 && !fs::exists(out + "/project.vbench"); ++tries)
-        std::this_thread::sleep_for(10ms);
-    std::this_thread::sleep_for(500ms);  // an edit or two
+    const auto edits = [&] {
+        const ProgramRun log = run({"log", out + "/project.vbench", "--json"});
+        return log.exit_code == 0 ? Json::parse(log.out)["edits"].size() : 0;
+    };
+    for (int tries = 0; tries < 600 && edits() == 0; ++tries) std::this_thread::sleep_for(20ms);
     program.signal(SIGINT);
     CHECK(program.wait() == 1);
     CHECK(fs::exists(out + "/project.vbench"));

@@ -133,6 +133,9 @@ struct SuggestOptions {
 /// Suggests parameters of an operation for a surface.
 void suggest_parameters(const SuggestOptions& options, const Progress& progress);
 
+/// Without a variant, a project's is the purpose prepared last, as of `apply` and `export`.
+[[nodiscard]] SubjectOptions with_prepared_variant(SubjectOptions options);
+
 struct QualityOptions {
     SubjectOptions subject;
     std::vector<std::string> out;  ///< .svg (graphs, or bars if its name contains that) and .png

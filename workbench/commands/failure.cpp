@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "workbench/case/diagnostic_json.h"
+#include "workbench/case/json_text.h"
 #include "workbench/commands/console.h"
 
 namespace vesselbench {
@@ -26,9 +27,7 @@ Json failure_json(const Failure& failure, const FailedCommand& command) {
 int report_failure(const Failure& failure, const FailedCommand& command) {
     complain(failure.text);
     if (command.json)  // a text may quote a file's name, which need not be UTF-8
-        std::cout
-            << failure_json(failure, command).dump(2, ' ', false, Json::error_handler_t::replace)
-            << "\n";
+        std::cout << text_from_json(failure_json(failure, command), 2) << "\n";
     return failure.code;
 }
 

@@ -151,7 +151,7 @@ std::string gallery_of(const SearchSubject& subject, const QualityOptions& optio
 
 void draw_quality(const QualityOptions& options, const Progress& progress) {
     check(options);
-    const SearchSubject subject = search_subject(options.subject, progress);
+    const SearchSubject subject = search_subject(with_prepared_variant(options.subject), progress);
     for (const std::string& note : subject.notes) remark(note);
     std::optional<SensitivityAnalysis> analysis;
     const auto figures = [&]() -> const SensitivityAnalysis& {

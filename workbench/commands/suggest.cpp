@@ -14,6 +14,8 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/shared/foreign_surface.h"
+#include "workbench/prepare/prepared_purposes.h"
+#include "workbench/project/project.h"
 #include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/search_subject.h"
 #include "workbench/suggest/suggestion_search.h"
@@ -185,11 +187,17 @@ void print_json(SuggestionSearch& search, const SearchSubject& subject,
 
 }  // namespace
 
+SubjectOptions with_prepared_variant(SubjectOptions options) {
+    if (options.variant.empty() && is_project_file(options.source))
+        options.variant = prepared_purposes(options.source).last;
+    return options;
+}
+
 void suggest_parameters(const SuggestOptions& options, const Progress& progress) {
     if (options.grid && !options.json) throw UsageError("--grid needs --json");
     if (!options.truth.empty() && !(options.json && options.grid))
         throw UsageError("--truth needs --json --grid: it adds a distance to each set");
-    const SearchSubject subject = search_subject(options.subject, progress);
+    const SearchSubject subject = search_subject(with_prepared_variant(options.subject), progress);
     const auto start = std::chrono::steady_clock::now();
     SuggestionSearch search(subject, form_for(options, subject), search_way_from(options.search),
                             options.grid);

@@ -17,7 +17,9 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
     if (!scene.image)
         throw AlgorithmFailure("load-neighbour: labels need a label map or a mask: use load-image");
     ExtractionParameters parameters{.method = ExtractionMethod::Labels,
-                                    .mask_surface = MaskSurface::Smooth,
+                                    .mask_surface = arguments.text("mask_surface") == "smooth"
+                                                        ? MaskSurface::Smooth
+                                                        : MaskSurface::Midway,
                                     .bodies = Bodies::All};
     for (const double label : arguments.list("labels")) {
         if (label != std::floor(label) || label < 1.0 || label > 1e6)
@@ -62,6 +64,12 @@ Operation load_neighbour_operation() {
                             .type = List,
                             .help = "labels of the mask or label map instead of a file, as 1,2,3",
                             .minimum = 1},
+                           {.name = "mask_surface",
+                            .type = Choice,
+                            .default_value = "smooth",
+                            .help = "surface of labels, as in extract-surface",
+                            .choices = {"smooth", "midway"},
+                            .meaning = Meaning::None},
                            units_parameter()},
             .run = &load,
             .isolated = true,

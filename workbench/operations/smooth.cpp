@@ -170,7 +170,7 @@ bool asks_for_gpu(const Arguments& arguments) {
 /// As the default recipe smooths a surface whose voxels are known.
 Arguments suggested_arguments(const Scene& scene, const std::string& variant) {
     if (!scene.sampling || scene.sampling->confidence <= 0.0 || !is_preset(variant)) return {};
-    return {{"preset", variant}, {"staircase", true}};
+    return {{"preset", variant}, {"staircase", variant != "simulation"}};
 }
 
 std::vector<Parameter> parameter_table() {

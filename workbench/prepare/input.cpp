@@ -131,24 +131,30 @@ bool is_label_list(const std::string& text) {
            !file_exists(text);
 }
 
-/// The edits that load the neighbours, each named after its file or its labels.
-Recipe neighbour_entries(const std::vector<std::string>& neighbours, bool of_image) {
+/// The edits that load the neighbours, each named after its file or its labels; after neither if
+/// the input has a name of its own, which is given where files' names are private.
+Recipe neighbour_entries(const InputOptions& options, bool of_image) {
     Recipe entries;
     PlainNames names;
-    for (const std::string& neighbour : neighbours) {
+    const auto named = [&](const std::string& usual) {
+        return options.name.empty() ? names.add(usual)
+                                    : "neighbour-" + std::to_string(entries.size() + 1);
+    };
+    for (const std::string& neighbour : options.neighbours) {
         RecipeEntry entry{.given = GivenArguments(loading_operation(InputKind::Neighbour))};
         if (is_label_list(neighbour)) {
             if (!of_image)
                 throw UsageError("--neighbour " + neighbour +
                                  ": labels need a label map, but the input is a surface");
-            entry.given.set("name", names.add("label-" + neighbour));
+            entry.given.set("name", named("label-" + neighbour));
             entry.given.set("labels", neighbour);
         } else {
             const fs::path file = neighbour;
             if (!file_exists(file))
                 throw IoError("the neighbour '" + file.filename().string() + "' does not exist");
-            entry.given.set("name", names.add(file.stem().string()));
+            entry.given.set("name", named(file.stem().string()));
             entry.given.set("file", neighbour);
+            if (!options.units.empty()) entry.given.set("units", options.units);
         }
         entries.push_back(std::move(entry));
     }
@@ -190,7 +196,7 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
         throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
     if (!input.mask.empty() && !input.is_image)
         throw UsageError("--mask requires an image, but '" + input.name + "' is a surface");
-    input.neighbours = neighbour_entries(options.neighbours, input.is_image);
+    input.neighbours = neighbour_entries(options, input.is_image);
     return input;
 }
 

@@ -190,7 +190,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
                              const Teller& tell, const Progress& progress) {
     const std::vector<std::string> names = result_names(options.purpose);
     const std::vector<std::string> earlier = earlier_results(options.out);
-    keep_others(options.out, names, earlier, tell);
+    keep_irreplaceable(options.out, names, tell);
     prepared.earlier_results = remaining_results(options.out, names, earlier);
     PendingFiles files;
     write_products(files, options, prepared, progress.part(0.0, 0.3));
@@ -199,6 +199,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
                    report_html(report.document, report.pictures, report.sections));
     files.add_mark(options.out / "report.json", text_from_json(report.document, 2) + "\n");
     progress.check_cancelled();
+    keep_others(options.out, names, earlier, tell);
     files.commit();
     tell_remaining(prepared.earlier_results, tell);
     return {prepared.products, report.warnings};
@@ -229,12 +230,12 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
     const std::string warning =
         make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
-    end_purpose(options.out / kProject, options.purpose);
     for (std::string& kept : kept_warnings(options.out / kProject, session, options.purpose))
         prepared.warnings.push_back(std::move(kept));
     if (!warning.empty()) prepared.warnings.push_back(warning);
     prepared.scene = session.scene(options.purpose);
     refuse_stale_edits(session.log(options.purpose));
+    end_purpose(options.out / kProject, options.purpose);
     fold_log(session);
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);

@@ -114,16 +114,23 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(surface, after.patches);
 }
 
-/// How near the model comes to each neighbour, 0 inside, and where.
+/// [mm], 0 inside a closed neighbour.
+double distance_from(const SurfaceDistance& neighbour, bool closed, const Vec3& point) {
+    return closed ? std::max(0.0, neighbour.signed_distance(point))
+                  : neighbour.closest_point(point).distance;
+}
+
+/// How near the model comes to each neighbour, and where.
 Json neighbours_json(const Scene& scene) {
     Json json;
     const Positions& points = scene.surface->points();
     for (const auto& [name, neighbour] : scene.neighbours) {
-        const std::vector<double> distances = distance_to(neighbour).signed_distances(points);
-        const auto nearest = std::ranges::min_element(distances);
-        const Vec3& place = points[static_cast<std::size_t>(nearest - distances.begin())];
-        json[name] = {{"distance_mm", std::max(0.0, *nearest)},
-                      {"place_mm", point_json(rounded_place(place))}};
+        const SurfaceDistance distance = distance_to(neighbour);
+        const bool closed = neighbour.topology->boundary_loops().empty();
+        const auto nearest = std::ranges::min_element(
+            points, {}, [&](const Vec3& p) { return distance_from(distance, closed, p); });
+        json[name] = {{"distance_mm", distance_from(distance, closed, *nearest)},
+                      {"place_mm", point_json(rounded_place(*nearest))}};
     }
     return json;
 }

@@ -7,6 +7,7 @@
 #include "geometry/kernel/plain_name.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
+#include "workbench/operations/table.h"
 #include "workbench/session/edit_place.h"
 #include "workbench/session/stored_texts.h"
 
@@ -57,6 +58,12 @@ std::string variant_of(const std::filesystem::path& project, const std::string& 
 
 std::vector<std::string> other_purposes(const Snapshot& now, std::vector<std::string> done,
                                         const std::string& purpose) {
+    // Models whose edits were all undone are gone, whatever was prepared once.
+    if (std::ranges::none_of(now.log, [](const LogEntry& entry) {
+            return entry.edit.place.variant.empty() &&
+                   !find_operation(entry.edit.operation).recipe.loads;
+        }))
+        done.clear();
     for (const std::string& variant : now.history->variants())
         if (std::ranges::count(done, variant) == 0) done.push_back(variant);
     std::erase(done, purpose);

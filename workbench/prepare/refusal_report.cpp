@@ -41,6 +41,8 @@ Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
         Json apply = {"vesselbench", "apply", (options.out / "project.vbench").string(),
                       remedy.operation};
         for (const auto& [name, value] : remedy.arguments) apply.push_back(name + "=" + value);
+        for (const std::string& word : {std::string("--variant"), options.purpose})
+            apply.push_back(word);
         commands.push_back(std::move(apply));
     } else {
         for (const auto& [name, value] : remedy.arguments) {

@@ -89,7 +89,11 @@ std::vector<std::string> earlier_results(const fs::path& folder) {
         return {};
     }
     if (!is_own_report(report)) return {};
-    std::vector<std::string> names(kReports.begin(), kReports.end());
+    std::vector<std::string> names;
+    for (const std::string name : kReports)  // one that stopped wrote the last one only
+        if (name == kReports.back() || report.contains("products") ||
+            lists(report, "earlier_results", name))
+            names.push_back(name);
     for (const Purpose& purpose : purposes())
         for (std::string& name : product_names(purpose.name))
             if (std::ranges::count(names, name) == 0 &&
@@ -98,11 +102,16 @@ std::vector<std::string> earlier_results(const fs::path& folder) {
     return names;
 }
 
+void keep_irreplaceable(const fs::path& folder, const std::vector<std::string>& names,
+                        const Teller& tell) {
+    for (const std::string& name : names)
+        if (!may_replace(folder / name)) keep_earlier(folder / name, tell);
+}
+
 void keep_others(const fs::path& folder, const std::vector<std::string>& names,
                  const std::vector<std::string>& earlier, const Teller& tell) {
     for (const std::string& name : names)
-        if (std::ranges::count(earlier, name) == 0 || !may_replace(folder / name))
-            keep_earlier(folder / name, tell);
+        if (std::ranges::count(earlier, name) == 0) keep_earlier(folder / name, tell);
 }
 
 std::vector<std::string> remaining_results(const fs::path& folder,

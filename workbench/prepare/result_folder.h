@@ -35,8 +35,12 @@ void keep_earlier(const std::filesystem::path& file, const Teller& tell);
 /// there is no such file, or it is not of `prepare`.
 [[nodiscard]] std::vector<std::string> earlier_results(const std::filesystem::path& folder);
 
-/// Renames, as keep_earlier(), what is not to be replaced by results of these names: what is no
-/// earlier result, and what an export may not replace, such as the results of a flow.
+/// Renames, as keep_earlier(), what an export of these names may not replace, such as the results
+/// of a flow.
+void keep_irreplaceable(const std::filesystem::path& folder, const std::vector<std::string>& names,
+                        const Teller& tell);
+
+/// Renames, as keep_earlier(), what has these names and is no earlier result.
 /// \param earlier earlier_results()
 void keep_others(const std::filesystem::path& folder, const std::vector<std::string>& names,
                  const std::vector<std::string>& earlier, const Teller& tell);

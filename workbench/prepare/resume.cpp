@@ -23,8 +23,15 @@ bool names_end(const Parameter& parameter) {
                                           (meaning == Meaning::Tip || meaning == Meaning::Branch));
 }
 
+/// True for an edit that loads another neighbour than the entry.
+bool is_other_neighbour(const Arguments& edit, const GivenArguments& entry) {
+    return entry.operation().recipe.loads == InputKind::Neighbour &&
+           edit.optional_text("name") != entry->optional_text("name");
+}
+
 /// True unless the edit does a part only of what the entry does.
 bool covers(const Arguments& edit, const GivenArguments& entry) {
+    if (is_other_neighbour(edit, entry)) return false;
     return std::ranges::none_of(entry.operation().parameters, [&](const Parameter& parameter) {
         const std::string& name = parameter.name;
         return names_end(parameter) && edit.has(name) &&
@@ -110,6 +117,9 @@ Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& va
     const std::vector<EditId> edits = edits_of(recipe, made, variant);
     std::size_t behind_last = edits.size();
     while (behind_last > 0 && edits[behind_last - 1] == 0) --behind_last;
+    std::vector<LogEntry> own = made.log;
+    std::erase_if(own,
+                  [&](const LogEntry& entry) { return !is_part_of(entry.edit.place, variant); });
     Recipe rest;
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         const bool may_lack =
@@ -118,8 +128,7 @@ Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& va
                              std::ranges::none_of(made.log, [&](const LogEntry& entry) {
                                  return has_place_of(entry.edit, recipe[i], variant);
                              });
-        if (edits[i] == 0 && !skipped && !is_replaced(recipe[i], made.log))
-            rest.push_back(recipe[i]);
+        if (edits[i] == 0 && !skipped && !is_replaced(recipe[i], own)) rest.push_back(recipe[i]);
     }
     return rest;
 }

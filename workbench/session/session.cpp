@@ -71,7 +71,6 @@ struct Session::Parts {
         : options(std::move(o)),
           store(std::move(project), options.scene_bytes),
           runner(store, options) {
-        require_utf8(options.author, "the author");
         if (options.author.empty()) options.author = printable(login_name());
     }
 
@@ -214,11 +213,13 @@ Session::~Session() = default;
 
 Session Session::create(const std::filesystem::path& project, SessionOptions options,
                         const std::function<void()>& make_room) {
+    require_utf8(options.author, "the author");
     auto file = ProjectFile::create(project, options.embed_limit, make_room);
     return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
 }
 
 Session Session::open(const std::filesystem::path& project, SessionOptions options) {
+    require_utf8(options.author, "the author");
     auto file = ProjectFile::open(project, options.embed_limit);
     return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
 }

@@ -329,7 +329,7 @@ std::vector<Triangle> wall_beside(std::span<const Triangle> triangles, const Fla
 }
 
 /// Steps of a staircase are neither closures nor mouths, and where one closure is a step, the
-/// others cannot be told from steps.
+/// others look like steps.
 void drop_terraces(const Search& search, const Positions& points,
                    std::span<const Triangle> triangles, FlatDiscs& discs) {
     const std::vector<Triangle> wall = wall_beside(triangles, discs);

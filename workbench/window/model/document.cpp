@@ -11,6 +11,7 @@
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/prepared_purposes.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
@@ -416,17 +417,28 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
     show_variant(purpose);
     drop_preview();
     for (const std::string& remark : resumed.remarks) tell(message_from("warning: " + remark));
-    if (resumed.rest.empty()) {
-        tell(make_message(MessageKind::Success, readable_sentence(all_made_text(resumed))));
-        if (pending_count(*snapshot_, variant_) > 0) run_pending();
-        return;
-    }
+    if (resumed.rest.empty()) return end_at_once(purpose, all_made_text(resumed));
     preparation_ = Preparation{.recipe = resumed.rest,
                                .purpose = purpose,
                                .project = project_,
                                .warnings = resumed.remarks.size()};
     if (again_from) return leave_out(own_edits_from(*again_from, *snapshot_, purpose));
     prepare_next();
+}
+
+/// Nothing is missing of the purpose's model.
+void Document::end_at_once(const std::string& purpose, const std::string& text) {
+    const auto job =
+        runner_->submit([project = project_, purpose](Session& /*session*/, const Progress&) {
+            begin_purpose(project, purpose);
+            end_purpose(project, purpose);
+            return Nothing{};
+        });
+    watch(job, {.what = "Looking for missing edits"}, [this, purpose, text](const Nothing&) {
+        if (std::ranges::count(prepared_, purpose) == 0) prepared_.push_back(purpose);
+        tell(make_message(MessageKind::Success, readable_sentence(text)));
+        if (pending_count(*snapshot_, variant_) > 0) run_pending();
+    });
 }
 
 /// Before they are made again.

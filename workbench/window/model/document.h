@@ -219,6 +219,7 @@ private:
     void prepare_next();
     void end_entry(RecipeMessages& messages);
     void end_preparation();
+    void end_at_once(const std::string& purpose, const std::string& text);
     void forget_messages();
     void fail(const std::string& text, const std::string& operation);
 
