@@ -118,6 +118,10 @@ SCENARIO("Texts that are not UTF-8 are refused before they are stored", "[workbe
         if (arguments[3] == "--note" || arguments[0] == "note")
             CHECK_THAT(refused.err, Contains("the note 'Gef\\xe4\\xdf' is not UTF-8"));
     }
+    CHECK(
+        run({"new", folder + "/other.vbench", folder + "/cube.stl", "--author", text}).exit_code ==
+        2);
+    CHECK_FALSE(std::filesystem::exists(folder + "/other.vbench"));
     const ProgramRun log = run({"log", project, "--json"});
     REQUIRE(log.exit_code == 0);
     CHECK(Json::parse(log.out)["edits"].size() == 1);

@@ -222,6 +222,11 @@ SCENARIO("A report that stopped knows them as well", "[workbench][prepare-folder
     keep_others(folder, result_names("planning"), earlier,
                 [&](const std::string& text) { told.push_back(text); });
     CHECK(told == Names{"the existing surface.vtp was renamed to surface.1.vtp"});
+    THEN("a page beside one that stopped first is not ours") {
+        const Json first = refusal_json({.purpose = "cfd"}, failure, {});
+        write_text(folder / "report.json", first.dump());
+        CHECK(earlier_results(folder) == Names{"report.json"});
+    }
     THEN("reports of others list nothing") {
         for (const char* text : {"", "[]", R"({"products": ["surface.stl"]})",
                                  R"({"program_version": "1"})", "\"products\""}) {
@@ -275,6 +280,8 @@ SCENARIO("A cancel is heard between the products", "[workbench][prepare-folder]"
     Names command = place.command();
     std::ranges::replace(command, std::string("planning"), std::string("rp"));
     REQUIRE(run(command).exit_code == 0);
+    const bool own = GENERATE(true, false);
+    if (!own) fs::remove(place.out + "/report.json");  // then the results may be the user's
     const auto before = content_of(place.out);
     std::stop_source stop;
     int written = 0;

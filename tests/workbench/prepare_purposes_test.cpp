@@ -135,6 +135,13 @@ SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][
             prepared(folder + "/mask.nii.gz", "planning", out,
                      {"--neighbour", neighbour, "--resume"});
             CHECK(edits() == made);
+            AND_THEN("another one is loaded beside it") {
+                const Json more = prepared(folder + "/mask.nii.gz", "planning", out,
+                                           {"--neighbour", folder + "/exact.vtp", "--resume"});
+                CHECK(edits() == made + 1);
+                CHECK(more["neighbours"]["exact"]["distance_mm"] == Approx(0.0).margin(0.5));
+                CHECK(more["neighbours"].contains("neighbour"));
+            }
         }
     }
     GIVEN("a mask whose staircases are smoothed") {
@@ -220,6 +227,20 @@ SCENARIO("One project holds a model for flow and one for printing", "[workbench]
         }
         CHECK(edits_in(project) == now);
     }
+}
+
+SCENARIO("A model that was undone does not stand in the way of another purpose",
+         "[workbench][prepare]") {
+    const std::string out = temporary_folder() + "/undone", input = phantom("tube");
+    static_cast<void>(prepared(input, "planning", out));
+    const auto edits = [&] {
+        return Json::parse(run({"log", out + "/project.vbench", "--json"}).out)["edits"].size();
+    };
+    while (edits() > 1) REQUIRE(run({"undo", out + "/project.vbench"}).exit_code == 0);
+    const Json report = prepared(input, "rp", out, {"--resume"});
+    CHECK(report["purpose"] == "rp");
+    for (const Json& step : report["steps"])
+        CHECK((step["operation"] != "repair" || step["step"] == "source"));
 }
 
 SCENARIO("What a purpose lacks in shared steps is made in its own", "[workbench][prepare]") {
