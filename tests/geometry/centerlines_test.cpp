@@ -365,6 +365,33 @@ SCENARIO("Lines agree with VMTK's", "[geometry][centerlines]") {
     }
 }
 
+SCENARIO("A tube's mask surface has one line, whatever its terraces", "[geometry][centerlines]") {
+    // 27 tubes with round ends: an arc, nearly along the slices' axis, and a helix.
+    const auto course = GENERATE(as<std::string>(), "arc", "straight", "helix");
+    const Vec3 spacing = GENERATE(Vec3(0.4, 0.4, 0.8), Vec3(0.5, 0.5, 0.5), Vec3(0.3, 0.3, 1.2));
+    const double radius = GENERATE(1.2, 2.0, 3.0);
+    CAPTURE(course, spacing.transpose(), radius);
+    VesselShape tube;
+    const int steps = course == "helix" ? 16 : 8;
+    for (int i = 0; i <= steps; ++i) {
+        const double a = (course == "helix" ? 5.5 : 2.4) * i / steps;
+        tube.points.emplace_back(course == "arc" ? Vec3(10 * std::cos(a), 10 * std::sin(a), 4 * a)
+                                 : course == "straight"
+                                     ? Vec3(0.3 * i, 0.15 * i, 3.0 * i)
+                                     : Vec3(9 * std::cos(a), 9 * std::sin(a), 3.5 * a));
+        tube.radii.push_back(radius);
+    }
+    PhantomDescription description;
+    description.parts = {{"tube", tube, 0.0}};
+    description.imaging.spacing = spacing;
+    const Image mask = phantom_mask(description, PhantomField(description.parts));
+    const Surface surface =
+        extract_surface(mask, {}, {.method = ExtractionMethod::Labels}).surface;  // midway
+    const CenterlineGraph graph = compute_centerlines(surface);
+    CHECK(graph.branches.size() == 1);
+    CHECK(tip_count(graph) == 2);
+}
+
 SCENARIO("Radii are those of inscribed circles, a little below the wall's mean radius",
          "[geometry][centerlines]") {
     // An oblique tube in slices of two voxels, as its mask shows it (docs/decisions.md).
