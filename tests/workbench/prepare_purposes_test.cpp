@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/whole_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -25,11 +24,6 @@ namespace {
 
 ProgramRun run(const std::vector<std::string>& arguments) {
     return run_program(test::program_path(), arguments);
-}
-
-std::string text_of(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// A built-in phantom as a case folder.
@@ -47,7 +41,7 @@ Json prepared(const std::string& input, const std::string& purpose, const std::s
     const ProgramRun result = run(words);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    return Json::parse(text_of(out + "/report.json"));
+    return Json::parse(file_content(out + "/report.json"));
 }
 
 /// The edits of a project's log.
@@ -86,11 +80,11 @@ SCENARIO("A phantom becomes a model for planning and one for surgery simulation"
         REQUIRE(result.exit_code == 0);
         CHECK(names_in(out) ==
               Names{"project.vbench", "report.html", "report.json", "surface.stl", "surface.vtp"});
-        const Json report = Json::parse(text_of(out + "/report.json"));
+        const Json report = Json::parse(file_content(out + "/report.json"));
         CHECK(report["purpose"] == purpose);
         const double skewness = report["quality"]["after"]["equiangle_skewness"]["mean"];
         CHECK((purpose == "planning") == (skewness > 0.2));  // only simulation asks for good ones
-        CHECK_THAT(text_of(out + "/report.html"), Contains("Model for"));
+        CHECK_THAT(file_content(out + "/report.html"), Contains("Model for"));
     }
 }
 
@@ -124,7 +118,7 @@ SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][
             const double found = report["neighbours"]["neighbour"]["distance_mm"];
             CHECK(std::abs(found - exact) < 0.25 * 0.453);
             CHECK(report["neighbours"]["neighbour"]["place_mm"].size() == 3);
-            CHECK_THAT(text_of(out + "/report.html"), Contains("<h2>Neighbours</h2>"));
+            CHECK_THAT(file_content(out + "/report.html"), Contains("<h2>Neighbours</h2>"));
         }
         THEN("--resume with the same neighbour makes no edit twice") {
             const auto edits = [&] {

@@ -30,6 +30,15 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings, const c
         ->type_name("OPERATION.PARAMETER=VALUE");
 }
 
+void add_variant(CLI::App& command, std::string& variant, const std::string& help) {
+    command
+        .add_option("--variant", variant,
+                    help +
+                        "\n(default: what the project was prepared for last, else its only one, "
+                        "else cfd)")
+        ->type_name("NAME");
+}
+
 void add_json(CLI::App& command, bool& json, const char* help) {
     command.add_flag("--json", json, help);
 }

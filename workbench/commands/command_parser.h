@@ -34,6 +34,9 @@ void add_project(CLI::App& command, std::string& project);
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const char* help = "operation.parameter=value: change an argument of the recipe");
 
+/// Adds the option --variant. \param help what is done with it; its default follows
+void add_variant(CLI::App& command, std::string& variant, const std::string& help);
+
 /// Adds the flag --json.
 void add_json(CLI::App& command, bool& json, const char* help = "Print one JSON document");
 

@@ -123,11 +123,7 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
                     "Operation: " + alternatives(searched_operations()) +
                         " (default: " + searched_operations().front() + ")")
         ->type_name("NAME");
-    command
-        .add_option("--variant", subject.variant,
-                    "Variant of a project, if the operation belongs to one (default: the\n"
-                    "project's only one, else cfd)")
-        ->type_name("NAME");
+    add_variant(command, subject.variant, "Variant of a project, if the operation belongs to one");
     const std::string filtering = alternatives(searched_operations(searches_filter));
     command
         .add_option("--filter", subject.filter,

@@ -33,12 +33,7 @@ void add_apply(CommandLine& line) {
         .add_option("parameter=value", options->arguments,
                     "Its arguments; see 'vesselbench operations OPERATION'")
         ->type_name("");
-    command
-        .add_option(
-            "--variant", options->variant,
-            "Variant for edits of steps 4-8: cfd, rp or a name (default: what the project was\n"
-            "prepared for last, else its only one, else cfd)")
-        ->type_name("NAME");
+    add_variant(command, options->variant, "Variant for edits of steps 4-8: cfd, rp or a name");
     command
         .add_option("--step", options->step,
                     "Step the edit belongs to (default: the operation's usual step)")
@@ -152,11 +147,7 @@ void add_export(CommandLine& line) {
         ->required()
         ->type_name("");
     command.footer(export_footer());
-    command
-        .add_option("--variant", options->variant,
-                    "Variant to write (default: what the project was prepared for last, else its\n"
-                    "only one, else cfd)")
-        ->type_name("NAME");
+    add_variant(command, options->variant, "Variant to write");
     add_settings(command, options->settings,
                  "openfoam.parameter=value: change the flow of the case");
     add_json(command, options->json);

@@ -50,10 +50,7 @@ BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
                        const Progress& progress) {
     if (options.input.ends_with(".vbench")) return of_project(options.input, progress);
     const Input input = resolve_input(options, progress.part(0.0, 0.02));
-    const RecipeUse use = recipe_use(input, purpose);
-    const nlohmann::ordered_json own = own_recipe(input, purpose);
-    Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
-    recipe = with_loading(std::move(recipe), input);
+    Recipe recipe = input_recipe(input, purpose, own_recipe(input, purpose));
     set_arguments(recipe, settings);
     const auto cut = std::ranges::find_if(recipe, cuts_ends);
     BeforeCuts before;

@@ -75,7 +75,7 @@ void check_recipes(const Json& recipes, const fs::path& folder) {
     if (!recipes.is_array() && !recipes.is_object())
         refuse_json(recipes, "case.json.recipe",
                     "a list of operations, or an object with such a list for each purpose");
-    if (recipes.is_array()) static_cast<void>(recipe_in(folder, recipes));
+    if (recipes.is_array()) return void(recipe_in(folder, recipes));
     for (const Json& recipe : recipes) static_cast<void>(recipe_in(folder, recipe));
 }
 
@@ -220,7 +220,9 @@ Recipe loading_entries(const Input& input) {
     return entries;
 }
 
-Recipe with_loading(Recipe recipe, const Input& input) {
+Recipe input_recipe(const Input& input, const std::string& purpose, const Json& list) {
+    const RecipeUse use = recipe_use(input, purpose);
+    Recipe recipe = list.is_null() ? default_recipe(use) : recipe_from_json(list, use);
     Recipe loading = loading_entries(input);
     if (!recipe.empty() &&
         &recipe.front().given.operation() == &loading.front().given.operation()) {

@@ -57,9 +57,11 @@ struct Input {
 /// \throw UsageError if a unit is unknown
 [[nodiscard]] Recipe loading_entries(const Input& input);
 
-/// A recipe with the edits that load the input in front; an entry at its front that loads the same
-/// kind keeps the arguments that the input does not give.
-/// \throw UsageError if a unit is unknown
-[[nodiscard]] Recipe with_loading(Recipe recipe, const Input& input);
+/// The recipe of a purpose with the edits that load the input in front; an entry at its front that
+/// loads the same kind keeps the arguments that the input does not give.
+/// \param list of operations; null: the built-in recipe
+/// \throw UsageError as recipe_from_json(), or if a unit is unknown
+[[nodiscard]] Recipe input_recipe(const Input& input, const std::string& purpose,
+                                  const nlohmann::ordered_json& list);
 
 }  // namespace vesselbench

@@ -75,10 +75,7 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
 
 /// The recipe preceded by the edit that loads the input, with its files and units filled in.
 Recipe recipe_for(const PrepareOptions& options, const Input& input) {
-    const RecipeUse use = recipe_use(input, options.purpose);
-    const Json json = recipe_json_from(options, input);
-    Recipe recipe = json.is_null() ? default_recipe(use) : recipe_from_json(json, use);
-    recipe = with_loading(std::move(recipe), input);
+    Recipe recipe = input_recipe(input, options.purpose, recipe_json_from(options, input));
     set_arguments(recipe, options.arguments);
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);

@@ -15,6 +15,7 @@
 #include "workbench/case/point_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/recipe_run.h"
@@ -114,23 +115,15 @@ void add_quality(Json& report, const Scene& source, const Surface& surface) {
     report["openings"] = openings_json(surface, after.patches);
 }
 
-/// [mm], 0 inside a closed neighbour.
-double distance_from(const SurfaceDistance& neighbour, bool closed, const Vec3& point) {
-    return closed ? std::max(0.0, neighbour.signed_distance(point))
-                  : neighbour.closest_point(point).distance;
-}
-
 /// How near the model comes to each neighbour, and where.
 Json neighbours_json(const Scene& scene) {
     Json json;
     const Positions& points = scene.surface->points();
     for (const auto& [name, neighbour] : scene.neighbours) {
-        const SurfaceDistance distance = distance_to(neighbour);
-        const bool closed = neighbour.topology->boundary_loops().empty();
-        const auto nearest = std::ranges::min_element(
-            points, {}, [&](const Vec3& p) { return distance_from(distance, closed, p); });
-        json[name] = {{"distance_mm", distance_from(distance, closed, *nearest)},
-                      {"place_mm", point_json(rounded_place(*nearest))}};
+        const std::vector<double> distances = distances_from_neighbour(neighbour, points);
+        const auto nearest = std::ranges::min_element(distances);
+        const Vec3& place = points[static_cast<std::size_t>(nearest - distances.begin())];
+        json[name] = {{"distance_mm", *nearest}, {"place_mm", point_json(rounded_place(place))}};
     }
     return json;
 }

@@ -175,6 +175,10 @@ Combination combination_from(const Arguments& arguments) {
     return arguments.text("combine") == "average" ? Combination::Average : Combination::Multiply;
 }
 
+std::vector<double> distances_from_neighbour(const Surface& neighbour, const Positions& positions) {
+    return neighbour_distances(positions, {&neighbour, 1});
+}
+
 double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
                                    const std::string& operation, const Positions& positions) {
     const std::vector<std::string> names = neighbour_names(scene, arguments, operation);

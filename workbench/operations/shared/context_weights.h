@@ -89,6 +89,10 @@ enum class Combination { Multiply, Average };
 /// \param figures, resolved after context_weights
 [[nodiscard]] std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved);
 
+/// Distance of every position from one neighbour [mm]; 0 inside a closed one.
+[[nodiscard]] std::vector<double> distances_from_neighbour(const Surface& neighbour,
+                                                           const Positions& positions);
+
 /// Smallest distance of a position from a neighbour [mm]; 0 inside.
 /// \throw AlgorithmFailure if there is no neighbour, or one without triangles
 [[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,

@@ -430,7 +430,6 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
 void Document::end_at_once(const std::string& purpose, const std::string& text) {
     const auto job =
         runner_->submit([project = project_, purpose](Session& /*session*/, const Progress&) {
-            begin_purpose(project, purpose);
             end_purpose(project, purpose);
             return Nothing{};
         });

@@ -115,8 +115,9 @@ void draw_prepare_dialog(PanelContext& c, const ScreenRect& window) {
     ImGui::EndChild();
     ImGui::SameLine(0, ui.grid(3));
     ImGui::BeginChild("entries", {0, height});
-    draw_extent(c, c.place.document.to_prepare(c.shown.purpose));
-    const ResumedRecipe resumed = c.place.document.to_prepare(c.shown.purpose, c.shown.again_from);
+    ResumedRecipe resumed = c.place.document.to_prepare(c.shown.purpose);
+    draw_extent(c, resumed);
+    if (c.shown.again_from) resumed.rest = rest_from(*c.shown.again_from, resumed);
     draw_entries(c, resumed);
     ImGui::EndChild();
     space(ui, 1);
