@@ -115,6 +115,15 @@ Surface closed_vessels(double radius, const std::vector<Positions>& branches) {
     return exact_surface(field, field.bounds(), 0.4 * radius);
 }
 
+/// The wall alone: caps become open rims.
+Surface without_caps(const Surface& capped) {
+    std::vector<bool> wall(capped.triangle_count());
+    for (TriangleId t = 0; t < wall.size(); ++t)
+        wall[t] = capped.patch_of(t).kind == PatchKind::Wall;
+    const Surface open = select_triangles(capped, wall);
+    return open.with_patches(PatchLabels(open.triangle_count(), 0), {open.patches[0]});
+}
+
 /// The record of the end nearest to a point.
 EndRecord end_at(const OpeningPlan& plan, const Vec3& point) {
     return *std::ranges::min_element(
@@ -428,6 +437,36 @@ SCENARIO("A trunk that a dome closes just before its bifurcation is no end that 
     }
 }
 
+SCENARIO("An aneurysm at a bifurcation stays closed beside open rims, though it has no line",
+         "[geometry][openings]") {
+    const std::vector<PhantomPart> parts = {
+        {.name = "trunk", .shape = vessel_along({Vec3::Zero(), Vec3(0, 0, -12)}, 1.7, true)},
+        {.name = "left",
+         .shape = vessel_along({Vec3::Zero(), Vec3(-12, 0, -1)}, 1.5, true),
+         .blend = 0.3},
+        {.name = "right",
+         .shape = vessel_along({Vec3::Zero(), Vec3(12, 0, -1)}, 1.5, true),
+         .blend = 0.3},
+        {.name = "sac",
+         .shape = SphereShape{.centre = Vec3(0, 0, 3.3), .radius = 2.5},
+         .blend = 0.3}};
+    const PhantomField field(parts);
+    const Surface closed = exact_surface(field, field.bounds(), 0.3);
+    const Vec3 dome(0, 0, 5.8);
+    const OpeningPlan cuts = plan_openings(closed, *centerlines_of(closed));
+    REQUIRE(cuts.openings.size() == 3);
+    const Surface open = without_caps(clip_openings(closed, cuts).surface);
+    const LinesAndStubs lines = lines_to_ends(open, {});
+    REQUIRE_FALSE(lines.stubs.empty());
+    const OpeningPlan plan = plan_openings(open, *lines.graph, {.stubs = lines.stubs});
+    const EndRecord sac = end_at(plan, dome);
+    CAPTURE(sac.why, sac.verdict->odds.opening);
+    CHECK(sac.verdict->profile.visible_beside > 0.25);
+    CHECK(sac.fate == EndFate::Closed);
+    CHECK(plan.openings.size() == 3);
+    CHECK(why_no_flow(plan).empty());
+}
+
 SCENARIO("A stub that leans along its vessel is no end that nobody mentions",
          "[geometry][openings]") {
     // Along the vessel, its tip is hardly farther away than the wall opposite to it.
@@ -574,20 +613,12 @@ SCENARIO("A cut takes no other open rim along that is wide", "[geometry][opening
 
 SCENARIO("The widest vessel beside open rims does not stay closed unnoticed",
          "[geometry][openings]") {
-    const auto with_rims = [](double reach) {
-        const Surface capped = blind_trunk(reach);
-        std::vector<bool> wall(capped.triangle_count());
-        for (TriangleId t = 0; t < wall.size(); ++t)
-            wall[t] = capped.patch_of(t).kind == PatchKind::Wall;
-        const Surface open = select_triangles(capped, wall);
-        return open.with_patches(PatchLabels(open.triangle_count(), 0), {open.patches[0]});
-    };
     GIVEN("that it is as long as it is wide") {
-        const Surface surface = with_rims(8.5);
+        const Surface surface = without_caps(blind_trunk(8.5));
         CHECK(plan_openings(surface, *centerlines_of(surface)).openings.size() == 3);
     }
     GIVEN("that it is shorter") {
-        const Surface surface = with_rims(6.0);
+        const Surface surface = without_caps(blind_trunk(6.0));
         const auto graph = centerlines_of(surface);
         const OpeningPlan plan = plan_openings(surface, *graph);
         const EndRecord end = end_at(plan, Vec3(8, 0, 0));

@@ -103,9 +103,10 @@ void open_enough(EndChoice& choice) {
 EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
                       const std::vector<Stub>& stubs, const Progress& progress) {
     EndChoice choice;
-    for (const EndProfile& profile : profiles_of(scene, ends, progress))
+    const EndProfiles profiles = profiles_of(scene, ends, stubs, progress);
+    for (const EndProfile& profile : profiles.ends)
         choice.ends.push_back({.profile = profile, .odds = odds_of(profile)});
-    for (const EndProfile& profile : profiles_of(scene, stubs, progress))
+    for (const EndProfile& profile : profiles.stubs)
         choice.stubs.push_back({.profile = profile, .odds = odds_of(profile)});
     const std::vector<Root> roots = roots_of(scene, ends, choice.ends, progress);
     if (!roots.empty()) {

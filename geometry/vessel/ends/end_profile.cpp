@@ -109,16 +109,39 @@ void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& c
 
 /// Share of the cubes of the diameters that rims and named caps have: somebody has cut them.
 double visible_share(const Surface& surface, const std::vector<SurfaceEnd>& ends,
-                     const std::vector<EndProfile>& profiles) {
+                     const EndProfiles& profiles) {
     double visible = 0.0, all = 0.0;
+    for (const EndProfile& stub : profiles.stubs) all += std::pow(stub.diameter, 3.0);
     for (std::size_t e = 0; e < ends.size(); ++e) {
-        const double cube = std::pow(profiles[e].diameter, 3.0);
+        const double cube = std::pow(profiles.ends[e].diameter, 3.0);
         all += cube;
         const auto& patch = ends[e].patch;
         if (patch ? surface.patches[*patch].kind != PatchKind::Cut : ends[e].is_visible())
             visible += cube;
     }
     return all > 0.0 ? visible / all : 0.0;
+}
+
+EndProfile end_profile(const EndScene& scene, const std::vector<double>& courses,
+                       const SurfaceEnd& end) {
+    EndProfile profile;
+    profile.rim = !end.rim.empty();
+    profile.cap = end.patch.has_value();
+    if (end.tip)
+        measure_line(scene, courses, *end.tip, profile);
+    else
+        measure_lineless(scene.graph, courses, end, profile);
+    return profile;
+}
+
+EndProfile stub_profile(const EndScene& scene, const std::vector<double>& courses,
+                        const Stub& stub) {
+    EndProfile profile{
+        .length = stub.length, .diameter = 2.0 * stub.widest, .widest = 2.0 * stub.widest};
+    add_others(scene.graph, courses, stub, profile);
+    profile.tree = widest_course(courses, courses.size());
+    if (profile.length > kShortestNecked * profile.diameter) measure_sections(scene, stub, profile);
+    return profile;
 }
 
 double log_ratio(double a, double b) {
@@ -170,45 +193,26 @@ EndFeatures features_of(const EndProfile& p) {
             p.visible_beside};
 }
 
-std::vector<EndProfile> profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
-                                    const Progress& progress) {
-    std::vector<EndProfile> profiles(ends.size());
+EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
+                        const std::vector<Stub>& stubs, const Progress& progress) {
+    EndProfiles profiles;
     const std::vector<double> courses = course_diameters(scene.graph);
-    const double element = element_size(scene);
-    for (std::size_t e = 0; e < ends.size(); ++e) {
+    for (const SurfaceEnd& end : ends) {
         progress.check_cancelled();
-        const SurfaceEnd& end = ends[e];
-        EndProfile& profile = profiles[e];
-        profile.rim = !end.rim.empty();
-        profile.cap = end.patch.has_value();
-        if (end.tip)
-            measure_line(scene, courses, *end.tip, profile);
-        else
-            measure_lineless(scene.graph, courses, end, profile);
-        profile.across = profile.diameter / element;
+        profiles.ends.push_back(end_profile(scene, courses, end));
     }
-    const double visible = visible_share(scene.surface, ends, profiles);
-    for (std::size_t e = 0; e < ends.size(); ++e)
-        if (!ends[e].is_visible() && !scene.border_cuts) profiles[e].visible_beside = visible;
-    return profiles;
-}
-
-std::vector<EndProfile> profiles_of(const EndScene& scene, const std::vector<Stub>& stubs,
-                                    const Progress& progress) {
-    std::vector<EndProfile> profiles;
-    const double element = element_size(scene);
-    const std::vector<double> courses = course_diameters(scene.graph);
     for (const Stub& stub : stubs) {
         progress.check_cancelled();
-        EndProfile profile{
-            .length = stub.length, .diameter = 2.0 * stub.widest, .widest = 2.0 * stub.widest};
-        add_others(scene.graph, courses, stub, profile);
-        profile.tree = widest_course(courses, courses.size());
-        if (profile.length > kShortestNecked * profile.diameter)
-            measure_sections(scene, stub, profile);
-        profile.across = profile.diameter / element;
-        profiles.push_back(profile);
+        profiles.stubs.push_back(stub_profile(scene, courses, stub));
     }
+    const double element = element_size(scene);
+    for (auto* list : {&profiles.ends, &profiles.stubs})
+        for (EndProfile& profile : *list) profile.across = profile.diameter / element;
+    if (scene.border_cuts) return profiles;
+    const double visible = visible_share(scene.surface, ends, profiles);
+    for (std::size_t e = 0; e < ends.size(); ++e)
+        if (!ends[e].is_visible()) profiles.ends[e].visible_beside = visible;
+    for (EndProfile& stub : profiles.stubs) stub.visible_beside = visible;
     return profiles;
 }
 

@@ -31,8 +31,8 @@ struct EndProfile {
     double across = 0.0;         ///< voxels of the image, or edges of the surface, across it [-]
     bool rim = false;            ///< an open border of the surface
     bool cap = false;            ///< a cap with a label
-    double visible_beside =
-        0.0;  ///< of a blind end: share of the flow through rims and named caps [-]
+    /// Of a blind end or a branch without a line: share of the flow through rims and named caps [-]
+    double visible_beside = 0.0;
 
     /// Another vessel at its furcation. \param course its diameter [mm]
     void add_other(double course) {
@@ -67,14 +67,17 @@ struct EndScene {
     bool border_cuts = false;          ///< as OpeningPlanOptions
 };
 
-/// By end. \param ends as from find_surface_ends
-[[nodiscard]] std::vector<EndProfile> profiles_of(const EndScene& scene,
-                                                  const std::vector<SurfaceEnd>& ends,
-                                                  const Progress& progress = {});
+/// Of all candidates for a vessel's end.
+struct EndProfiles {
+    std::vector<EndProfile> ends;   ///< by end
+    std::vector<EndProfile> stubs;  ///< by blind branch without a line
+};
 
-/// The same of blind branches without a line.
-[[nodiscard]] std::vector<EndProfile> profiles_of(const EndScene& scene,
-                                                  const std::vector<Stub>& stubs,
-                                                  const Progress& progress = {});
+/// \param ends as from find_surface_ends
+/// \param stubs of the same lines
+/// \throw Cancelled
+[[nodiscard]] EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
+                                      const std::vector<Stub>& stubs,
+                                      const Progress& progress = {});
 
 }  // namespace vesselbench
