@@ -171,8 +171,9 @@ bool App::is_moving() const {
            impl_->place.slices().pending() || impl_->place.is_comparing() ||
            impl_->place.view_data().pending() || impl_->place.live().pending() ||
            impl_->place.quality().pending() || impl_->place.gallery().pending() ||
-           impl_->place.extraction().pending() || impl_->viewport.pending() ||
-           impl_->place.wants_picture() || impl_->thumbnails.pending() || impl_->files.pending();
+           impl_->place.extraction().pending() || impl_->place.openings().pending() ||
+           impl_->viewport.pending() || impl_->place.wants_picture() ||
+           impl_->thumbnails.pending() || impl_->files.pending();
 }
 
 std::optional<double> App::next_change() const {

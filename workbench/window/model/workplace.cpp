@@ -33,7 +33,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered, const LiveDev
       live_(options.wake, live),
       quality_(options.wake),
       gallery_(options.wake),
-      extraction_(std::move(options.wake)) {}
+      extraction_(options.wake),
+      openings_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -59,8 +60,9 @@ bool Workplace::update() {
     const bool places = update_places();
     const bool view_data = view_data_.update(document, view, settings.layers);
     const bool live = update_live();
+    const bool openings = update_openings();
     const bool new_slices = update_slices();
-    return live || view_data || places || new_slices || compared || changed;
+    return openings || live || view_data || places || new_slices || compared || changed;
 }
 
 bool Workplace::update_live() {
@@ -79,6 +81,13 @@ bool Workplace::update_live() {
                                                                   : QualityPace::Full);
     const bool extraction = extraction_.update(followed);
     return live || gallery || quality || extraction;
+}
+
+/// Texts that fix a plan follow it, but not what is being dragged.
+bool Workplace::update_openings() {
+    const bool changed = openings_.update(document, form_ ? &*form_ : nullptr, step_);
+    if (changed && form_ && !before_drag_) fill_form(openings_.due_texts(*form_));
+    return changed;
 }
 
 /// The outline in the slices is that of the surface in the view.
@@ -322,7 +331,7 @@ bool Workplace::can_change() const {
 }
 
 bool Workplace::can_apply() const {
-    return form_ && form_->valid() && can_change();
+    return form_ && form_->valid() && openings_.can_apply() && can_change();
 }
 
 bool Workplace::preview_is_current() const {
@@ -330,7 +339,8 @@ bool Workplace::preview_is_current() const {
 }
 
 void Workplace::preview() {
-    if (!form_ || !form_->valid() || !document.can(RequestKind::Preview)) return;
+    if (!form_ || !form_->valid() || !openings_.can_apply() || !document.can(RequestKind::Preview))
+        return;
     end_models_gallery();
     previewed_changes_ = form_->changes();
     if (form_->edit())
@@ -431,8 +441,7 @@ void Workplace::begin_drag() {
 }
 
 void Workplace::drag(const std::vector<FieldText>& texts) {
-    if (!form_ || !before_drag_) return;
-    for (const FieldText& field : texts) set_field(field.parameter, field.text);
+    if (before_drag_) fill_form(texts);
 }
 
 void Workplace::cancel_drag() {
@@ -536,10 +545,16 @@ void Workplace::slide(double iso) {
     if (is_sliding()) drag(extraction_.iso_texts(*before_drag_, iso));
 }
 
-// --- openings that are clicked
+// --- openings
+
+void Workplace::fill_form(const std::vector<FieldText>& texts) {
+    if (!form_) return;
+    for (const FieldText& field : texts) set_field(field.parameter, field.text);
+}
 
 void Workplace::click_opening(const PatchMeasures& opening) {
     forget_role_question();
+    if (!openings_.rows().empty()) return openings_.select_near(opening.centroid);
     const bool free = !form_ || (has_field(*form_, Meaning::Inlet) && !form_->edit());
     if (form_ && has_field(*form_, Meaning::Openings)) {
         const std::string& names = name_of(*form_, Meaning::Openings);
@@ -555,7 +570,7 @@ void Workplace::give_role(PatchKind role) {
     if (!opening || scene == nullptr || !scene->surface) return;
     const auto texts = role_texts(*opening, role, scene->surface->patches);
     if (!form_ || !has_field(*form_, Meaning::Inlet)) choose("clip-opening");
-    for (const FieldText& field : texts) set_field(field.parameter, field.text);
+    fill_form(texts);
 }
 
 // --- questions for a file

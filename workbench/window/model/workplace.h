@@ -15,6 +15,7 @@
 #include "workbench/window/model/image_slices.h"
 #include "workbench/window/model/live_extraction.h"
 #include "workbench/window/model/live_smoothing.h"
+#include "workbench/window/model/openings_model.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
 #include "workbench/window/model/place_search.h"
@@ -280,10 +281,18 @@ public:
         return live_.has_form() || extraction_.has_form() || quality_.has_form();
     }
 
-    // --- openings that are clicked
+    // --- openings
 
-    /// Adds an opening to the form's openings, or takes it away; or asks for its role, if the form
-    /// is one that sets roles, or there is none.
+    /// All vessel ends of a form that opens them.
+    [[nodiscard]] OpeningsModel& openings() { return openings_; }
+
+    [[nodiscard]] const OpeningsModel& openings() const { return openings_; }
+
+    /// Fills in fields of the form.
+    void fill_form(const std::vector<FieldText>& texts);
+
+    /// Chooses its end in the form's table; or adds an opening to the form's openings, or takes it
+    /// away; or asks for its role, if the form is one that sets roles, or there is none.
     void click_opening(const PatchMeasures& opening);
 
     /// The opening whose role is asked for.
@@ -319,6 +328,7 @@ private:
     void renew_lists();
     void bring_back(const OperationForm& before);
     [[nodiscard]] bool update_live();
+    [[nodiscard]] bool update_openings();
     [[nodiscard]] bool update_slices();
     void end_models_gallery();
     void end_applied_form();
@@ -367,6 +377,7 @@ private:
     QualityAnalysis quality_;
     SuggestionGallery gallery_;
     LiveExtraction extraction_;
+    OpeningsModel openings_;
     bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called

@@ -13,6 +13,7 @@
 #include "workbench/window/panels/form_fields.h"
 #include "workbench/window/panels/live_panel.h"
 #include "workbench/window/panels/message_panel.h"
+#include "workbench/window/panels/openings_panel.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -271,6 +272,7 @@ void draw_tab(PanelContext& c, const std::string& name, const std::string& label
 
 /// What the form says, or what comes of it. \return the parameter to be explained; null: none
 const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
+    if (c.place.openings().has_form()) draw_openings_panel(c);
     if (!shows_live(c)) return draw_form_fields(c, form);
     if (c.place.live().has_form())
         draw_live_panel(c, form);

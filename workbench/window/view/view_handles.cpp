@@ -14,6 +14,7 @@ constexpr double kReach = 0.85;  ///< a cursor so near to a handle is over it [e
 constexpr double kSnap = 0.4;    ///< a dragged length so near to a detent goes there [em]
 
 const Surface* model_of(const PanelContext& c) {
+    if (const Surface* before = c.place.openings().surface()) return before;
     const Scene* scene = c.place.document.current();
     return scene != nullptr && scene->surface && !scene->surface->empty() ? &*scene->surface
                                                                           : nullptr;
@@ -31,6 +32,7 @@ void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colo
 
 void ViewHandles::forget() {
     search_.update(nullptr, std::nullopt);
+    cut_form_.reset();
     shape_ = {};
     positions_.reset();
     openings_.clear();
@@ -60,15 +62,17 @@ void ViewHandles::take_shape(const PanelContext& c) {
     const auto& form = c.place.form();
     const Surface* model = model_of(c);
     const bool cuts = form && model != nullptr && has_field(*form, Meaning::Planes);
-    search_.update(model, cuts ? cut_question(*form) : std::nullopt);
+    cut_form_.reset();
+    if (cuts) cut_form_ = c.place.openings().lists_ends() ? c.place.openings().cut_form() : form;
+    search_.update(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
     shape_ = {};
     if (!form || model == nullptr) return;
     if (has_field(*form, Meaning::Box))
         shape_ = crop_shape(*form, bounds_);
     else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
-    else if (search_.cut())
-        shape_ = cut_shape(*form, *search_.cut());
+    else if (cut_form_ && search_.cut())
+        shape_ = cut_shape(*cut_form_, *search_.cut());
     if (!c.place.armed().empty()) shape_.handles.clear();
 }
 
@@ -85,6 +89,7 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
     start_ = {.index = *hot_,
               .handle = shape_.handles[*hot_],
               .cut = search_.cut(),
+              .cut_form = cut_form_,
               .openings = openings_,
               .cursor = cursor,
               .offset = cursor - view.place(shape_.handles[*hot_].point).value_or(cursor)};
@@ -92,19 +97,24 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
     state_ = State::Dragging;
 }
 
-std::vector<FieldText> ViewHandles::texts(const OperationForm& before, const Vec3& to,
+std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
                                           double snap) const {
+    const OperationForm& before = *c.place.before_drag();
     if (has_field(before, Meaning::Box)) return crop_texts(before, bounds_, start_.index, to);
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
-    return start_.cut ? cut_texts(before, *start_.cut, start_.index, to) : std::vector<FieldText>();
+    if (!start_.cut || !start_.cut_form) return {};
+    std::vector<FieldText> moved = cut_texts(*start_.cut_form, *start_.cut, start_.index, to);
+    const OpeningsModel& openings = c.place.openings();
+    if (!openings.lists_ends()) return moved;
+    return openings.dragged_texts(before, *start_.cut_form, *start_.cut, moved);
 }
 
 void ViewHandles::follow(PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
     if (cursor == start_.cursor) return;
     const Vec3 to = dragged_point(start_.handle, view, cursor - start_.offset);
     const double snap = kSnap * c.ui.em * view.pixel_at(to);
-    c.place.drag(texts(*c.place.before_drag(), to, snap));
+    c.place.drag(texts(c, to, snap));
 }
 
 void ViewHandles::update(PanelContext& c, const PixelView& view) {

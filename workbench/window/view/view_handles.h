@@ -55,6 +55,7 @@ private:
         std::size_t index = 0;
         Handle handle;
         std::optional<Cut> cut;
+        std::optional<OperationForm> cut_form;
         std::vector<PatchMeasures> openings;
         ViewPixel cursor = ViewPixel::Zero();
         ViewPixel offset = ViewPixel::Zero();  ///< from the handle to the cursor
@@ -65,11 +66,12 @@ private:
     void find_hot(const PanelContext& context, const PixelView& view, const ViewPixel& cursor);
     void begin(PanelContext& context, const PixelView& view, const ViewPixel& cursor);
     void follow(PanelContext& context, const PixelView& view, const ViewPixel& cursor);
-    [[nodiscard]] std::vector<FieldText> texts(const OperationForm& before, const Vec3& to,
+    [[nodiscard]] std::vector<FieldText> texts(const PanelContext& context, const Vec3& to,
                                                double snap) const;
     void draw_handle(PanelContext& context, const PixelView& screen, std::size_t index) const;
 
     CutSearch search_;
+    std::optional<OperationForm> cut_form_;  ///< of the one cut that has handles
     FormShape shape_;
     std::shared_ptr<const Positions> positions_;  ///< whose bounds these are
     Bounds bounds_;                               ///< of the model, for regions

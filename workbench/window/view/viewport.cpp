@@ -12,6 +12,7 @@
 #include "workbench/window/view/drawing_guard.h"
 #include "workbench/window/view/drive_control.h"
 #include "workbench/window/view/edit_marks.h"
+#include "workbench/window/view/end_markers.h"
 #include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/role_card.h"
 #include "workbench/window/view/slice_row.h"
@@ -91,6 +92,7 @@ struct Viewport::Impl {
     ViewPlaces places;
     SpotPicker spots;
     ViewHandles handles;
+    EndMarkers ends;
     DriveControl drive;
     MeasuringTool measuring;
     ViewPicture picture;
@@ -129,6 +131,7 @@ void Viewport::Impl::rest(PanelContext& c) {
     places.forget();
     spots.forget();
     handles.forget();
+    ends.forget();
     drive.forget();
     measuring.forget();
     slice_row = {};
@@ -204,7 +207,8 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
     const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
-                      camera.is_inside() || places.took_click() || handles.has_cursor();
+                      camera.is_inside() || places.took_click() || handles.has_cursor() ||
+                      ends.has_cursor();
     if (busy || !scene.is_drawn() || !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return;
     look();
     camera.request_centre(scene.scene_view(c.ui), scene.layers(c.ui),
@@ -225,14 +229,17 @@ void Viewport::Impl::pick_places(PanelContext& c, const ViewMouse& mouse) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    const bool free = mouse.over_model && !handles.has_cursor();
+    const bool over = mouse.over_model && !handles.has_cursor();
+    const bool clicked = over && mouse.released && still && !io.KeyShift;
+    const bool marked = ends.update(c, screen(), over, clicked);
+    const bool free = over && !ends.has_cursor() && !ImGui::IsAnyMouseDown();
     const SeenModel seen{.view = scene.scene_view(c.ui),
                          .layers = scene.layers(c.ui),
                          .screen = screen(),
                          .surface = scene.surface(),
                          .version = scene.version(),
-                         .over = free && !ImGui::IsAnyMouseDown(),
-                         .clicked = free && mouse.released && still && !io.KeyShift};
+                         .over = free,
+                         .clicked = clicked && !marked};
     places.update(c, seen);
     spots.update(c, seen);
     measuring.update(c, seen);
@@ -263,6 +270,7 @@ void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
     if (scene.surface() != nullptr) scene.overlays().draw_marks(c, view);
     if (scene.has_content()) {
         places.draw(c, view);
+        ends.draw(c, view);
         handles.draw(c, view);
         spots.draw(c, view);
         if (!c.place.gallery().picks()) drive.draw(c, scene.rect(), over_view);
@@ -276,6 +284,7 @@ void Viewport::Impl::draw_frame(PanelContext& c, const ScreenRect& area) {
     if (scene.surface() != nullptr) {
         brush.draw(c, screen());
         draw_role_card(c, screen());
+        ends.draw_card(c, screen());
     }
     scene.gallery().draw_plates(c);
     const ScreenRect rect = scene.gallery().above_plates(scene.rect());

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "workbench/window/model/document.h"
+#include "workbench/window/model/operation_form.h"
+
+namespace vesselbench {
+
+/// The scene that a form's operation runs on: that before the edit to be changed, or before the
+/// place of a new one, which need not be the shown scene. Used by the frame's thread.
+class FormInput {
+public:
+    FormInput() = default;
+
+    ~FormInput() { forget(); }
+
+    FormInput(const FormInput&) = delete;
+    FormInput& operator=(const FormInput&) = delete;
+
+    /// Once a frame: takes the scene, or asks the session for it while no request runs. Pending
+    /// edits are not run.
+    /// \param step of a new edit
+    void update(Document& document, const OperationForm& form, Step step);
+
+    void forget();
+
+    /// Null while it is not known.
+    [[nodiscard]] const Scene* scene() const { return scene_ ? &*scene_ : nullptr; }
+
+    /// Why it cannot be known; empty: it is, or will be.
+    [[nodiscard]] const std::string& problem() const { return problem_; }
+
+    [[nodiscard]] bool pending() const { return asked_ && !scene_ && problem_.empty(); }
+
+private:
+    void take();
+
+    std::optional<ResultId> asked_;  ///< the result whose scene is wanted
+    std::optional<Job<Scene>> job_;
+    std::optional<Scene> scene_;
+    std::string problem_;
+};
+
+}  // namespace vesselbench
