@@ -28,6 +28,11 @@ bool is_named(const EndChoices& choices, int number) {
            choices.inlets.contains(number) || choices.removed.contains(number);
 }
 
+/// A plan that is older than the wishes says what was asked for then.
+std::string reason_of(const EndRecord& decided, const EndRecord& plain, bool chosen) {
+    return !chosen && (decided.asked || decided.wanted) ? plain.why : decided.why;
+}
+
 /// Takes back what was said about an end.
 void forget(EndChoices& choices, int number) {
     for (std::set<int>* set : {&choices.open, &choices.closed, &choices.inlets, &choices.removed})
@@ -81,7 +86,7 @@ std::vector<EndRow> rows_of(const EndChoices& choices, const PlannedEnds& planne
                    .doubtful = !chosen && end.verdict && end.verdict->doubtful,
                    .removable = planned.plain->removable[e],
                    .moved = choices.cuts.contains(end.number),
-                   .why = planned.decided(end).why};
+                   .why = reason_of(planned.decided(end), end, chosen)};
         if (row.is_open()) row.cut = opening_of(choices, planned, end.number);
         rows.push_back(std::move(row));
     }

@@ -97,8 +97,10 @@ void OpeningsModel::ask(const OperationForm& form) {
 
 /// There is nothing to plan on, at least for now.
 void OpeningsModel::await_model() {
-    new_plan_ = planned_ || problem_ != input_.problem();
-    problem_ = input_.problem();
+    const bool known = input_.scene() != nullptr;
+    const std::string reason = known ? "there is no surface yet" : input_.problem();
+    new_plan_ = new_plan_ || planned_ || problem_ != reason;
+    problem_ = reason;
     if (asked_) task_.forget();
     asked_.reset();
     planned_.reset();

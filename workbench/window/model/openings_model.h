@@ -42,7 +42,9 @@ public:
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
     /// False while texts that fix the plan are not those of the wishes.
-    [[nodiscard]] bool can_apply() const { return !fixes_plan_ || !pending(); }
+    [[nodiscard]] bool can_apply() const {
+        return !fixes_plan_ || (!pending() && problem_.empty());
+    }
 
     /// What the operation runs on; null: not known, or not needed.
     [[nodiscard]] const Surface* surface() const;

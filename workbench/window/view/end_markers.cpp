@@ -26,10 +26,11 @@ ImVec2 corner_of(const ViewPixel& at) {
     return {static_cast<float>(at.x()), static_cast<float>(at.y())};
 }
 
-/// True while clicks are for ends.
+/// True while clicks are for ends. Keys may have closed the form in this frame.
 bool is_active(const PanelContext& c) {
-    return !c.place.openings().rows().empty() && c.place.armed().empty() &&
-           c.place.view.tool == MeasureTool::None;
+    const auto& form = c.place.form();
+    return form && has_field(*form, Meaning::Planes) && !c.place.openings().rows().empty() &&
+           c.place.armed().empty() && c.place.view.tool == MeasureTool::None;
 }
 
 std::optional<ViewPixel> marker_place(const Ui& ui, const PixelView& screen, const EndRow& row) {
