@@ -1,6 +1,7 @@
 #include "workbench/window/model/form_input.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -39,38 +40,48 @@ bool is_last(const Document& document, const HistoryEntry& entry) {
 void FormInput::forget() {
     if (job_) job_->cancel();
     job_.reset();
-    asked_.reset();
+    key_.reset();
+    last_.reset();
     scene_.reset();
     problem_.clear();
 }
 
 void FormInput::update(Document& document, const OperationForm& form, Step step) {
     take();
-    std::vector<HistoryEntry> before;
-    try {
-        before = input_entries(document, form, step);
-    } catch (const UsageError& error) {
-        forget();
-        problem_ = error.what();
-        return;
+    const Key key{document.snapshot_changes(), form.edit(), step};
+    if (key_ != key) {
+        find_last(document, form, step);
+        key_ = key;
     }
-    const auto last = last_done(before);
-    const bool runs = std::ranges::count(before, EditStatus::Pending, &HistoryEntry::status) == 0;
-    if (!last || !runs) {
-        forget();
-        problem_ = last ? "the edits before this one have to run first" : "there is no model yet";
-        return;
-    }
-    if (asked_ != last->result) {
-        forget();
-        asked_ = last->result;
-    }
-    if (is_last(document, *last)) {
+    if (!last_) return;
+    if (is_current_) {
         // The document may still read it: the one at hand is then of another state.
         if (document.current() != nullptr) scene_ = *document.current();
     } else if (pending() && !job_ && !document.activity() && !document.is_painting()) {
-        job_ = document.runner()->scene_after(last->edit.id);
+        job_ = document.runner()->scene_after(last_->edit.id);
     }
+}
+
+void FormInput::find_last(const Document& document, const OperationForm& form, Step step) {
+    std::vector<HistoryEntry> before;
+    std::string problem;
+    try {
+        before = input_entries(document, form, step);
+    } catch (const UsageError& error) {
+        problem = error.what();
+    }
+    auto last = last_done(before);
+    if (std::ranges::count(before, EditStatus::Pending, &HistoryEntry::status) > 0) {
+        problem = "the edits before this one have to run first";
+        last.reset();
+    } else if (!last && problem.empty()) {
+        problem = "there is no model yet";
+    }
+    const bool same = last && last_ && last->result == last_->result;
+    if (!same) forget();
+    last_ = std::move(last);
+    is_current_ = last_ && is_last(document, *last_);
+    problem_ = std::move(problem);
 }
 
 void FormInput::take() {
@@ -81,6 +92,7 @@ void FormInput::take() {
         scene_ = job.result();
     } catch (const std::exception& error) {
         problem_ = error.what();
+        last_.reset();
     }
 }
 

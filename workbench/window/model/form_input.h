@@ -32,12 +32,24 @@ public:
     /// Why it cannot be known; empty: it is, or will be.
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
-    [[nodiscard]] bool pending() const { return asked_ && !scene_ && problem_.empty(); }
+    [[nodiscard]] bool pending() const { return last_ && !scene_; }
 
 private:
+    /// What the edits before the form's depend on.
+    struct Key {
+        int changes = 0;  ///< Document::snapshot_changes()
+        std::optional<EditId> edit;
+        Step step = Step::Source;
+
+        bool operator==(const Key&) const = default;
+    };
+
+    void find_last(const Document& document, const OperationForm& form, Step step);
     void take();
 
-    std::optional<ResultId> asked_;  ///< the result whose scene is wanted
+    std::optional<Key> key_;
+    std::optional<HistoryEntry> last_;  ///< the edit whose result is wanted
+    bool is_current_ = false;           ///< which is the document's own model
     std::optional<Job<Scene>> job_;
     std::optional<Scene> scene_;
     std::string problem_;

@@ -11,7 +11,6 @@
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/end_markers.h"
 #include "workbench/window/widgets/controls.h"
-#include "workbench/window/widgets/row.h"
 
 namespace vesselbench {
 
@@ -57,17 +56,23 @@ std::string help_of(const EndRow& row) {
 
 // --- a row
 
+/// Figures and buttons in one line, the reason below it.
+float height_of_row(const Ui& ui) {
+    return ImGui::GetFrameHeight() + ui.em * 1.2F + ui.grid(1);
+}
+
 void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float width) {
     const Ui& ui = c.ui;
     const bool lit = c.place.openings().selected() == row.number;
-    const float pad = ui.grid(1), first = from.y + ui.grid(0.6F), second = first + ui.em * 1.35F;
-    draw_end_badge(ui, {from.x + pad + ui.em * 0.7F, from.y + row_height(ui, true) / 2}, row, lit);
+    const float pad = ui.grid(1), line = ImGui::GetFrameHeight();
+    const float first = from.y + pad / 2 + (line - ui.em) / 2, second = from.y + pad / 2 + line;
+    draw_end_badge(ui, {from.x + pad + ui.em * 0.7F, from.y + height_of_row(ui) / 2}, row, lit);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float left = from.x + pad + ui.em * 2.0F;
     const std::string size = formatted(row.diameter) + " mm";
     draw.AddText({left, first}, ui.theme.text, size.c_str());
     const std::string share = formatted(100.0 * row.share, "%.0f %%");
-    draw.AddText({left + ui.em * 4.6F, first}, ui.theme.text, share.c_str());
+    draw.AddText({left + ui.em * 4.3F, first}, ui.theme.text, share.c_str());
     ImGui::PushFont(ui.fonts.small);
     draw.AddText({left, second}, row.doubtful ? ui.theme.warning : ui.theme.muted,
                  fitted(reason_of(row), width - ui.em * 2.0F - 2 * pad).c_str());
@@ -93,7 +98,7 @@ void draw_row(PanelContext& c, const EndRow& row) {
     OpeningsModel& openings = c.place.openings();
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x);
-    const float height = row_height(c.ui, true) + c.ui.grid(0.5F);
+    const float height = height_of_row(c.ui);
     const std::string name = "end." + std::to_string(row.number);
     const ImVec2 to{from.x + width, from.y + height};
     if (ImGui::InvisibleButton(name.c_str(), {width, height})) openings.select(row.number);
@@ -141,7 +146,7 @@ void handle_keys(PanelContext& c) {
 
 void draw_table(PanelContext& c) {
     const std::vector<EndRow> rows = c.place.openings().rows();
-    const float height = row_height(c.ui, true) + c.ui.grid(0.5F);
+    const float height = height_of_row(c.ui);
     const float most = kMostHeight * ImGui::GetWindowHeight();
     ImGui::BeginChild("ends", {0, std::min(static_cast<float>(rows.size()) * height, most)});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});

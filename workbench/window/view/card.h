@@ -5,7 +5,8 @@
 
 namespace vesselbench {
 
-/// Draws a card into ImGui's current window: beside a place of the view, and within the view.
+/// Draws a card into ImGui's current window: beside a place of the view, within the view and below
+/// its tools.
 /// ImGui's cursor is put at its first line.
 /// \param width [em] \param lines of controls
 /// \return its rectangle

@@ -16,10 +16,10 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kBadge = 0.75F;   ///< radius [em]
-constexpr float kReach = 0.9F;    ///< a cursor so near to a marker is over it [em]
-constexpr float kAbove = 1.9F;    ///< a marker is so far above its end, where handles are [em]
-constexpr float kCardWidth = 27;  ///< [em]
+constexpr float kBadge = 0.75F;       ///< radius [em]
+constexpr float kMarkerReach = 0.9F;  ///< a cursor so near to a marker is over it [em]
+constexpr float kAbove = 1.9F;        ///< a marker is so far above its end, where handles are [em]
+constexpr float kCardWidth = 27;      ///< [em]
 constexpr int kDiscPoints = 40;
 
 ImVec2 corner_of(const ViewPixel& at) {
@@ -136,7 +136,7 @@ bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, boo
     const std::vector<EndRow>& rows = c.place.openings().rows();
     std::vector<std::optional<ViewPixel>> seen;
     for (const EndRow& row : rows) seen.push_back(marker_place(c.ui, screen, row));
-    const auto nearest = nearest_to(mouse_pixel(), seen, kReach * c.ui.em);
+    const auto nearest = nearest_to(mouse_pixel(), seen, kMarkerReach * c.ui.em);
     if (!nearest) return false;
     const EndRow row = rows[*nearest];
     hot_ = row.number;
