@@ -79,10 +79,14 @@ void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float wid
     ImGui::PopFont();
 }
 
+float width_of_buttons(const Ui& ui) {
+    return kFateWidth * ui.em + ImGui::GetFrameHeight() + ui.grid(1);
+}
+
 void draw_buttons(PanelContext& c, const EndRow& row, ImVec2 from, float width) {
-    const float side = ImGui::GetFrameHeight(), fate = kFateWidth * c.ui.em, pad = c.ui.grid(0.5F);
+    const float fate = kFateWidth * c.ui.em, pad = c.ui.grid(0.5F);
     const std::string name = "end." + std::to_string(row.number);
-    ImGui::SetCursorScreenPos({from.x + width - fate - side - 2 * pad, from.y + pad});
+    ImGui::SetCursorScreenPos({from.x + width - width_of_buttons(c.ui), from.y + pad});
     if (icon_button(c.ui, name + ".inlet", icons::kWater,
                     "The blood enters here\nCtrl: here as well", true, row.wish == EndWish::Inlet))
         make_inlet(c, row);
@@ -105,8 +109,9 @@ void draw_row(PanelContext& c, const EndRow& row) {
     ImGui::SetItemAllowOverlap();
     c.ui.item(name);
     const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(from, to);
-    help_on_hover(c.ui, help_of(row));
     if (over) openings.point_at(row.number);
+    const float buttons = to.x - width_of_buttons(c.ui);
+    if (over && ImGui::GetIO().MousePos.x < buttons) tooltip(c.ui, help_of(row));
     const bool chosen = openings.selected() == row.number;
     if (chosen || openings.pointed() == row.number)
         ImGui::GetWindowDrawList()->AddRectFilled(from, to,
