@@ -110,6 +110,8 @@ void draw_row(PanelContext& c, const EndRow& row) {
     c.ui.item(name);
     const bool over = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(from, to);
     if (over) openings.point_at(row.number);
+    if (!over && openings.pointed() == row.number && !ImGui::IsItemVisible())
+        ImGui::SetScrollHereY();  // its marker is pointed at
     const float buttons = to.x - width_of_buttons(c.ui);
     if (over && ImGui::GetIO().MousePos.x < buttons) tooltip(c.ui, help_of(row));
     const bool chosen = openings.selected() == row.number;
@@ -124,15 +126,23 @@ void draw_row(PanelContext& c, const EndRow& row) {
 
 // --- the table
 
-/// The row that is so many rows from the chosen one.
-void step(OpeningsModel& openings, int rows) {
+void reveal(const Ui& ui, int index) {
+    const float height = height_of_row(ui), top = static_cast<float>(index) * height;
+    const float least = std::min(top, top + height - ImGui::GetWindowHeight());
+    ImGui::SetScrollY(std::clamp(ImGui::GetScrollY(), least, top));
+}
+
+/// Chooses the row that is so many rows from the chosen one.
+void step(const Ui& ui, OpeningsModel& openings, int rows) {
     const std::vector<EndRow>& all = openings.rows();
     const auto chosen = std::ranges::find_if(
         all, [&](const EndRow& row) { return openings.selected() == row.number; });
     const auto last = static_cast<int>(all.size()) - 1;
     const int at =
         chosen == all.end() ? (rows > 0 ? -1 : 0) : static_cast<int>(chosen - all.begin());
-    openings.select(all[static_cast<std::size_t>(std::clamp(at + rows, 0, last))].number);
+    const int to = std::clamp(at + rows, 0, last);
+    openings.select(all[static_cast<std::size_t>(to)].number);
+    reveal(ui, to);
 }
 
 void handle_keys(PanelContext& c) {
@@ -140,8 +150,8 @@ void handle_keys(PanelContext& c) {
         ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl)
         return;
     OpeningsModel& openings = c.place.openings();
-    if (ImGui::IsKeyPressed(keys::kDown)) step(openings, 1);
-    if (ImGui::IsKeyPressed(keys::kUp)) step(openings, -1);
+    if (ImGui::IsKeyPressed(keys::kDown)) step(c.ui, openings, 1);
+    if (ImGui::IsKeyPressed(keys::kUp)) step(c.ui, openings, -1);
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
     if (chosen == nullptr) return;
     const EndRow row = *chosen;
