@@ -21,6 +21,7 @@
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/inner_file.h"
 #include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
@@ -351,6 +352,7 @@ ImageFile stacked_by_header(const Frames& frames) {
     return file;
 }
 
+/// \throw InvalidInput if one is a link that leads out of the folder
 std::vector<std::string> files_in(const std::string& folder) {
     std::error_code error;
     std::vector<std::string> files;
@@ -358,7 +360,8 @@ std::vector<std::string> files_in(const std::string& folder) {
     if (error)
         throw IoError(bare_name(folder) + ": the folder cannot be read (" + error.message() + ")");
     for (const auto& entry : entries)
-        if (entry.is_regular_file(error)) files.push_back(entry.path().string());
+        if (entry.is_regular_file(error))
+            files.push_back(inner_file(folder, entry.path().filename(), "its file").string());
     std::sort(files.begin(), files.end());
     return files;
 }

@@ -34,7 +34,7 @@ fs::path inner_file(const fs::path& folder, const fs::path& named, const std::st
                            " cannot be followed to a file: replace it by the file itself");
     if (std::ranges::mismatch(real_folder, real_file).in1 != real_folder.end())
         throw InvalidInput(what + " " + quoted(named) + " is " + quoted(real_file) +
-                           ", outside the folder of the file that names it: copy it there");
+                           ", outside the folder that it has to be in: copy it there");
     return folder / named;
 }
 

@@ -5,9 +5,9 @@
 
 namespace vesselbench {
 
-/// A file that a header or a description names, relative to the folder that this lies in: a file
-/// from a stranger must not lead to the user's other files.
-/// \param folder of the naming file; empty: the current one
+/// A file that a header or a description names, relative to the folder that this lies in, or an
+/// entry of a folder: a file from a stranger must not lead to the user's other files.
+/// \param folder of the naming file, or of the entry; empty: the current one
 /// \param named as written there
 /// \param what is named so, for the error text: "its image"
 /// \return `named` in `folder`; it need not exist

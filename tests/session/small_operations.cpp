@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "geometry/kernel/errors.h"
+#include "tests/session/forbidden_acts.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {
@@ -296,6 +297,10 @@ std::vector<Operation> make_operations() {
         isolated(operation("greedy", Step::Smoothing, greedy, {})),
         isolated(
             operation("refuse", Step::Smoothing, refuse, {typed("as", ParameterType::Text, true)})),
+        isolated(operation(
+            "act", Step::Source, forbidden_act,
+            {typed("file", ParameterType::File, false), typed("what", ParameterType::Text, true),
+             typed("at", ParameterType::Text, false)})),
     };
     const Parameter heights = typed("heights", ParameterType::List, true);
     all.push_back(operation("stroke", Step::LocalRepair, stroke, {heights}));

@@ -15,7 +15,7 @@ namespace vesselbench::test {
 /// - `flatten` (openings): sets z to 0, and one attribute, patches and a volume mesh
 /// - `stroke` (local-repair, live): waves of `heights`, which add up; fails at a height of 0
 /// - `stubborn` (local-repair): sleeps `seconds` without checking for a cancel
-/// - isolated: `far-bump` (as bump), `crash`, `crash-on-file`, `hang`, `greedy`, `refuse`
+/// - isolated: `far-bump` (as bump), `crash`, `crash-on-file`, `hang`, `greedy`, `refuse`, `act`
 [[nodiscard]] const Operation& find_test_operation(const std::string& name);
 
 /// Starts the helper program of these tests as a worker that knows the operations above.

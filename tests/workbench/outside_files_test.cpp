@@ -115,6 +115,18 @@ SCENARIO("A detached header reads voxels of its own folder only", "[workbench][h
     CHECK_THAT(run.err, Contains("its voxel file"));
 }
 
+SCENARIO("A folder of slices has no links that lead out of it", "[workbench][hostile]") {
+    const Folders folders;
+    const auto slices = [&] { (void)read_image(folders.given.string()); };
+    const std::string text = refusal(slices);
+    CHECK_THAT(text,
+               Contains("its file 'link.raw' is") && Contains("private/voxels.raw', outside"));
+    fs::remove(folders.given / "link.raw");
+    write_text((folders.given / "a.raw").string(), "abcd");
+    fs::create_symlink("a.raw", folders.given / "alias.raw");
+    CHECK_THAT(refusal(slices), Contains("contains no DICOM slices"));
+}
+
 SCENARIO("A case reads files of its own folder only", "[workbench][hostile]") {
     const Folders folders;
     const std::string description = (folders.given / "case.json").string();

@@ -6,10 +6,8 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <new>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -31,12 +29,13 @@
 #include "workbench/case/json_text.h"
 #include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
+#include "workbench/worker/input_files.h"
+#include "workbench/worker/sandbox.h"
 
 namespace vesselbench {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
@@ -47,7 +46,8 @@ constexpr int kFirstFree = 10;
 constexpr int kPollMilliseconds = 20;
 constexpr auto kProgressInterval = std::chrono::milliseconds(20);
 
-// The sanitizers' shadow memory needs more address space than any limit.
+// The sanitizers' shadow memory needs more address space than any limit, and their reports need
+// files, programs and ptrace.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kSanitized = true;
 #else
@@ -146,47 +146,6 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-bool is_detached_header(const fs::path& path) {
-    const std::string suffix = lower_case(path.extension().string());
-    return suffix == ".mhd" || suffix == ".nhdr";
-}
-
-/// Bytes of the regular files in a folder and its folders.
-std::uintmax_t folder_size(const fs::path& folder) {
-    std::error_code error;
-    std::uintmax_t size = 0;
-    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-         at.increment(error)) {
-        std::error_code ignored;
-        if (at->is_regular_file(ignored)) size += at->file_size(ignored);
-    }
-    return size;
-}
-
-/// The content of an input file [bytes], as far as its size tells. A mask compresses to less than a
-/// hundredth, so that an image may hold more than its file, up to the size of a large mask.
-std::uintmax_t content_size(const fs::path& path) {
-    constexpr std::uintmax_t kMaskRatio = 128, kLargestMask = std::uintmax_t{256} << 20;
-    std::error_code error;
-    if (fs::is_directory(path, error)) return folder_size(path);
-    if (is_detached_header(path)) return folder_size(fs::absolute(path).parent_path());
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (error) return 0;
-    const std::string suffix = lower_case(path.extension().string());
-    const bool image = suffix == ".gz" || suffix == ".nrrd" || suffix == ".mha" || suffix == ".vti";
-    return image ? size + std::min(kMaskRatio * size, kLargestMask) : size;
-}
-
-/// Memory for reading the operation's files [bytes]; none if it reads no file.
-std::optional<std::uint64_t> reader_memory(const Operation& operation, const Arguments& arguments) {
-    constexpr std::uint64_t kPerByte = 16, kBase = std::uint64_t{256} << 20;
-    std::optional<std::uint64_t> bytes;
-    for (const Parameter& parameter : operation.parameters)
-        if (parameter.type == ParameterType::File && arguments.has(parameter.name))
-            bytes = bytes.value_or(kBase) + kPerByte * content_size(arguments.text(parameter.name));
-    return bytes;
-}
-
 void write_request(int descriptor, const Operation& operation, const Scene& scene,
                    const Arguments& arguments, const WorkerOptions& options,
                    const Progress& progress) {
@@ -245,6 +204,7 @@ public:
         if (kSanitized) posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, outcome.number(), kOutcome);
         posix_spawn_file_actions_adddup2(&actions, progress.number(), kProgress);
+        posix_spawn_file_actions_addclosefrom_np(&actions, kProgress + 1);  // no socket of ours
         std::vector<char*> words;
         for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
@@ -303,19 +263,9 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
     return false;
 }
 
-/// The name of the foreign file read by the operation, if any.
-std::optional<std::string> file_of(const Operation& operation, const Arguments& arguments) {
-    for (const Parameter& parameter : operation.parameters)
-        if (parameter.type == ParameterType::File && arguments.has(parameter.name)) {
-            const std::string& path = arguments.text(parameter.name);
-            return path.substr(path.find_last_of('/', path.size() - 2) + 1);
-        }
-    return std::nullopt;
-}
-
 [[noreturn]] void throw_broken(const Operation& operation, const Arguments& arguments,
                                const std::string& what) {
-    if (const auto file = file_of(operation, arguments))
+    if (const auto file = file_read_by(operation, arguments))
         throw InvalidInput(operation.name + " " + what + " while reading " + *file +
                            ": the file is probably damaged; the project is unchanged");
     throw AlgorithmFailure(operation.name + " " + what +
@@ -455,6 +405,7 @@ Bytes run_request(const OperationLookup& find) {
     const Operation& operation = find(reader.get_text());
     const auto arguments =
         CheckedArguments::from_parent_process(arguments_from_stored(reader.get_text()));
+    if (!kSanitized) enter_sandbox(places_read_by(operation, arguments));
     const Scene scene = decode_scene(reader.get_bytes(reader.left()));
     Progress progress(progress_lines(), {});
     const Outcome outcome = [&] {
