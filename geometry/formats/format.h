@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -34,7 +35,9 @@ struct Format {
 template <class Read, class Written>
 struct FormatRow : Format {
     Read (*read)(const std::string& path) = nullptr;
-    void (*write)(const Written& content, const std::string& path) = nullptr;
+    /// Hears a cancel within the file.
+    void (*write)(const Written& content, const std::string& path,
+                  const Progress& progress) = nullptr;
 };
 
 inline constexpr std::size_t kSniffedBytes = 1024;

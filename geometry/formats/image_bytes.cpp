@@ -250,15 +250,17 @@ std::string inflated(std::string_view compressed, std::size_t wanted, const std:
     return out;
 }
 
-std::string deflated(std::string_view bytes, bool gzip) {
+std::string deflated(std::string_view bytes, bool gzip, const Progress& progress) {
     z_stream stream{};
     if (deflateInit2(&stream, 6, Z_DEFLATED, gzip ? 15 + 16 : 15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
         throw IoError("cannot start zlib");
+    const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
     std::string out;
     std::string piece(kPiece, '\0');
     std::size_t fed = 0;
     int state = Z_OK;
     while (state != Z_STREAM_END) {
+        progress.check_cancelled();
         const std::size_t feed = std::min(bytes.size() - fed, kPiece);
         stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + fed));
         stream.avail_in = static_cast<uInt>(feed);
@@ -268,7 +270,6 @@ std::string deflated(std::string_view bytes, bool gzip) {
         fed += feed - stream.avail_in;
         out.append(piece, 0, piece.size() - stream.avail_out);
     }
-    deflateEnd(&stream);
     return out;
 }
 

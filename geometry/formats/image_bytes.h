@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -55,8 +56,8 @@ struct ImageHeader {
 [[nodiscard]] std::string inflated(std::string_view compressed, std::size_t wanted,
                                    const std::string& name, bool only_head = false);
 
-/// A gzip (or else zlib) stream.
-[[nodiscard]] std::string deflated(std::string_view bytes, bool gzip);
+/// A gzip (or else zlib) stream. \throw Cancelled
+[[nodiscard]] std::string deflated(std::string_view bytes, bool gzip, const Progress& progress);
 
 /// Turns stored bytes into an image. Bytes after the last voxel are ignored.
 /// \throw InvalidInput if there are too few bytes, a voxel is not a finite number, or the matrix is

@@ -29,13 +29,13 @@ Image read_image(const std::string& path) {
     return read_image_file(path).image;
 }
 
-void write_image(const std::string& path, const Image& image) {
+void write_image(const std::string& path, const Image& image, const Progress& progress) {
     if (image.empty()) throw InvalidInput("there is no image to write");
     const ImageFormat* format = row_that_writes(image_formats(), path);
     if (!format)
         throw UsageError("'" + bare_name(path) + "': images are written as " +
                          enumerated(written_suffixes(image_formats()), "or"));
-    format->write(image, path);
+    format->write(image, path, progress);
 }
 
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -32,7 +33,7 @@ struct ImageFile {
 /// Writes an image in the format of the suffix, integers as uint8 or int16 if they fit, else
 /// float32. NIfTI stores its matrix in single precision. \throw UsageError for another suffix,
 /// IoError if it cannot be written, InvalidInput if empty
-void write_image(const std::string& path, const Image& image);
+void write_image(const std::string& path, const Image& image, const Progress& progress = {});
 
 /// The formats that images are read from, with their suffixes, for help texts.
 [[nodiscard]] std::string image_formats_text();

@@ -186,13 +186,13 @@ ImageFile read_meta_image(const std::string& path) {
     return file;
 }
 
-void write_meta_image(const Image& image, const std::string& path) {
+void write_meta_image(const Image& image, const std::string& path, const Progress& progress) {
     const VoxelType type = smallest_type(image);
     const Vec3 spacing = image.spacing();
     const auto row = [](const Vec3& v) {
         return " " + number_text(v.x()) + " " + number_text(v.y()) + " " + number_text(v.z());
     };
-    const std::string data = deflated(stored_bytes(image, type), false);
+    const std::string data = deflated(stored_bytes(image, type), false, progress);
     std::string header = "ObjectType = Image\nNDims = 3\nBinaryData = True\n";
     header += "BinaryDataByteOrderMSB = False\nCompressedData = True\n";
     header += "CompressedDataSize = " + std::to_string(data.size()) + "\nTransformMatrix =";
@@ -206,7 +206,7 @@ void write_meta_image(const Image& image, const std::string& path) {
     header += type == VoxelType::UInt8   ? "MET_UCHAR"
               : type == VoxelType::Int16 ? "MET_SHORT"
                                          : "MET_FLOAT";
-    write_file(path, header + "\nElementDataFile = LOCAL\n" + data);
+    write_file(path, header + "\nElementDataFile = LOCAL\n" + data, progress);
 }
 
 }  // namespace vesselbench

@@ -215,12 +215,12 @@ std::string nifti_bytes(const Image& image) {
     return bytes + stored_bytes(image, type);
 }
 
-void write_nifti(const Image& image, const std::string& path) {
-    write_file(path, nifti_bytes(image));
+void write_nifti(const Image& image, const std::string& path, const Progress& progress) {
+    write_file(path, nifti_bytes(image), progress);
 }
 
-void write_compressed_nifti(const Image& image, const std::string& path) {
-    write_file(path, deflated(nifti_bytes(image), true));
+void write_compressed_nifti(const Image& image, const std::string& path, const Progress& progress) {
+    write_file(path, deflated(nifti_bytes(image), true, progress), progress);
 }
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/image_file.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -15,10 +16,11 @@ namespace vesselbench {
 /// Bytes of a NIfTI-1 file (not compressed) with the image, its matrix as sform.
 [[nodiscard]] std::string nifti_bytes(const Image& image);
 
-/// Writes these bytes. \throw IoError
-void write_nifti(const Image& image, const std::string& path);
+/// Writes these bytes. \throw IoError, Cancelled
+void write_nifti(const Image& image, const std::string& path, const Progress& progress = {});
 
 /// The same, as a gzip stream.
-void write_compressed_nifti(const Image& image, const std::string& path);
+void write_compressed_nifti(const Image& image, const std::string& path,
+                            const Progress& progress = {});
 
 }  // namespace vesselbench

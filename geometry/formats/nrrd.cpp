@@ -317,7 +317,7 @@ ImageFile read_nrrd(const std::string& path) {
     return file;
 }
 
-void write_nrrd(const Image& image, const std::string& path) {
+void write_nrrd(const Image& image, const std::string& path, const Progress& progress) {
     const VoxelType type = smallest_type(image);
     const auto vector = [&](Eigen::Index column) {
         const Eigen::Vector3d v = image.index_to_patient.block<3, 1>(0, column);
@@ -330,7 +330,7 @@ void write_nrrd(const Image& image, const std::string& path) {
     header += "\nspace directions: " + vector(0) + " " + vector(1) + " " + vector(2);
     header += "\nkinds: domain domain domain\nspace units: \"mm\" \"mm\" \"mm\"";
     header += "\nendian: little\nencoding: gzip\nspace origin: " + vector(3) + "\n\n";
-    write_file(path, header + deflated(stored_bytes(image, type), true));
+    write_file(path, header + deflated(stored_bytes(image, type), true, progress), progress);
 }
 
 }  // namespace vesselbench

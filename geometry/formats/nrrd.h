@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/image_file.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -12,7 +13,7 @@ namespace vesselbench {
 /// \throw as read_image_file
 [[nodiscard]] ImageFile read_nrrd(const std::string& path);
 
-/// Writes one compressed file. \throw IoError
-void write_nrrd(const Image& image, const std::string& path);
+/// Writes one compressed file. \throw IoError, Cancelled
+void write_nrrd(const Image& image, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

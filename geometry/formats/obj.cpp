@@ -81,20 +81,27 @@ RawSurface read_obj(const std::string& path) {
     return Reader(text, bare_name(path)).read();
 }
 
-void write_obj(const Surface& surface, const std::string& path) {
+void write_obj(const Surface& surface, const std::string& path, const Progress& progress) {
     require_plain_names(surface.patches);
     std::string text = "# surface of vesselbench UNITS=mm\n";
-    for (const Vec3& p : surface.points()) text += "v " + numbers_text(p) + "\n";
+    LoopProgress rows(progress,
+                      surface.vertex_count() + surface.patches.size() * surface.triangle_count(),
+                      writing_text(path));
+    for (const Vec3& p : surface.points()) {
+        rows.step();
+        text += "v " + numbers_text(p) + "\n";
+    }
     for (std::size_t label = 0; label < surface.patches.size(); ++label) {
         if (surface.patches.size() > 1) text += "g " + surface.patches[label].name + "\n";
         for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+            rows.step();
             if ((*surface.patch_labels)[t] != label) continue;
             text += "f";
             for (const VertexId v : surface.triangles()[t]) text += " " + std::to_string(v + 1);
             text += "\n";
         }
     }
-    write_file(path, text);
+    write_file(path, text, progress);
 }
 
 }  // namespace vesselbench

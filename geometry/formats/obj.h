@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/raw_surface.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -12,6 +13,6 @@ namespace vesselbench {
 [[nodiscard]] RawSurface read_obj(const std::string& path);
 
 /// One group per patch; a comment states the unit.
-void write_obj(const Surface& surface, const std::string& path);
+void write_obj(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -81,15 +81,22 @@ RawSurface read_off(const std::string& path) {
     return Reader(text, bare_name(path)).read();
 }
 
-void write_off(const Surface& surface, const std::string& path) {
+void write_off(const Surface& surface, const std::string& path, const Progress& progress) {
     std::string text = "OFF\n# surface of vesselbench UNITS=mm\n" +
                        std::to_string(surface.vertex_count()) + " " +
                        std::to_string(surface.triangle_count()) + " 0\n";
-    for (const Vec3& p : surface.points()) text += numbers_text(p) + "\n";
-    for (const Triangle& t : surface.triangles())
+    LoopProgress rows(progress, surface.vertex_count() + surface.triangle_count(),
+                      writing_text(path));
+    for (const Vec3& p : surface.points()) {
+        rows.step();
+        text += numbers_text(p) + "\n";
+    }
+    for (const Triangle& t : surface.triangles()) {
+        rows.step();
         text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " +
                 std::to_string(t[2]) + "\n";
-    write_file(path, text);
+    }
+    write_file(path, text, progress);
 }
 
 }  // namespace vesselbench

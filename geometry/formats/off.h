@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/raw_surface.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -11,6 +12,6 @@ namespace vesselbench {
 [[nodiscard]] RawSurface read_off(const std::string& path);
 
 /// A comment states the unit; the format cannot store patches and attributes.
-void write_off(const Surface& surface, const std::string& path);
+void write_off(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -342,7 +342,7 @@ RawSurface read_ply(const std::string& path) {
     return Reader(bytes, bare_name(path)).read();
 }
 
-void write_ply(const Surface& surface, const std::string& path) {
+void write_ply(const Surface& surface, const std::string& path, const Progress& progress) {
     require_plain_names(surface.patches);
     for (const auto& [name, values] : surface.attributes) require_plain_name(name, "an attribute");
     std::string bytes = "ply\nformat binary_little_endian 1.0\n";
@@ -354,16 +354,20 @@ void write_ply(const Surface& surface, const std::string& path) {
     for (const auto& [name, values] : surface.attributes) bytes += "property double " + name + "\n";
     bytes += "element face " + std::to_string(surface.triangle_count()) +
              "\nproperty list uchar int vertex_indices\nproperty int CellEntityIds\nend_header\n";
+    LoopProgress rows(progress, surface.vertex_count() + surface.triangle_count(),
+                      writing_text(path));
     for (VertexId v = 0; v < surface.vertex_count(); ++v) {
+        rows.step();
         for (int k = 0; k < 3; ++k) put(bytes, surface.points()[v][k]);
         for (const auto& [name, values] : surface.attributes) put(bytes, (*values)[v]);
     }
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        rows.step();
         put(bytes, std::uint8_t{3});
         for (const VertexId v : surface.triangles()[t]) put(bytes, static_cast<std::int32_t>(v));
         put(bytes, static_cast<std::int32_t>((*surface.patch_labels)[t] + 1));
     }
-    write_file(path, bytes);
+    write_file(path, bytes, progress);
 }
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/raw_surface.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -14,6 +15,6 @@ namespace vesselbench {
 
 /// Binary, double precision, with attributes; patches are stored in the face property CellEntityIds
 /// and in comments, the unit in another comment.
-void write_ply(const Surface& surface, const std::string& path);
+void write_ply(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -165,14 +165,16 @@ RawSurface read_stl(const std::string& path) {
     return raw;
 }
 
-void write_stl(const Surface& surface, const std::string& path) {
+void write_stl(const Surface& surface, const std::string& path, const Progress& progress) {
     std::string bytes(kHeader + kRecord * surface.triangle_count(), '\0');
     const char header[] = "binary STL of vesselbench UNITS=mm";
     std::memcpy(bytes.data(), header, sizeof header);
     const auto count = static_cast<std::uint32_t>(surface.triangle_count());
     std::memcpy(bytes.data() + 80, &count, sizeof count);
     char* record = bytes.data() + kHeader;
+    LoopProgress rows(progress, surface.triangle_count(), writing_text(path));
     for (const Triangle& t : surface.triangles()) {
+        rows.step();
         const Eigen::Vector3f normal = area_normal(surface.points(), t).normalized().cast<float>();
         std::memcpy(record, normal.data(), 12);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -181,7 +183,7 @@ void write_stl(const Surface& surface, const std::string& path) {
         }
         record += kRecord;
     }
-    write_file(path, bytes);
+    write_file(path, bytes, progress);
 }
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/raw_surface.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -11,6 +12,6 @@ namespace vesselbench {
 [[nodiscard]] RawSurface read_stl(const std::string& path);
 
 /// Writes binary STL (single precision); the header states the unit.
-void write_stl(const Surface& surface, const std::string& path);
+void write_stl(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

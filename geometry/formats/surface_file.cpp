@@ -57,14 +57,14 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
     return file;
 }
 
-void write_surface(const Surface& surface, const std::string& path) {
+void write_surface(const Surface& surface, const std::string& path, const Progress& progress) {
     const SurfaceFormat* format = row_that_writes(surface_formats(), path);
     if (!format)
         throw UsageError("'" + lower_suffix(path) +
                          "' is not a surface format that can be written: use " +
                          enumerated(written_suffixes(surface_formats()), "or"));
     if (surface.empty()) throw InvalidInput("there are no triangles to write");
-    format->write(surface, path);
+    format->write(surface, path, progress);
 }
 
 }  // namespace vesselbench

@@ -72,7 +72,8 @@ void fill(vtkPointSet* data, const VtkMesh& mesh) {
 }
 
 template <class Writer>
-void write_with(vtkDataSet* data, const std::string& path) {
+void write_with(vtkDataSet* data, const std::string& path, const Progress& progress) {
+    progress.report(0.0, writing_text(path));
     PendingFiles files;
     const std::string temporary = files.add(path).string();
     vtkNew<Writer> writer;
@@ -85,24 +86,26 @@ void write_with(vtkDataSet* data, const std::string& path) {
     if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
         throw IoError("'" + bare_name(path) + "' cannot be written: " +
                       vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+    progress.check_cancelled();  // VTK writes 100 MB in a tenth of a second, and hears no abort
     files.commit();
 }
 
 }  // namespace
 
-void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path) {
+void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path, const Progress& progress) {
     vtkNew<vtkPolyData> data;
     fill(data, mesh);
     data->SetPolys(cells_of(mesh));
-    write_with<vtkXMLPolyDataWriter>(data, path);
+    write_with<vtkXMLPolyDataWriter>(data, path, progress);
 }
 
-void write_vtk_unstructured_grid(const VtkMesh& mesh, const std::string& path) {
+void write_vtk_unstructured_grid(const VtkMesh& mesh, const std::string& path,
+                                 const Progress& progress) {
     vtkNew<vtkUnstructuredGrid> data;
     fill(data, mesh);
     const auto types = view_of<vtkUnsignedCharArray>(mesh.types.data(), mesh.types.size());
     data->SetCells(types.Get(), cells_of(mesh).Get());
-    write_with<vtkXMLUnstructuredGridWriter>(data, path);
+    write_with<vtkXMLUnstructuredGridWriter>(data, path, progress);
 }
 
 }  // namespace vesselbench

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -34,10 +35,12 @@ void add_cell(VtkMesh& mesh, const Corners& corners, std::int32_t region) {
 }
 
 /// Writes PolyData with VTK, in double precision, as appended raw data; the same mesh gives the
-/// same bytes. \throw IoError
-void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path);
+/// same bytes. \throw IoError, Cancelled
+void write_vtk_poly_data(const VtkMesh& mesh, const std::string& path,
+                         const Progress& progress = {});
 
-/// The same as UnstructuredGrid. \throw IoError
-void write_vtk_unstructured_grid(const VtkMesh& mesh, const std::string& path);
+/// The same as UnstructuredGrid. \throw IoError, Cancelled
+void write_vtk_unstructured_grid(const VtkMesh& mesh, const std::string& path,
+                                 const Progress& progress = {});
 
 }  // namespace vesselbench

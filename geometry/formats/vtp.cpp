@@ -171,13 +171,16 @@ RawSurface read_vtp(const std::string& path) {
     }
 }
 
-void write_vtp(const Surface& surface, const std::string& path) {
+void write_vtp(const Surface& surface, const std::string& path, const Progress& progress) {
     VtkMesh mesh{.points = surface.points()};
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+    LoopProgress rows(progress.part(0.0, 0.5), surface.triangle_count(), writing_text(path));
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        rows.step();
         add_cell(mesh, surface.triangles()[t], (*surface.patch_labels)[t] + 1);
+    }
     for (const Patch& patch : surface.patches) mesh.patch_names.push_back(patch.name);
     for (const auto& [name, values] : surface.attributes) mesh.attributes[name] = values;
-    write_vtk_poly_data(mesh, path);
+    write_vtk_poly_data(mesh, path, progress.part(0.5, 1.0));
 }
 
 }  // namespace vesselbench

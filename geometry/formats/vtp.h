@@ -3,6 +3,7 @@
 #include <string>
 
 #include "geometry/formats/raw_surface.h"
+#include "geometry/kernel/progress.h"
 
 namespace vesselbench {
 
@@ -14,6 +15,6 @@ namespace vesselbench {
 
 /// Writes .vtp in double precision (appended raw data) with CellEntityIds, PatchNames, Units and
 /// the attributes.
-void write_vtp(const Surface& surface, const std::string& path);
+void write_vtp(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

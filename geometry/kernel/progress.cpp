@@ -1,5 +1,7 @@
 #include "geometry/kernel/progress.h"
 
+#include <algorithm>
+
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -10,7 +12,7 @@ void Progress::report(double fraction, std::string_view what) const {
 }
 
 void Progress::check_cancelled() const {
-    if (stop_.stop_requested()) throw Cancelled();
+    if (is_cancelled()) throw Cancelled();
 }
 
 Progress Progress::part(double from, double to) const {
@@ -18,6 +20,11 @@ Progress Progress::part(double from, double to) const {
     inner.from_ = from_ + (to_ - from_) * from;
     inner.to_ = from_ + (to_ - from_) * to;
     return inner;
+}
+
+void LoopProgress::report() const {
+    const auto passes = static_cast<double>(std::max(passes_, done_));
+    progress_.report(static_cast<double>(done_ - 1) / passes, what_);
 }
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #include "geometry/kernel/whole_file.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "geometry/kernel/errors.h"
@@ -13,6 +14,10 @@ namespace fs = std::filesystem;
 std::string bare_name(const fs::path& path) {
     const fs::path normal = path.lexically_normal();
     return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
+}
+
+std::string writing_text(const fs::path& path) {
+    return "writing " + bare_name(path);
 }
 
 std::string file_content(const fs::path& path) {
@@ -40,9 +45,14 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
     files.commit();
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, std::string_view bytes, const Progress& progress) {
+    constexpr std::size_t kPiece = std::size_t{4} << 20;  // a few milliseconds
     write_file(path, [&](std::ostream& out) {
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        for (; !bytes.empty(); bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
+            progress.check_cancelled();
+            out.write(bytes.data(), static_cast<std::streamsize>(std::min(kPiece, bytes.size())));
+        }
+        progress.check_cancelled();  // its content still has to reach the disk
     });
 }
 

@@ -6,10 +6,15 @@
 #include <string>
 #include <string_view>
 
+#include "geometry/kernel/progress.h"
+
 namespace vesselbench {
 
 /// Name of a file or folder without the folders it lies in, for error texts.
 [[nodiscard]] std::string bare_name(const std::filesystem::path& path);
+
+/// "writing a.stl", for progress.
+[[nodiscard]] std::string writing_text(const std::filesystem::path& path);
 
 /// All bytes of a file.
 /// \throw IoError if it is missing, a folder, a device or pipe, or cannot be read to its end
@@ -19,7 +24,8 @@ namespace vesselbench {
 /// \throw IoError if the folder is missing or read-only, or the disk is full
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
-/// The same for bytes in memory.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same for bytes in memory. \throw Cancelled too
+void write_file(const std::filesystem::path& path, std::string_view bytes,
+                const Progress& progress = {});
 
 }  // namespace vesselbench

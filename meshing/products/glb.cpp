@@ -40,7 +40,8 @@ std::array<double, 4> colour_of(PatchKind kind) {
 
 class GlbBuilder {
 public:
-    explicit GlbBuilder(const Surface& surface) : surface_(surface) {
+    /// \throw Cancelled
+    GlbBuilder(const Surface& surface, const LoopProgress& rows) : surface_(surface), rows_(rows) {
         document_ = {{"asset", {{"version", "2.0"}, {"generator", "vesselbench"}}},
                      {"scene", 0},
                      {"scenes", {{{"nodes", {0}}}}},
@@ -71,9 +72,11 @@ public:
 
 private:
     void add_vectors(const Positions& values) {
-        for (const Vec3& v : values)
+        for (const Vec3& v : values) {
+            rows_.step();
             for (int k = 0; k < 3; ++k)
                 put32(data_, std::bit_cast<std::uint32_t>(static_cast<float>(v[k])));
+        }
     }
 
     void add_view(std::size_t start, int target) {
@@ -111,9 +114,11 @@ private:
 
     void add_patch(std::size_t patch) {
         const std::size_t start = data_.size();
-        for (TriangleId t = 0; t < surface_.triangle_count(); ++t)
+        for (TriangleId t = 0; t < surface_.triangle_count(); ++t) {
+            rows_.step();
             if ((*surface_.patch_labels)[t] == patch)
                 for (const VertexId v : surface_.triangles()[t]) put32(data_, v);
+        }
         if (data_.size() == start) return;
         add_view(start, kElementBuffer);
         document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
@@ -132,6 +137,7 @@ private:
     }
 
     const Surface& surface_;
+    LoopProgress rows_;
     Json document_;
     Json parts_ = Json::array();
     std::string data_;
@@ -139,10 +145,13 @@ private:
 
 }  // namespace
 
-void write_glb(const Surface& surface, const std::string& path) {
+void write_glb(const Surface& surface, const std::string& path, const Progress& progress) {
     if (surface.empty()) throw InvalidInput("GLB: the surface has no triangles");
     require_plain_names(surface.patches);
-    write_file(path, GlbBuilder(surface).bytes());
+    const LoopProgress rows(
+        progress, 2 * surface.vertex_count() + surface.patches.size() * surface.triangle_count(),
+        writing_text(path));
+    write_file(path, GlbBuilder(surface, rows).bytes(), progress);
 }
 
 }  // namespace vesselbench

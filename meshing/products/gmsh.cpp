@@ -18,9 +18,10 @@ void put_names(TextBuffer& out, const VolumeMesh& mesh) {
     out << "3 " << mesh.patches.size() + 1 << " \"lumen\"\n$EndPhysicalNames\n";
 }
 
-void put_points(TextBuffer& out, const VolumeMesh& mesh) {
+void put_points(TextBuffer& out, const VolumeMesh& mesh, LoopProgress& rows) {
     out << "$Nodes\n" << mesh.points.size() << '\n';
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        rows.step();
         const Vec3& p = mesh.points[v];
         out << v + 1 << ' ' << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
     }
@@ -36,28 +37,34 @@ void put_element(TextBuffer& out, std::size_t number, int type, std::size_t regi
     out << '\n';
 }
 
-void put_elements(TextBuffer& out, const VolumeMesh& mesh) {
+void put_elements(TextBuffer& out, const VolumeMesh& mesh, LoopProgress& rows) {
     out << "$Elements\n" << mesh.boundary.size() + mesh.tetrahedra.size() << '\n';
     std::size_t number = 0;
-    for (std::size_t t = 0; t < mesh.boundary.size(); ++t)
+    for (std::size_t t = 0; t < mesh.boundary.size(); ++t) {
+        rows.step();
         put_element(out, ++number, kGmshTriangle, std::size_t{mesh.boundary_patches[t]} + 1,
                     mesh.boundary[t]);
-    for (const Tetrahedron& cell : mesh.tetrahedra)
+    }
+    for (const Tetrahedron& cell : mesh.tetrahedra) {
+        rows.step();
         put_element(out, ++number, kGmshTetrahedron, mesh.patches.size() + 1, cell);
+    }
     out << "$EndElements\n";
 }
 
 }  // namespace
 
-void write_msh(const VolumeMesh& mesh, const std::string& path) {
+void write_msh(const VolumeMesh& mesh, const std::string& path, const Progress& progress) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("MSH: the volume mesh has no cells");
     require_plain_names(mesh.patches);
     TextBuffer out;
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     put_names(out, mesh);
-    put_points(out, mesh);
-    put_elements(out, mesh);
-    write_file(path, out.text());
+    LoopProgress rows(progress, mesh.points.size() + mesh.boundary.size() + mesh.tetrahedra.size(),
+                      writing_text(path));
+    put_points(out, mesh, rows);
+    put_elements(out, mesh, rows);
+    write_file(path, out.text(), progress);
 }
 
 }  // namespace vesselbench

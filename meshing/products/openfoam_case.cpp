@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
@@ -361,18 +362,25 @@ bool is_unused_openfoam_case(const fs::path& folder) {
 }
 
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
-                         const CfdParameters& parameters) {
+                         const CfdParameters& parameters, const Progress& progress) {
     require_plain_names(mesh.patches);
-    CaseWriter writer{
-        mesh, parameters, flow_summary(boundary_surface(mesh), parameters), mesh_faces(mesh), {}};
+    progress.report(0.0, writing_text(folder));
+    FlowSummary flow = flow_summary(boundary_surface(mesh), parameters);
+    const CellNeighbours neighbours = cell_neighbours(mesh, progress);
+    progress.check_cancelled();
+    CaseWriter writer{mesh, parameters, std::move(flow), mesh_faces(mesh, neighbours), {}};
+    progress.check_cancelled();
     writer.patches = foam_patches(mesh, writer.faces);
     make_folders(folder);
-    write_poly_mesh(folder / "constant/polyMesh", mesh, writer.faces);
+    write_poly_mesh(folder / "constant/polyMesh", mesh, writer.faces, progress.part(0.1, 0.9));
+    progress.report(0.9, writing_text(folder));
     write_file(folder / "0/U", writer.velocity());
     write_file(folder / "0/p", writer.pressure());
     write_file(folder / "constant/transportProperties", writer.transport());
     write_file(folder / "constant/turbulenceProperties", turbulence());
+    progress.check_cancelled();
     const double angle = largest_non_orthogonality(mesh, writer.faces);
+    progress.check_cancelled();
     write_file(folder / "system/fvSchemes", schemes(angle));
     write_file(folder / "system/fvSolution", solution(parameters, angle));
     write_file(folder / "system/decomposeParDict", writer.decomposition());

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "geometry/kernel/progress.h"
 #include "meshing/products/cfd_parameters.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
@@ -16,9 +17,10 @@ namespace vesselbench {
 /// wall shear stress, to postProcessing/ and the last time folder. An existing case in the folder
 /// is replaced (its results are kept).
 /// \throw InvalidInput if the mesh has no inlet or outlet; IoError if a file cannot be written, or
-///        the folder contains something that is not a case
+///        the folder contains something that is not a case; Cancelled, with some of the files
+///        written
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                         const CfdParameters& parameters);
+                         const CfdParameters& parameters, const Progress& progress = {});
 
 /// True for a folder that holds a case as write_openfoam_case() wrote it, and nothing else: no
 /// results, no files of others.

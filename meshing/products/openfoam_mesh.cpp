@@ -9,30 +9,42 @@ namespace {
 
 constexpr double kMetres = 1e-3;
 
-void write_points(const std::filesystem::path& folder, const VolumeMesh& mesh) {
+/// What the writers of the large files share.
+struct Rows {
+    LoopProgress loop;  ///< over points, and twice over the faces
+    Progress progress;  ///< asked while a file's bytes are written
+};
+
+void write_points(const std::filesystem::path& folder, const VolumeMesh& mesh, Rows& rows) {
     TextBuffer out;
     out << foam_header("vectorField", "constant/polyMesh", "points") << mesh.points.size()
         << "\n(\n";
-    for (const Vec3& p : mesh.points)
+    for (const Vec3& p : mesh.points) {
+        rows.loop.step();
         out << '(' << p.x() * kMetres << ' ' << p.y() * kMetres << ' ' << p.z() * kMetres << ")\n";
+    }
     out << ")\n";
-    write_file(folder / "points", out.text());
+    write_file(folder / "points", out.text(), rows.progress);
 }
 
-void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace>& faces) {
+void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace>& faces,
+                 Rows& rows) {
     TextBuffer out;
     out << foam_header("faceList", "constant/polyMesh", "faces") << faces.size() << "\n(\n";
-    for (const MeshFace& f : faces)
+    for (const MeshFace& f : faces) {
+        rows.loop.step();
         out << "3(" << f.corners[0] << ' ' << f.corners[1] << ' ' << f.corners[2] << ")\n";
+    }
     out << ")\n";
-    write_file(folder / "faces", out.text());
+    write_file(folder / "faces", out.text(), rows.progress);
 }
 
 void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                          const std::vector<MeshFace>& faces) {
+                          const std::vector<MeshFace>& faces, Rows& rows) {
     std::size_t inner = 0;
     TextBuffer owners, neighbours;
     for (const MeshFace& f : faces) {
+        rows.loop.step();
         owners << f.owner << '\n';
         if (f.neighbour == MeshFace::kOutside) continue;
         neighbours << f.neighbour << '\n';
@@ -48,8 +60,8 @@ void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh&
     neighbour << foam_header("labelList", "constant/polyMesh", "neighbour", note.text()) << inner
               << "\n(\n"
               << neighbours.text() << ")\n";
-    write_file(folder / "owner", owner.text());
-    write_file(folder / "neighbour", neighbour.text());
+    write_file(folder / "owner", owner.text(), rows.progress);
+    write_file(folder / "neighbour", neighbour.text(), rows.progress);
 }
 
 void write_boundary(const std::filesystem::path& folder, const std::vector<FoamPatch>& patches) {
@@ -100,10 +112,11 @@ std::vector<FoamPatch> foam_patches(const VolumeMesh& mesh, const std::vector<Me
 }
 
 void write_poly_mesh(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                     const std::vector<MeshFace>& faces) {
-    write_points(folder, mesh);
-    write_faces(folder, faces);
-    write_cells_of_faces(folder, mesh, faces);
+                     const std::vector<MeshFace>& faces, const Progress& progress) {
+    Rows rows{{progress, mesh.points.size() + 2 * faces.size(), writing_text(folder)}, progress};
+    write_points(folder, mesh, rows);
+    write_faces(folder, faces, rows);
+    write_cells_of_faces(folder, mesh, faces, rows);
     write_boundary(folder, foam_patches(mesh, faces));
 }
 

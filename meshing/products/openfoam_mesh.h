@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/progress.h"
 #include "meshing/tetrahedra/quality.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
@@ -29,8 +30,8 @@ struct FoamPatch {
 /// Writes points [m], faces, owner, neighbour and boundary into an existing folder, in OpenFOAM's
 /// upper triangular order.
 /// \param faces of `mesh_faces`
-/// \throw IoError if a file cannot be written
+/// \throw IoError if a file cannot be written, Cancelled
 void write_poly_mesh(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                     const std::vector<MeshFace>& faces);
+                     const std::vector<MeshFace>& faces, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -14,7 +14,7 @@ using VolumeFormat = FormatRow<VolumeMesh, VolumeMesh>;
 /// A folder of files that a solver runs on.
 struct CaseFormat : Format {
     void (*write)(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                  const CfdParameters& parameters) = nullptr;
+                  const CfdParameters& parameters, const Progress& progress) = nullptr;
 };
 
 /// Surface formats for printers and viewers, written only.

@@ -30,7 +30,7 @@ std::string relationships() {
 )";
 }
 
-std::string model(const Surface& surface) {
+std::string model(const Surface& surface, LoopProgress rows) {
     TextBuffer out;
     out << kXml
         << R"(<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
@@ -40,11 +40,15 @@ std::string model(const Surface& surface) {
    <mesh>
     <vertices>
 )";
-    for (const Vec3& p : surface.points())
+    for (const Vec3& p : surface.points()) {
+        rows.step();
         out << "     <vertex x=\"" << p.x() << "\" y=\"" << p.y() << "\" z=\"" << p.z() << "\"/>\n";
+    }
     out << "    </vertices>\n    <triangles>\n";
-    for (const auto& [a, b, c] : surface.triangles())
+    for (const auto& [a, b, c] : surface.triangles()) {
+        rows.step();
         out << "     <triangle v1=\"" << a << "\" v2=\"" << b << "\" v3=\"" << c << "\"/>\n";
+    }
     out << "    </triangles>\n   </mesh>\n  </object>\n </resources>\n <build>\n  <item "
            "objectid=\"1\"/>\n </build>\n</model>\n";
     return out.text();
@@ -68,12 +72,17 @@ void require_solid(const Surface& surface) {
 
 }  // namespace
 
-void write_3mf(const Surface& surface, const std::string& path) {
+void write_3mf(const Surface& surface, const std::string& path, const Progress& progress) {
     if (surface.empty()) throw InvalidInput("3MF: the surface has no triangles");
     require_solid(surface);
-    write_file(path, zip_archive({{"[Content_Types].xml", content_types()},
-                                  {"_rels/.rels", relationships()},
-                                  {"3D/3dmodel.model", model(surface)}}));
+    const LoopProgress rows(progress.part(0.0, 0.5),
+                            surface.vertex_count() + surface.triangle_count(), writing_text(path));
+    write_file(path,
+               zip_archive({{"[Content_Types].xml", content_types()},
+                            {"_rels/.rels", relationships()},
+                            {"3D/3dmodel.model", model(surface, rows)}},
+                           progress),
+               progress);
 }
 
 }  // namespace vesselbench

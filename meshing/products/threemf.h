@@ -2,12 +2,14 @@
 
 #include <string>
 
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 
 /// Writes one object in millimetres as 3MF (3D Manufacturing Format, core specification 1.2).
-/// \throw InvalidInput if the surface has no triangle, or is not closed and oriented; IoError
-void write_3mf(const Surface& surface, const std::string& path);
+/// \throw InvalidInput if the surface has no triangle, or is not closed and oriented; IoError,
+/// Cancelled
+void write_3mf(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

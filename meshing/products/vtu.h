@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "geometry/kernel/progress.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
 namespace vesselbench {
@@ -9,7 +10,7 @@ namespace vesselbench {
 /// Writes a VTK XML unstructured grid [mm]: the tetrahedra, then the boundary triangles. Cell array
 /// `CellEntityIds`: 0 for volume cells, 1 the wall, 2... the openings; names of 1, 2... in the
 /// field array `PatchNames`.
-/// \throw InvalidInput if there are no cells, IoError
-void write_vtu(const VolumeMesh& mesh, const std::string& path);
+/// \throw InvalidInput if there are no cells, IoError, Cancelled
+void write_vtu(const VolumeMesh& mesh, const std::string& path, const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -37,6 +37,11 @@ void add_part(zip_t* archive, const std::string& name, const std::string& bytes)
     zip_file_set_dostime(archive, part, kMidnight, kFirstOf1980, 0);
 }
 
+/// libzip asks while it packs. \param progress a Progress
+int is_cancelled(zip_t*, void* progress) {
+    return static_cast<const Progress*>(progress)->is_cancelled() ? 1 : 0;
+}
+
 std::string content_of(zip_source_t* source) {
     zip_stat_t stat;
     zip_stat_init(&stat);
@@ -52,7 +57,8 @@ std::string content_of(zip_source_t* source) {
 
 }  // namespace
 
-std::string zip_archive(const std::vector<std::pair<std::string, std::string>>& parts) {
+std::string zip_archive(const std::vector<std::pair<std::string, std::string>>& parts,
+                        const Progress& progress) {
     zip_error_t error;
     zip_error_init(&error);
     const Source source(zip_source_buffer_create(nullptr, 0, 0, &error));
@@ -63,9 +69,14 @@ std::string zip_archive(const std::vector<std::pair<std::string, std::string>>& 
         zip_source_free(source.get());
         fail("no archive", error);
     }
+    zip_register_cancel_callback_with_state(archive, is_cancelled, nullptr,
+                                            const_cast<Progress*>(&progress));
     try {
         for (const auto& [name, bytes] : parts) add_part(archive, name, bytes);
-        if (zip_close(archive) != 0) fail("the parts cannot be packed", *zip_get_error(archive));
+        if (zip_close(archive) != 0) {
+            progress.check_cancelled();
+            fail("the parts cannot be packed", *zip_get_error(archive));
+        }
     } catch (...) {
         zip_discard(archive);
         throw;

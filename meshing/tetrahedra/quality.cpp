@@ -29,16 +29,19 @@ struct SideBuckets {
     std::vector<Side> sides;
 };
 
-SideBuckets side_buckets(const VolumeMesh& mesh) {
+SideBuckets side_buckets(const VolumeMesh& mesh, const Progress& cancel) {
+    constexpr std::uint32_t kPiece = 1U << 16U;  // a few milliseconds
     SideBuckets buckets;
     buckets.offsets.assign(mesh.points.size() + 1, 0);
     const auto for_each_side = [&](const auto& use) {
-        for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell)
+        for (std::uint32_t cell = 0; cell < mesh.tetrahedra.size(); ++cell) {
+            if (cell % kPiece == 0) cancel.check_cancelled();
             for (std::uint32_t k = 0; k < 4; ++k) {
                 Triangle key = faces_of(mesh.tetrahedra[cell])[k];
                 std::sort(key.begin(), key.end());
                 use(key, 4 * cell + k);
             }
+        }
     };
     for_each_side([&](const Triangle& key, std::uint32_t) { ++buckets.offsets[key[0] + 1]; });
     std::partial_sum(buckets.offsets.begin(), buckets.offsets.end(), buckets.offsets.begin());
@@ -294,10 +297,11 @@ std::array<double, 6> dihedral_angles(const Vec3& a, const Vec3& b, const Vec3& 
     return angles;
 }
 
-CellNeighbours cell_neighbours(const VolumeMesh& mesh) {
-    const SideBuckets buckets = side_buckets(mesh);
+CellNeighbours cell_neighbours(const VolumeMesh& mesh, const Progress& cancel) {
+    const SideBuckets buckets = side_buckets(mesh, cancel);
     CellNeighbours neighbours(mesh.tetrahedra.size(), {kOutside, kOutside, kOutside, kOutside});
     tbb::parallel_for(std::size_t{0}, mesh.points.size(), [&](std::size_t v) {
+        cancel.check_cancelled();
         for (std::uint32_t i = buckets.offsets[v]; i < buckets.offsets[v + 1]; ++i)
             for (std::uint32_t j = i + 1; j < buckets.offsets[v + 1]; ++j) {
                 const Side &a = buckets.sides[i], &b = buckets.sides[j];

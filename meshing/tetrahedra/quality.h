@@ -25,8 +25,8 @@ struct MeshFace {
 /// the boundary.
 using CellNeighbours = std::vector<std::array<std::uint32_t, 4>>;
 
-/// \throw InvalidInput if a face has more than two cells
-[[nodiscard]] CellNeighbours cell_neighbours(const VolumeMesh& mesh);
+/// \throw InvalidInput if a face has more than two cells, Cancelled
+[[nodiscard]] CellNeighbours cell_neighbours(const VolumeMesh& mesh, const Progress& cancel = {});
 
 /// All faces in OpenFOAM's order: inner faces by owner, then by neighbour (upper triangular), then
 /// the boundary by patch, then by owner. The owner is the cell with the lower number.

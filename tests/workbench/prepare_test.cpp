@@ -822,7 +822,7 @@ SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
         INFO(suffix);
         CHECK(run({"export", project, folder + "/model" + suffix}).exit_code == 0);
         // The writer makes the same bytes of the surface that the exact file holds.
-        format.write(scene, folder + "/again" + suffix, {});
+        format.write(scene, folder + "/again" + suffix, {}, {});
         CHECK(text_of(folder + "/model" + suffix) == text_of(folder + "/again" + suffix));
         if (!row_that_reads(surface_formats(), "x" + suffix)) continue;
         const Surface read = read_surface(folder + "/model" + suffix).surface;

@@ -64,11 +64,13 @@ void write_phantom(const PhantomOptions& options, const Progress& progress) {
     refuse_other_case(out, description);
     make_folder(out);
     PendingFiles files;
-    write_image(files.add(out / kImage).string(), phantom.image);
-    write_image(files.add(out / kMask).string(), phantom.mask);
-    write_surface(phantom.exact, files.add(out / kExact).string());
-    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / kNoisy).string());
-    if (phantom.neighbour) write_surface(*phantom.neighbour, files.add(out / kNeighbour).string());
+    const Progress cancel = progress.silent();
+    write_image(files.add(out / kImage).string(), phantom.image, cancel);
+    write_image(files.add(out / kMask).string(), phantom.mask, cancel);
+    write_surface(phantom.exact, files.add(out / kExact).string(), cancel);
+    if (phantom.noisy) write_surface(*phantom.noisy, files.add(out / kNoisy).string(), cancel);
+    if (phantom.neighbour)
+        write_surface(*phantom.neighbour, files.add(out / kNeighbour).string(), cancel);
     files.add_text(out / "case.json", case_text(description));
     progress.check_cancelled();
     files.commit();

@@ -110,7 +110,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     PendingFiles files;
-    export_scene(files, arguments.file, scene, flow.parameters());
+    export_scene(files, arguments.file, scene, flow.parameters(), progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
     if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");

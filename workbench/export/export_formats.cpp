@@ -22,10 +22,11 @@ const VolumeMesh& volume_mesh_of(const Scene& scene) {
 void add_surfaces(std::vector<ExportFormat>& all, const std::vector<SurfaceFormat>& rows) {
     for (const SurfaceFormat& row : rows)
         if (row.write)
-            all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
-                                                    const CfdParameters&) {
-                               write(surface_of(scene), path);
-                           }});
+            all.push_back(
+                {row, [write = row.write](const Scene& scene, const std::string& path,
+                                          const CfdParameters&, const Progress& progress) {
+                     write(surface_of(scene), path, progress);
+                 }});
 }
 
 std::vector<ExportFormat> joined_rows() {
@@ -34,14 +35,15 @@ std::vector<ExportFormat> joined_rows() {
     add_surfaces(all, product_surface_formats());
     for (const VolumeFormat& row : volume_formats())
         all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
-                                                const CfdParameters&) {
-                           write(volume_mesh_of(scene), path);
+                                                const CfdParameters&, const Progress& progress) {
+                           write(volume_mesh_of(scene), path, progress);
                        }});
     for (const CaseFormat& row : case_formats())
-        all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
-                                                const CfdParameters& flow) {
-                           write(path, volume_mesh_of(scene), flow);
-                       }});
+        all.push_back(
+            {row, [write = row.write](const Scene& scene, const std::string& path,
+                                      const CfdParameters& flow, const Progress& progress) {
+                 write(path, volume_mesh_of(scene), flow, progress);
+             }});
     return all;
 }
 

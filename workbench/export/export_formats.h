@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/formats/format.h"
+#include "geometry/kernel/progress.h"
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/scene.h"
 
@@ -12,8 +13,10 @@ namespace vesselbench {
 
 /// A format that a scene can be exported in.
 struct ExportFormat : Format {
-    /// \throw AlgorithmFailure if the scene has no such content
-    std::function<void(const Scene&, const std::string& path, const CfdParameters&)> write;
+    /// \throw AlgorithmFailure if the scene has no such content, Cancelled within the file
+    std::function<void(const Scene&, const std::string& path, const CfdParameters&,
+                       const Progress&)>
+        write;
 };
 
 /// The formats that can be written from a scene, of all rooms: surfaces, then volume meshes, then

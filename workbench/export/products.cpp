@@ -102,10 +102,10 @@ void check_export_place(const fs::path& file) {
 }
 
 void export_scene(PendingFiles& files, const fs::path& file, const Scene& scene,
-                  const CfdParameters& flow) {
+                  const CfdParameters& flow, const Progress& progress) {
     check_export_name(file);
     check_export_place(file);
-    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), flow);
+    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), flow, progress);
 }
 
 }  // namespace vesselbench

@@ -48,8 +48,8 @@ void check_export_place(const std::filesystem::path& file);
 
 /// Writes one file or folder in the format of export_formats() that matches its name.
 /// \throw UsageError that lists the suffixes if none matches, AlgorithmFailure if the scene has no
-/// such content, IoError
+/// such content, IoError, Cancelled
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
-                  const CfdParameters& flow);
+                  const CfdParameters& flow, const Progress& progress = {});
 
 }  // namespace vesselbench

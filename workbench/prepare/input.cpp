@@ -66,8 +66,8 @@ void make_phantom_files(Input& input, PhantomDescription description, const Prog
     input.is_image = true;
     input.file = folder->path() / (description.name + ".nrrd");
     input.mask = folder->path() / (description.name + "_mask.nrrd");
-    write_image(input.file.string(), phantom.image);
-    write_image(input.mask.string(), phantom.mask);
+    write_image(input.file.string(), phantom.image, progress);
+    write_image(input.mask.string(), phantom.mask, progress);
     input.exact = phantom.exact;
 }
 

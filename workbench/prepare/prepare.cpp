@@ -170,16 +170,17 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
              (names.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
 }
 
-/// Hears a cancel between the products: each of them takes a fraction of a second.
 void write_products(PendingFiles& files, const PrepareOptions& options, PreparedCase& prepared,
                     const Progress& progress) {
     const std::vector<std::string> names = product_names(options.purpose);
-    for (const std::string& name : names) {
-        progress.report(
-            static_cast<double>(prepared.products.size()) / static_cast<double>(names.size()),
-            "writing the products");
-        export_scene(files, options.out / name, prepared.scene, prepared.flow);
-        prepared.products.push_back(name);
+    const auto done = [&](std::size_t count) {
+        return static_cast<double>(count) / static_cast<double>(names.size());
+    };
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Progress one = progress.part(done(i), done(i + 1));
+        one.report(0.0, "writing the products");
+        export_scene(files, options.out / names[i], prepared.scene, prepared.flow, one);
+        prepared.products.push_back(names[i]);
     }
 }
 

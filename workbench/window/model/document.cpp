@@ -339,7 +339,8 @@ void Document::export_to(const std::filesystem::path& file) {
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         export_scene(files, file, scene,
-                     FlowSettings(stored_text(project, StoredText::Flow)).parameters());
+                     FlowSettings(stored_text(project, StoredText::Flow)).parameters(),
+                     progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();
         return Nothing{};
