@@ -273,6 +273,34 @@ SCENARIO("The author and the input's name can be given", "[workbench][prepare-fo
         CHECK(resumed.exit_code == 0);
         CHECK(authors() == std::set<std::string>{"reader-1", "reader-2"});
     }
+    WHEN("a project is made with a name") {
+        fs::create_directory(place.out);
+        REQUIRE(run({"new", project, named, "--units", "mm", "--name", "case 7"}).exit_code == 0);
+        command.resize(command.size() - 2);  // without the name
+        command.emplace_back("--resume");
+        const auto input_name = [&] {
+            const ProgramRun resumed = run(command);
+            INFO(resumed.err);
+            REQUIRE(resumed.exit_code == 0);
+            const std::string text = file_content(place.out + "/report.json");
+            CHECK_THAT(text, !Contains("smith"));
+            return Json::parse(text)["input"]["name"].get<std::string>();
+        };
+        THEN("what is prepared in it has the name") {
+            CHECK(input_name() == "case 7");
+        }
+        THEN("another one replaces it for good") {
+            command.insert(command.end(), {"--name", "case 8"});
+            CHECK(input_name() == "case 8");
+            command.resize(command.size() - 2);
+            CHECK(input_name() == "case 8");
+        }
+    }
+    WHEN("the name is no UTF-8") {
+        const ProgramRun result = run({"new", project, named, "--name", "caf\xe9"});
+        CHECK(result.exit_code == 2);
+        CHECK_THAT(result.err, Contains("--name 'caf\\xe9' is not UTF-8"));
+    }
 }
 
 SCENARIO("A cancel is heard between the products", "[workbench][prepare-folder]") {

@@ -218,6 +218,7 @@ struct NewArguments {
     std::string project;
     InputArguments input;
     std::string author;  ///< empty: the login name
+    std::string name;    ///< of the input in reports; empty: the file's
     bool json = false;
 };
 

@@ -43,7 +43,9 @@ void refuse_source(const Session& session, const std::string& file) {
                       "' is a source of this project: it is not replaced; give another name");
 }
 
-InputOptions input_options(const InputArguments& arguments, const std::string& name = "") {
+/// \throw UsageError unless the name is UTF-8
+InputOptions input_options(const InputArguments& arguments, const std::string& name) {
+    require_utf8(name, "--name");
     return {arguments.input, arguments.mask, arguments.units, arguments.neighbours, name};
 }
 
@@ -80,8 +82,8 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
 }
 
 void make_project(const NewArguments& arguments, const Progress& progress) {
-    new_project(arguments.project, input_options(arguments.input), arguments.author, remark,
-                progress);
+    new_project(arguments.project, input_options(arguments.input, arguments.name), arguments.author,
+                remark, progress);
     if (!arguments.json) return void(std::cout << "made " << arguments.project << "\n");
     Json edits = Json::array();
     const Session session = Session::open(arguments.project, {.find = find_operation});

@@ -70,8 +70,13 @@ void add_neighbours(CLI::App& command, InputArguments& input) {
         ->type_name("FILE|N,N");
 }
 
-void add_author(CLI::App& command, std::string& author) {
+void add_names(CLI::App& command, std::string& author, std::string& input) {
     command.add_option("--author", author, "Author of the edits (default: login name)")
+        ->type_name("NAME");
+    command
+        .add_option("--name", input,
+                    "The input's name in reports and their titles, in place of those of files "
+                    "(default: the file's); the project keeps it, and the files' names")
         ->type_name("NAME");
 }
 
@@ -105,12 +110,7 @@ void add_prepare(CommandLine& line) {
                      "Go on in the folder's project with the edits of the recipe that are missing");
     add_settings(command, options->settings);
     add_end_options(command, options->ends);
-    add_author(command, options->author);
-    command
-        .add_option("--name", options->name,
-                    "The input's name in the report and its title, in place of those of files "
-                    "(default: the file's); the project keeps the files' names")
-        ->type_name("NAME");
+    add_names(command, options->author, options->name);
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
@@ -138,7 +138,7 @@ void add_new(CommandLine& line) {
     add_project(command, options->project);
     add_input(command, options->input);
     add_neighbours(command, options->input);
-    add_author(command, options->author);
+    add_names(command, options->author, options->name);
     add_json(command, options->json);
 }
 

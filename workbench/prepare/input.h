@@ -22,7 +22,8 @@ struct InputOptions {
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
     /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8".
     std::vector<std::string> neighbours = {};
-    std::string name = {};  ///< in the report and in messages; empty: the file's or the case's
+    /// UTF-8, in the report and in messages; empty: the file's or the case's. A project keeps it.
+    std::string name = {};
 };
 
 /// The INPUT after inspection.

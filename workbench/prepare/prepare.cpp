@@ -96,6 +96,20 @@ void keep_recipes(const fs::path& project, const Input& input) {
     if (input.recipes) store_text(project, StoredText::Recipes, input.recipes->dump());
 }
 
+/// So that what is made of the project later shows no file's name either.
+void keep_name(const fs::path& project, const Input& input) {
+    if (input.is_renamed) store_text(project, StoredText::InputName, input.name);
+}
+
+/// The input, with the name that a project which is resumed was given unless there is a new one.
+InputOptions named_input(const PrepareOptions& options) {
+    InputOptions input = options.input;
+    const fs::path project = options.out / kProject;
+    if (options.resume && input.name.empty() && fs::exists(project))
+        input.name = stored_text(project, StoredText::InputName);
+    return input;
+}
+
 /// What a resumed preparation does first, unless edits of the recipe follow.
 /// \param log of the purpose
 void tell_rest(const ResumedRecipe& resumed, const std::vector<LogEntry>& log, const Teller& tell) {
@@ -249,7 +263,7 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
 
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                        const Progress& progress) {
-    const Input input = resolve_input(options.input, progress.part(0.0, 0.02));
+    const Input input = resolve_input(named_input(options), progress.part(0.0, 0.02));
     PrepareOptions for_recipe = options;
     PreparedCase prepared{.purpose = options.purpose, .input = input};
     const fs::path project = options.out / kProject;
@@ -271,6 +285,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         } else {
             keep_recipes(project, input);
         }
+        keep_name(project, input);
         begin_purpose(project, options.purpose);
         if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
         const Teller noting = [&](const std::string& text) {
@@ -308,6 +323,7 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
     Session session = Session::create(project, std::move(options));
     try {
         keep_recipes(project, input);
+        keep_name(project, input);
         apply_recipe(session, loading, "", tell, progress);
     } catch (const std::exception&) {
         session.discard();

@@ -17,6 +17,8 @@ std::string key_of(StoredText which) {
             return "warnings";
         case StoredText::Purposes:
             return "purposes";
+        case StoredText::InputName:
+            return "input name";
         case StoredText::Spots:
             break;
     }

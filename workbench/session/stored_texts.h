@@ -12,7 +12,8 @@ enum class StoredText {
     Flow,      ///< the arguments given for the flow, of those in flow_parameters()
     Spots,     ///< stored_spots.h
     Warnings,  ///< of a recipe, beside those of the edits
-    Purposes   ///< that it was prepared for, the last one last
+    Purposes,  ///< that it was prepared for, the last one last
+    InputName  ///< the one that was given in place of the input's own
 };
 
 /// Keeps a text in a project file, which a session of this process may have open.
