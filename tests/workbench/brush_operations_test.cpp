@@ -199,6 +199,10 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
                       Catch::Contains("'radius'") && Catch::Contains("above 0 mm"));
     CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 1e6}}),
                       Catch::Contains("radius = 1e+06") && Catch::Contains("give at most"));
+    CHECK_THROWS_WITH(run(name, tube, with(17, 1e6)),
+                      Catch::Contains("dab 2 at (2, 0, 7) mm: its radius = 1e+06") &&
+                          Catch::Contains("give at most"));
+    CHECK_NOTHROW(run(name, tube, with(17, 100.0)));
     CHECK_THROWS_WITH(run(name, tube, {{"at", Vec3(2, 0, 6)}, {"radius", 1.0}, {"falloff", -1.0}}),
                       Catch::Contains("'falloff'") && Catch::Contains("0 to 1"));
     CHECK_THROWS_AS(run(name, tube, {{"dabs", std::vector<double>{1, 2, 3}}}), UsageError);

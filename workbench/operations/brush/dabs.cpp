@@ -42,7 +42,11 @@ void check(const std::string& name, double weakest, const Dab& dab) {
     if (!(dab.falloff >= 0.0 && dab.falloff <= 1.0)) refuse("falloff", dab.falloff, "0 to 1");
 }
 
-std::vector<Dab> listed_dabs(const DabUse& use, const std::vector<double>& numbers) {
+/// The way along a winding vessel is a few of its extents [diagonals of the bounding box].
+constexpr double kLargest = 10.0;
+
+std::vector<Dab> listed_dabs(const DabUse& use, const Surface& surface,
+                             const std::vector<double>& numbers) {
     if (numbers.empty() || numbers.size() % kNumbers != 0)
         throw UsageError(use.operation +
                          ": dabs needs 10 numbers per dab (point x,y,z, outward normal x,y,z, "
@@ -53,6 +57,10 @@ std::vector<Dab> listed_dabs(const DabUse& use, const std::vector<double>& numbe
         dabs.push_back(dab_from(std::span(numbers).subspan(i, kNumbers)));
         check(dab_name(use.operation, dabs.size() - 1, dabs.back()), use.weakest, dabs.back());
     }
+    const auto widest = std::ranges::max_element(dabs, {}, &Dab::radius);
+    const auto index = static_cast<std::size_t>(widest - dabs.begin());
+    const std::string name = dab_name(use.operation, index, *widest) + ": its radius";
+    require_in_proportion(name.c_str(), widest->radius, surface, kLargest);
     return dabs;
 }
 
@@ -71,9 +79,6 @@ bool contradict(const Arguments& arguments, const std::vector<Dab>& dabs) {
 
 /// A place farther away from the surface is of another model, or in another unit [radii].
 constexpr double kFarthest = 10.0;
-
-/// The way along a winding vessel is a few of its extents [diagonals of the bounding box].
-constexpr double kLargest = 10.0;
 
 Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance& places,
                Outcome& outcome) {
@@ -163,7 +168,7 @@ std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
                                const SurfaceDistance& places, Outcome& outcome) {
     Arguments& arguments = outcome.resolved;
     if (arguments.has("dabs")) {
-        auto dabs = listed_dabs(use, arguments.list("dabs"));
+        auto dabs = listed_dabs(use, surface, arguments.list("dabs"));
         if (contradict(arguments, dabs))
             throw UsageError(use.operation +
                              ": give dabs, or at with radius, strength and falloff, not both");

@@ -26,7 +26,7 @@ struct DabUse {
 /// \param outcome its resolved arguments are read and completed; receives a warning if `at` is away
 /// from the surface
 /// \throw UsageError that names the dab and the value if the arguments make no sense;
-/// AlgorithmFailure if `at` is far away from the surface, or `radius` far larger than it
+/// AlgorithmFailure if `at` is far away from the surface, or a radius far larger than it
 [[nodiscard]] std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);
 
