@@ -32,14 +32,18 @@ fs::path case_with_recipe(const std::string& recipe) {
     return folder;
 }
 
-void open_and_wait(Document& document, const fs::path& path) {
-    document.open({.path = path});
+void wait_for(Document& document) {
     for (const auto end = std::chrono::steady_clock::now() + 60s;
          document.busy() && std::chrono::steady_clock::now() < end;) {
         document.poll();
         std::this_thread::sleep_for(5ms);
     }
     REQUIRE_FALSE(document.busy());
+}
+
+void open_and_wait(Document& document, const fs::path& path) {
+    document.open({.path = path});
+    wait_for(document);
 }
 
 std::vector<std::string> operations(const Recipe& recipe) {
@@ -71,6 +75,35 @@ SCENARIO("A reopened project still has the recipe of its case", "[window][openin
         REQUIRE(document.is_open());
         CHECK(operations(document.recipe("cfd")).size() > 2);
         CHECK_THAT(document.messages().back().text, Contains("vanished"));
+    }
+}
+
+SCENARIO("A reopened project finds the files of its recipe", "[window][opening]") {
+    const fs::path folder = case_with_recipe(
+        R"([{"operation": "load-neighbour", "arguments": {"name": "bone", "file": "bone.stl"}}])");
+    fs::copy_file(tube_file(), folder / "bone.stl");
+    Document document({.session = session_options(), .documents = temporary_folder()});
+    open_and_wait(document, folder);
+    REQUIRE(document.is_open());
+    const fs::path project = document.project();
+    document.close();
+    wait_for(document);  // a session that ends has its project open
+    const auto neighbour = [&] {
+        REQUIRE(document.is_open());
+        return fs::path(document.recipe("cfd").at(0).given->text("file"));
+    };
+    THEN("also where both were moved to") {
+        const fs::path elsewhere = temporary_folder();
+        fs::rename(folder, elsewhere / "tube");
+        fs::rename(project, elsewhere / "moved.vbench");
+        open_and_wait(document, elsewhere / "moved.vbench");
+        CHECK(fs::equivalent(neighbour(), elsewhere / "tube" / "bone.stl"));
+    }
+    THEN("but none outside its folder") {
+        store_text(project, StoredText::CaseFolder, "../" + folder.filename().string());
+        open_and_wait(document, project);
+        REQUIRE(document.is_open());
+        CHECK_THAT(document.messages().back().text, Contains("outside the folder"));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -91,9 +92,21 @@ Session opened_project(const PrepareOptions& options, const Teller& tell) {
     return Session::create(project, how, [&] { keep_earlier(project, tell); });
 }
 
+/// The case's folder as a path from the project's; empty if it is not in there: a project does not
+/// lead out of its folder, and does not say what other folders are called.
+std::string case_folder_from(const fs::path& project, const Input& input) {
+    std::error_code error;
+    const fs::path way =
+        fs::relative(input.folder, fs::absolute(project).parent_path(), error).generic_string();
+    const bool inside = !error && !way.empty() && *way.begin() != "..";
+    return inside && is_utf8(way.string()) ? way.string() : "";
+}
+
 /// So that a reopened project has them.
 void keep_recipes(const fs::path& project, const Input& input) {
-    if (input.recipes) store_text(project, StoredText::Recipes, input.recipes->dump());
+    if (!input.recipes) return;
+    store_text(project, StoredText::Recipes, input.recipes->dump());
+    store_text(project, StoredText::CaseFolder, case_folder_from(project, input));
 }
 
 /// So that what is made of the project later shows no file's name either.

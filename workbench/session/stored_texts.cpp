@@ -19,6 +19,8 @@ std::string key_of(StoredText which) {
             return "purposes";
         case StoredText::InputName:
             return "input name";
+        case StoredText::CaseFolder:
+            return "case folder";
         case StoredText::Spots:
             break;
     }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/inner_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
@@ -54,13 +55,21 @@ void check_recipes(const Input& input) {
     }
 }
 
+/// Where the files of a reopened project's recipes are.
+/// \throw InvalidInput if the project says that they are outside its folder
+fs::path case_folder(const fs::path& project) {
+    const fs::path beside = fs::absolute(project).parent_path();
+    const std::string stored = stored_text(project, StoredText::CaseFolder);
+    return stored.empty() ? beside : inner_file(beside, stored, "the case's folder");
+}
+
 /// What a reopened project knows of its input: its own recipes, unless they cannot be used.
 std::optional<Input> remembered_input(const fs::path& project, std::vector<std::string>& remarks) {
     try {
         const std::string text = stored_text(project, StoredText::Recipes);
         if (text.empty()) return std::nullopt;
         Input input;
-        input.folder = fs::absolute(project).parent_path();
+        input.folder = case_folder(project);
         input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
         check_recipes(input);
         return input;

@@ -76,8 +76,9 @@ ResumedRecipe missing_entries(const Snapshot& snapshot, const std::optional<Inpu
     if (scene != nullptr && scene->mask) use.emplace_back("mask");
     const nlohmann::ordered_json own = input ? own_recipe(*input, purpose) : nullptr;
     Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
-    std::erase_if(recipe, [](const RecipeEntry& entry) {
-        return entry.given.operation().recipe.loads.has_value();
+    std::erase_if(recipe, [](const RecipeEntry& entry) {  // the project begins with its source
+        const std::optional<InputKind> loads = entry.given.operation().recipe.loads;
+        return loads.has_value() && loads != InputKind::Neighbour;
     });
     return resumed_recipe(recipe, snapshot, purpose, done);
 }
