@@ -32,7 +32,7 @@ struct ImageFile {
 
 /// Writes an image in the format of the suffix, integers as uint8 or int16 if they fit, else
 /// float32. NIfTI stores its matrix in single precision. \throw UsageError for another suffix,
-/// IoError if it cannot be written, InvalidInput if empty
+/// IoError if it cannot be written, InvalidInput if empty, Cancelled
 void write_image(const std::string& path, const Image& image, const Progress& progress = {});
 
 /// The formats that images are read from, with their suffixes, for help texts.

@@ -31,7 +31,7 @@ struct SurfaceFile {
 
 /// Writes a surface [mm] in the format of the suffix, whole or not at all.
 /// \throw UsageError for another suffix, InvalidInput if there is no triangle, IoError if the file
-/// cannot be written
+/// cannot be written, Cancelled
 void write_surface(const Surface& surface, const std::string& path, const Progress& progress = {});
 
 /// True if the file is a surface: by its suffix, and by its first bytes where image formats share

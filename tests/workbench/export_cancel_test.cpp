@@ -37,7 +37,7 @@ std::string name_of(const ExportFormat& format) {
 }
 
 /// A progress that is cancelled already.
-Progress cancelled() {
+Progress stopped() {
     std::stop_source stop;
     stop.request_stop();
     return {nullptr, stop.get_token()};
@@ -99,7 +99,7 @@ SCENARIO("A cancel is heard while bytes are compressed and written", "[workbench
     image.size = {4, 4, 4};
     image.voxels = std::make_shared<const std::vector<float>>(64, 1.0f);
     for (const char* name : {"a.nii", "a.nii.gz", "a.nrrd", "a.mha"})
-        CHECK_THROWS_AS(write_image((folder / name).string(), image, cancelled()), Cancelled);
-    CHECK_THROWS_AS(write_file(folder / "a.txt", "text", cancelled()), Cancelled);
+        CHECK_THROWS_AS(write_image((folder / name).string(), image, stopped()), Cancelled);
+    CHECK_THROWS_AS(write_file(folder / "a.txt", "text", stopped()), Cancelled);
     CHECK(entries_in(folder) == 0);
 }
