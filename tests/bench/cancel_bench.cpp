@@ -129,7 +129,7 @@ private:
         const Stopwatch watch;
         job.cancel();
         job.wait();
-        if (job.state() != JobState::Cancelled) return {};
+        if (job.state() != TaskState::Cancelled) return {};
         const double seconds = watch.seconds();
         return End{seconds, processor_seconds() - before};
     }
@@ -181,7 +181,7 @@ void run(Bench& bench, SessionRunner& runner, const Trial& trial) {
     whole.wait();
     const double seconds = watch.seconds();
     std::optional<double> entering;
-    if (whole.state() == JobState::Done) {
+    if (whole.state() == TaskState::Done) {
         const Stopwatch commit;
         runner.commit(whole.result()).wait();
         entering = commit.seconds();

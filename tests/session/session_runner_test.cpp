@@ -23,8 +23,8 @@ Arguments bump_by(double height) {
 }
 
 template <class Result>
-void wait_until_running(const Job<Result>& job) {
-    while (job.state() == JobState::Waiting || job.progress().what != "digging in") {
+void wait_until_running(const Task<Result>& job) {
+    while (job.state() == TaskState::Waiting || job.progress().what != "digging in") {
         REQUIRE_FALSE(job.ended());
         std::this_thread::sleep_for(1ms);
     }
@@ -59,7 +59,7 @@ SCENARIO("Requests run in the background, in their order", "[session][runner]") 
     CHECK(scaled.result().edit.edit.id == 3);
     CHECK(top_of(scene.result()) == 2.0 * (top_of(before->scenes.at("")) + 0.5));
     CHECK_THROWS_AS(wrong.result(), UsageError);
-    CHECK(wrong.state() == JobState::Failed);
+    CHECK(wrong.state() == TaskState::Failed);
     CHECK_THAT(wrong.error(), Catch::Matchers::Contains("where"));
     undone.wait();
     THEN("an ended job shows in the snapshot") {
@@ -99,8 +99,8 @@ SCENARIO("A background session gives what a session gives", "[session][runner]")
 }
 
 SCENARIO("The result of a temporary job outlives it", "[session][runner]") {
-    static_assert(std::is_same_v<decltype(std::declval<Job<Scene>>().result()), Scene>);
-    static_assert(std::is_same_v<decltype(std::declval<Job<Scene>&>().result()), const Scene&>);
+    static_assert(std::is_same_v<decltype(std::declval<Task<Scene>>().result()), Scene>);
+    static_assert(std::is_same_v<decltype(std::declval<Task<Scene>&>().result()), const Scene&>);
     SessionRunner runner(sphere_session());
     std::size_t entries = 0;
     for (const ReplayEntry& entry : runner.replay().result()) entries += entry.replayed ? 1 : 0;
@@ -115,7 +115,7 @@ SCENARIO("A cancel ends what cannot be interrupted", "[session][runner]") {
               job.cancel();
               job.wait();
           }) < kPrompt);
-    CHECK(job.state() == JobState::Cancelled);
+    CHECK(job.state() == TaskState::Cancelled);
     CHECK_THROWS_AS(job.result(), Cancelled);
     CHECK(runner.snapshot()->log.size() == 1);
     CHECK(runner.snapshot()->history->states().size() == 2);
@@ -130,8 +130,8 @@ SCENARIO("A cancel ends a request that waits", "[session][runner]") {
     const auto waiting = runner.apply("bump", bump_by(0.5));
     wait_until_running(busy);
     waiting.cancel();
-    CHECK(waiting.state() == JobState::Cancelled);
-    CHECK(busy.state() == JobState::Running);
+    CHECK(waiting.state() == TaskState::Cancelled);
+    CHECK(busy.state() == TaskState::Running);
     busy.cancel();
     busy.wait();
     CHECK(runner.snapshot()->log.size() == 1);
@@ -157,7 +157,7 @@ SCENARIO("Progress of a job never runs backward", "[session][runner]") {
         last = now;
         std::this_thread::sleep_for(1ms);
     }
-    CHECK(job.state() == JobState::Done);
+    CHECK(job.state() == TaskState::Done);
     CHECK(last > 0.5);
     CHECK(job.progress().fraction == 1.0);
 }
@@ -166,21 +166,21 @@ SCENARIO("A newer request supersedes those that wait", "[session][runner]") {
     SessionRunner runner(sphere_session());
     const auto busy = runner.apply("stubborn", kStubborn);
     wait_until_running(busy);
-    std::vector<Job<Preview>> previews;
+    std::vector<Task<Preview>> previews;
     for (int i = 1; i <= 200; ++i) previews.push_back(runner.preview("bump", bump_by(0.01 * i)));
     const auto other = runner.preview("bump", bump_by(1.0), {}, "another word");
     busy.cancel();
     CHECK(top_of(previews.back().result().scene()) ==
           top_of(previews.back().result().input()) + 0.01 * 200);
     for (std::size_t i = 0; i + 1 < previews.size(); ++i)
-        CHECK(previews[i].state() == JobState::Cancelled);
+        CHECK(previews[i].state() == TaskState::Cancelled);
     other.wait();
-    CHECK(other.state() == JobState::Done);
+    CHECK(other.state() == TaskState::Done);
     CHECK(runner.snapshot()->log.size() == 1);
 }
 
 SCENARIO("Closing while a job runs is safe", "[session][runner]") {
-    std::vector<Job<LogEntry>> jobs;
+    std::vector<Task<LogEntry>> jobs;
     const double time = seconds([&] {
         SessionRunner runner(sphere_session());
         jobs.push_back(runner.apply("stubborn", kStubborn));
@@ -188,7 +188,7 @@ SCENARIO("Closing while a job runs is safe", "[session][runner]") {
         wait_until_running(jobs.front());
     });
     CHECK(time < kPrompt + 2.0);  // with the start of the worker
-    for (const auto& job : jobs) CHECK(job.state() == JobState::Cancelled);
+    for (const auto& job : jobs) CHECK(job.state() == TaskState::Cancelled);
 }
 
 SCENARIO("A preview is entered without running again", "[session][runner]") {
@@ -240,7 +240,7 @@ SCENARIO("A runner says why its session only reads", "[session][runner]") {
 SCENARIO("A stroke is drawn in the background", "[session][runner]") {
     SessionRunner runner(sphere_session());
     const auto live = runner.start_live("stroke", {{"heights", std::vector<double>{0.1}}}).result();
-    std::vector<Job<Scene>> scenes;
+    std::vector<Task<Scene>> scenes;
     for (int i = 0; i < 30; ++i)
         scenes.push_back(runner.add(live, {{"heights", std::vector<double>{0.01 * (i + 1)}}}));
     const LogEntry entry = runner.commit(live).result();

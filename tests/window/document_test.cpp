@@ -17,9 +17,10 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "workbench/session/task_thread.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/rail.h"
-#include "workbench/window/model/request_job.h"
+#include "workbench/window/model/request.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -162,23 +163,24 @@ SCENARIO("A stroke stays in view although edits behind it become pending", "[win
 }
 
 SCENARIO("A request that ends while others are collected is not lost", "[window][document]") {
-    GIVEN("a request that ended, and one that ends right after it was asked") {
-        int asked = 0;
-        std::vector<RequestJob> jobs(2);
-        jobs[0].label.what = "slow";
-        jobs[0].ended = [&] { return asked++ > 0; };
-        jobs[1].label.what = "ended";
-        jobs[1].ended = [] { return true; };
-        WHEN("the ended ones are taken, twice") {
-            const std::vector<RequestJob> first = take_ended(jobs);
-            const std::vector<RequestJob> second = take_ended(jobs);
-            THEN("each is returned once") {
-                REQUIRE(first.size() == 1);
-                CHECK(first[0].label.what == "ended");
-                REQUIRE(second.size() == 1);
-                CHECK(second[0].label.what == "slow");
-                CHECK(jobs.empty());
-            }
+    GIVEN("requests that end while they are collected") {
+        constexpr int kRequests = 2000;
+        TaskThread thread;
+        std::vector<Request> requests;
+        for (int i = 0; i < kRequests; ++i) {
+            requests.push_back({.label = {.what = std::to_string(i)},
+                                .run = std::make_shared<TaskRun>([](const Progress&) {})});
+            thread.add(requests.back().run);
+        }
+        THEN("each is returned once") {
+            std::vector<std::string> returned, all;
+            while (!requests.empty())
+                for (const Request& request : take_ended(requests))
+                    returned.push_back(request.label.what);
+            for (int i = 0; i < kRequests; ++i) all.push_back(std::to_string(i));
+            std::ranges::sort(returned);
+            std::ranges::sort(all);
+            CHECK(returned == all);
         }
     }
 }

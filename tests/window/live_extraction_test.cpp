@@ -248,19 +248,17 @@ SCENARIO("Newer values end the work on older ones at once", "[window][extraction
     REQUIRE(image.voxel_count() > kCoarseVoxels);
     std::uint64_t last = 0, seen = 0;
     for (int i = 0; i < 40; ++i) {
-        last = models.ask({.image = image,
-                           .mask = {},
-                           .base = i / 20,
-                           .arguments = checked_arguments(find_operation("extract-surface"),
-                                                          {{"threshold", 100.0 + i}})});
+        const auto arguments =
+            checked_arguments(find_operation("extract-surface"), {{"threshold", 100.0 + i}});
+        last = ask(models, ExtractionQuestion{image, {}, i / 20, arguments});
         std::this_thread::sleep_for(2ms);
-        if (!models.update()) continue;
+        if (!models.poll()) continue;
         REQUIRE(models.newest()->question >= seen);
         seen = models.newest()->question;
     }
     while (models.pending()) {
         std::this_thread::sleep_for(1ms);
-        static_cast<void>(models.update());
+        static_cast<void>(models.poll());
     }
     CHECK(models.newest()->question == last);
     CHECK(models.newest()->state.whole);

@@ -279,23 +279,22 @@ SCENARIO("Newer questions end older ones, and no old answer follows", "[window][
     scene.surface = fine_tube(4.0, 30.0, 60);
     LiveModels models(
         {}, live_modelling({.source = []() -> HeldDevice { throw GpuUnavailable("not here"); }}));
-    const auto ask = [&](std::int64_t iterations, int base) {
-        return models.ask({.scene = scene,
-                           .base = base,
-                           .arguments = checked_arguments(find_operation("smooth"),
-                                                          {{"iterations", iterations}})});
+    const auto ask_for = [&](std::int64_t iterations, int base) {
+        const auto arguments =
+            checked_arguments(find_operation("smooth"), {{"iterations", iterations}});
+        return ask(models, LiveQuestion{scene, base, arguments});
     };
     std::uint64_t last = 0, seen = 0;
     for (int i = 0; i < 60; ++i) {
-        last = ask(i, i / 20);
+        last = ask_for(i, i / 20);
         std::this_thread::sleep_for(1ms);
-        if (!models.update()) continue;
+        if (!models.poll()) continue;
         REQUIRE(models.newest()->question >= seen);
         seen = models.newest()->question;
     }
     while (models.pending()) {
         std::this_thread::sleep_for(1ms);
-        static_cast<void>(models.update());
+        static_cast<void>(models.poll());
     }
     CHECK(models.newest()->question == last);
     CHECK(models.newest()->state.exact);
@@ -316,14 +315,12 @@ SCENARIO("Live colours show the staircase weights of the question", "[window][li
     LiveModels models(
         {}, live_modelling({.source = []() -> HeldDevice { throw GpuUnavailable("not here"); }}));
     for (const double least : {0.0, 0.25}) {
+        const auto arguments =
+            checked_arguments(find_operation("smooth"), {{"staircase", true}, {"beta_min", least}});
         const auto question =
-            models.ask({.scene = scene,
-                        .base = 1,
-                        .arguments = checked_arguments(find_operation("smooth"),
-                                                       {{"staircase", true}, {"beta_min", least}}),
-                        .colouring = ColouringKind::StaircaseWeight});
+            ask(models, LiveQuestion{scene, 1, arguments, ColouringKind::StaircaseWeight});
         const auto answered = [&] {
-            static_cast<void>(models.update());
+            static_cast<void>(models.poll());
             return models.newest() && models.newest()->question == question && !models.pending();
         };
         while (!answered()) std::this_thread::sleep_for(1ms);

@@ -120,8 +120,28 @@ SCENARIO("A case with a wrong recipe is not opened", "[window][opening]") {
 SCENARIO("An opening that is cancelled at once has no result", "[window][opening]") {
     const fs::path missing = fs::path(temporary_folder()) / "none.stl";
     for (int i = 0; i < 100; ++i) {  // before or after its thread has begun
-        Opening opening({.path = missing}, session_options(), {});
-        opening.cancel();
-        CHECK_THROWS(opening.take());
+        Document document({.session = session_options(), .documents = temporary_folder()});
+        document.open({.path = missing});
+        document.cancel();
+        while (document.busy()) document.poll();
+        CHECK_FALSE(document.is_open());
+        CHECK((document.failure() || document.messages().back().text == "Cancelled"));
+    }
+}
+
+SCENARIO("A newer opening replaces an older one", "[window][opening]") {
+    const fs::path folder = temporary_folder();
+    for (const char* name : {"a.stl", "b.stl", "c.stl"}) fs::copy_file(tube_file(), folder / name);
+    Document document({.session = session_options(), .documents = temporary_folder()});
+    document.open({.path = folder / "a.stl"});
+    document.open({.path = folder / "b.stl"});
+    std::this_thread::sleep_for(20ms);  // it runs by now
+    open_and_wait(document, folder / "c.stl");
+    REQUIRE(document.is_open());
+    CHECK(document.project().stem() == "c");
+    CHECK(document.opened() == 1);
+    THEN("nothing is heard of the others") {
+        for (const Message& message : document.messages())
+            CHECK_THAT(message.text, !Contains("a.vbench") && !Contains("b.vbench"));
     }
 }

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/shapes.h"
-#include "workbench/window/model/place_search.h"
+#include "workbench/session/task.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -16,9 +16,9 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-bool wait_for(PlaceSearch& search) {
+bool wait_for(Task<SurfacePlaces>& search) {
     for (int i = 0; i < 4000 && search.pending(); ++i) {
-        static_cast<void>(search.update());
+        static_cast<void>(search.poll());
         std::this_thread::sleep_for(5ms);
     }
     return !search.pending();
@@ -68,26 +68,28 @@ SCENARIO("A click means the nearest place, or the surface", "[window][picking]")
 
 SCENARIO("Places are searched on another thread", "[window][picking]") {
     std::atomic<int> woken = 0;
-    PlaceSearch search([&] { ++woken; });
-    const Surface tube = fine_tube(4, 30, 24), longer = fine_tube(4, 40, 24);
-    search.begin(&tube, true);
+    Task<SurfacePlaces> search([&] { ++woken; });
+    const auto begin = [&](const Surface& surface) {
+        search.start(
+            [surface](const Progress& progress) { return places_of(surface, true, progress); });
+    };
+    begin(fine_tube(4, 30, 24));
     CHECK(search.pending());
     WHEN("it ends") {
         REQUIRE(wait_for(search));
-        CHECK(search.places().tips.size() == 2);
+        CHECK(search.newest()->tips.size() == 2);
+        while (woken == 0) std::this_thread::sleep_for(1ms);
         CHECK(woken == 1);
-        search.begin(nullptr, true);
-        CHECK(search.places().tips.empty());
     }
     WHEN("another surface is shown meanwhile") {
-        search.begin(&longer, true);
+        begin(fine_tube(4, 40, 24));
         REQUIRE(wait_for(search));
-        REQUIRE(search.places().openings.size() == 2);
-        CHECK(search.places().openings[1].centroid.z() == Approx(40));
+        REQUIRE(search.newest()->openings.size() == 2);
+        CHECK(search.newest()->openings[1].centroid.z() == Approx(40));
     }
     WHEN("nothing is shown meanwhile") {
-        search.begin(nullptr, false);
+        search.forget();
         REQUIRE(wait_for(search));
-        CHECK(search.places().openings.empty());
+        CHECK(search.newest() == nullptr);
     }
 }

@@ -59,10 +59,10 @@ SCENARIO("A cancel ends a long operation at once", "[workbench][cancel]") {
         job.cancel();
         job.wait();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        if (job.state() == JobState::Done) continue;  // it was faster
+        if (job.state() == TaskState::Done) continue;  // it was faster
         ++cancelled;
         CHECK(took.count() < kPrompt);
-        CHECK(job.state() == JobState::Cancelled);
+        CHECK(job.state() == TaskState::Cancelled);
         CHECK(runner.snapshot()->log.size() == 1);
     }
     CHECK(cancelled >= 4);

@@ -26,7 +26,7 @@ SceneDifference difference_of(const Scene& reference, const Scene& shown,
 }  // namespace
 
 Comparison::~Comparison() {
-    if (reading_) reading_->cancel();
+    reading_.cancel();
 }
 
 bool Comparison::update(Document& document) {
@@ -56,32 +56,23 @@ void Comparison::measure(Document& document) {
     measured_scenes_ = document.scene_changes();
     difference_.reset();
     measuring_.forget();
-    measuring_.begin([reference = *scene_, shown = *document.shown()](const Progress& progress) {
+    measuring_.start([reference = *scene_, shown = *document.shown()](const Progress& progress) {
         return difference_of(reference, shown, progress);
     });
 }
 
 bool Comparison::take_scene() {
-    if (!reading_ || !reading_->ended()) return false;
-    const Job<Scene> job = *std::exchange(reading_, std::nullopt);
-    problem_.clear();
-    try {
-        scene_ = job.result();
-    } catch (const std::exception& error) {
-        problem_ = error.what();
-    }
+    if (!reading_.poll()) return false;
+    scene_ = reading_.take();
+    problem_ = reading_.problem();
     ++scene_changes_;
     return true;
 }
 
 bool Comparison::take_difference() {
-    auto difference = measuring_.take();
-    if (const std::string problem = measuring_.take_problem(); !problem.empty()) {
-        problem_ = problem;
-        return true;
-    }
-    if (!difference) return false;
-    difference_ = std::move(difference);
+    if (!measuring_.poll()) return false;
+    difference_ = measuring_.take();
+    if (!difference_) problem_ = measuring_.problem();
     return true;
 }
 

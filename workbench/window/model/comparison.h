@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "geometry/kernel/deviation_map.h"
-#include "workbench/session/job.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/document.h"
-#include "workbench/window/model/latest_task.h"
 
 namespace vesselbench {
 
@@ -66,7 +65,7 @@ public:
     /// Why the reference cannot be read, or not be compared; empty: it can.
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
-    [[nodiscard]] bool pending() const { return reading_ || measuring_.pending(); }
+    [[nodiscard]] bool pending() const { return reading_.pending() || measuring_.pending(); }
 
     // --- blinking
 
@@ -95,8 +94,8 @@ private:
     std::string variant_;
     std::optional<Scene> scene_;
     std::optional<SceneDifference> difference_;
-    std::optional<Job<Scene>> reading_;
-    LatestTask<SceneDifference> measuring_;
+    Task<Scene> reading_;
+    Task<SceneDifference> measuring_;
     std::string problem_;
     int scene_changes_ = 0;
     int measured_scenes_ = -1;  ///< the document's scene changes at the last measuring

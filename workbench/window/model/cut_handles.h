@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/window/model/cut_search.h"
+#include "geometry/vessel/openings/planned_cut.h"
 #include "workbench/window/model/form_shape.h"
 
 namespace vesselbench {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <exception>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
@@ -22,6 +23,9 @@ namespace vesselbench {
 namespace {
 
 constexpr std::size_t kMostMessages = 500;
+
+/// How often an opening that waits asks whether it was cancelled.
+constexpr std::chrono::milliseconds kCancelAsked(20);
 
 /// A case on its way out: strokes that were painted to their end are entered first.
 class ClosedCase {
@@ -59,6 +63,7 @@ RequestLabel output_label(const std::string& what) {
 
 Document::Document(DocumentOptions options)
     : options_(std::move(options)),
+      opening_(options_.wake),
       shown_([this](const std::string& text) { tell(make_message(MessageKind::Warning, text)); }) {}
 
 Document::~Document() {
@@ -66,47 +71,45 @@ Document::~Document() {
 }
 
 template <class Result, class Then>
-void Document::watch(Job<Result> job, RequestLabel label, Then then) {
-    jobs_.push_back(request_job(std::move(job), std::move(label), std::move(then),
-                                [this](const RequestEnd& ended) { end(ended); }));
+void Document::watch(Task<Result> task, const RequestLabel& label, Then then) {
+    auto run = task.run();
+    const auto finish = [this, task = std::move(task), label, then = std::move(then)] {
+        try {
+            then(task.result());
+        } catch (...) {
+            end(RequestEnd{label, error_text(std::current_exception())});
+        }
+    };
+    requests_.push_back({label, std::move(run), finish});
 }
 
 bool Document::poll() {
     bool changed = false;
-    if (opening_ && opening_->job().ended()) {
+    if (is_opening() && opening_.ended()) {
         take_opened();
         changed = true;
     }
     if (!runner_) return changed;
-    const std::vector<RequestJob> ended = take_ended(jobs_);
+    const std::vector<Request> ended = take_ended(requests_);
     const std::vector<EndedStroke> strokes = strokes_.poll();
     if (runner_->snapshot() != snapshot_) {
         take_snapshot();
         changed = true;
     }
-    for (const RequestJob& job : ended) job.finish();
+    for (const Request& request : ended) request.finish();
     for (const EndedStroke& stroke : strokes) end(stroke);
     changed |= shown_.poll();
-    if (jobs_.empty() && strokes_.empty()) shown_.request(*runner_);
+    if (requests_.empty() && strokes_.empty()) shown_.request(*runner_);
     return changed || !ended.empty() || !strokes.empty() || strokes_.has_moves();
 }
 
 // --- the case
 
-/// Lets a runner or an opening end on a thread of its own: it may have to wait for an operation.
-template <class Owner>
-void Document::retire(std::unique_ptr<Owner> owner) {
-    if (!owner) return;
-    retired_ =
-        std::async(std::launch::async, [owner = std::move(owner), before = retired_]() mutable {
-            owner.reset();
-            if (before.valid()) before.wait();
-        }).share();
-}
-
-bool Document::is_closing() const {
-    return retired_.valid() &&
-           retired_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+/// Lets a case end on a thread of its own: it may have to wait for an operation.
+void Document::retire(std::shared_ptr<void> owner) {
+    closing_ = std::make_shared<TaskRun>(
+        [owner = std::move(owner)](const Progress&) mutable { owner.reset(); });
+    closer_.add(closing_);
 }
 
 void Document::open(OpenRequest request) {
@@ -116,19 +119,24 @@ void Document::open(OpenRequest request) {
     const bool can_change = runner_ && snapshot_->read_only_reason.empty();
     if (can_change && std::filesystem::equivalent(request.path, project_, ignored))
         return tell(make_message(MessageKind::Remark, request.name() + " is open already"));
-    if (opening_) opening_->cancel();
-    retire(std::move(opening_));
+    opening_.forget();
     other_messages_ = messages_.size();
-    opening_ =
-        std::make_unique<Opening>(std::move(request), options_.session, options_.wake, retired_);
+    // A case that is being closed, or opened, may hold the same project: it ends first.
+    opening_.start([request = std::move(request), options = options_.session,
+                    closing = closing_](const Progress& progress) {
+        while (closing && !closing->wait_for(kCancelAsked)) progress.check_cancelled();
+        Opened opened = open_case(request, options, progress);
+        static_cast<void>(opened.session.snapshot());  // reads the records here, not in a frame
+        return opened;
+    });
 }
 
 void Document::close() {
-    for (const RequestJob& job : jobs_) job.cancel();
-    jobs_.clear();
+    for (const Request& request : requests_) request.run->cancel();
+    requests_.clear();
     preparation_.reset();
     if (runner_)
-        retire(std::make_unique<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
+        retire(std::make_shared<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
     snapshot_.reset();
     input_.reset();
     prepared_.clear();
@@ -139,28 +147,33 @@ void Document::close() {
 }
 
 void Document::take_opened() {
-    const std::unique_ptr<Opening> ended = std::move(opening_);
+    static_cast<void>(opening_.poll());
+    std::optional<Opened> opened = opening_.take();
+    if (!opened && opening_.problem().empty())
+        return tell(make_message(MessageKind::Remark, "Cancelled"));
+    if (!opened) return fail(opening_.problem(), {});
     try {
-        Opened opened = ended->take();
-        close();
-        ++opened_;
-        forget_messages();
-        project_ = opened.project;
-        input_ = std::move(opened.input);
-        prepared_ = opened.prepared.done;
-        runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
-        variant_ = newest_variant(*runner_->snapshot(), opened.prepared.last);
-        take_snapshot();
-        for (const LogEntry& entry : snapshot_->log)
-            if (entry.result) tell_warnings(entry.edit, *entry.result);
-        const std::string what = opened.is_new ? "New project " : "Opened ";
-        tell(make_message(MessageKind::Success, what + project_.string()));
-        for (const std::string& remark : opened.remarks) tell_once(message_from(remark));
-    } catch (const Cancelled&) {
-        tell(make_message(MessageKind::Remark, "Cancelled"));
+        show(std::move(*opened));
     } catch (const std::exception& error) {
         fail(error.what(), {});
     }
+}
+
+void Document::show(Opened opened) {
+    close();
+    ++opened_;
+    forget_messages();
+    project_ = opened.project;
+    input_ = std::move(opened.input);
+    prepared_ = opened.prepared.done;
+    runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
+    variant_ = newest_variant(*runner_->snapshot(), opened.prepared.last);
+    take_snapshot();
+    for (const LogEntry& entry : snapshot_->log)
+        if (entry.result) tell_warnings(entry.edit, *entry.result);
+    const std::string what = opened.is_new ? "New project " : "Opened ";
+    tell(make_message(MessageKind::Success, what + project_.string()));
+    for (const std::string& remark : opened.remarks) tell_once(message_from(remark));
 }
 
 void Document::take_snapshot() {
@@ -188,12 +201,12 @@ const Scene* Document::shown() const {
 
 std::string Document::why_not(RequestKind kind) const {
     if (!runner_) return "no case is open";
-    if (opening_) return "another case is being opened";
+    if (is_opening()) return "another case is being opened";
     if (strokes_.painting()) return "a stroke is being drawn";
     if (preparation_) return "the model is being prepared";
-    for (const RequestJob& job : jobs_)
-        if (job.label.kind == RequestKind::Edit || job.label.kind == RequestKind::Output)
-            return job.label.what + " is running";
+    for (const Request& request : requests_)
+        if (request.label.kind == RequestKind::Edit || request.label.kind == RequestKind::Output)
+            return request.label.what + " is running";
     const bool writes = kind == RequestKind::Edit || kind == RequestKind::History;
     return writes ? snapshot_->read_only_reason : "";
 }
@@ -315,11 +328,11 @@ void Document::run_pending() {
 
 void Document::set_note(EditRef edit, const std::string& note) {
     if (!begin_request(RequestKind::History)) return;
-    const auto job = runner_->submit([edit, note](Session& session, const Progress&) {
+    auto task = runner_->submit([edit, note](Session& session, const Progress&) {
         session.set_note(edit, note);
         return Nothing{};
     });
-    watch(job, history_label("Writing a note"), [](const Nothing&) {});
+    watch(std::move(task), history_label("Writing a note"), [](const Nothing&) {});
 }
 
 void Document::export_to(const std::filesystem::path& file) {
@@ -394,12 +407,12 @@ void Document::drop_preview() {
 
 /// That is being made.
 void Document::cancel_preview() {
-    const auto previews = [](const RequestJob& job) {
-        return job.label.kind == RequestKind::Preview;
+    const auto previews = [](const Request& request) {
+        return request.label.kind == RequestKind::Preview;
     };
-    for (const RequestJob& job : jobs_)
-        if (previews(job)) job.cancel();
-    std::erase_if(jobs_, previews);
+    for (const Request& request : requests_)
+        if (previews(request)) request.run->cancel();
+    std::erase_if(requests_, previews);
 }
 
 // --- preparing
@@ -429,25 +442,26 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
 
 /// Nothing is missing of the purpose's model.
 void Document::end_at_once(const std::string& purpose, const std::string& text) {
-    const auto job =
+    auto task =
         runner_->submit([project = project_, purpose](Session& /*session*/, const Progress&) {
             end_purpose(project, purpose);
             return Nothing{};
         });
-    watch(job, {.what = "Looking for missing edits"}, [this, purpose, text](const Nothing&) {
-        if (std::ranges::count(prepared_, purpose) == 0) prepared_.push_back(purpose);
-        tell(make_message(MessageKind::Success, readable_sentence(text)));
-        if (pending_count(*snapshot_, variant_) > 0) run_pending();
-    });
+    watch(std::move(task), {.what = "Looking for missing edits"},
+          [this, purpose, text](const Nothing&) {
+              if (std::ranges::count(prepared_, purpose) == 0) prepared_.push_back(purpose);
+              tell(make_message(MessageKind::Success, readable_sentence(text)));
+              if (pending_count(*snapshot_, variant_) > 0) run_pending();
+          });
 }
 
 /// Before they are made again.
 void Document::leave_out(const std::vector<EditId>& edits) {
-    const auto job = runner_->submit([edits](Session& session, const Progress&) {
+    auto task = runner_->submit([edits](Session& session, const Progress&) {
         for (const EditId edit : edits) session.remove_edit(edit);
         return Nothing{};
     });
-    watch(job, {.what = "Leaving out " + counted(edits.size(), "edit")},
+    watch(std::move(task), {.what = "Leaving out " + counted(edits.size(), "edit")},
           [this](const Nothing&) { prepare_next(); });
 }
 
@@ -494,8 +508,8 @@ void Document::end_preparation() {
 
 bool Document::can_paint() const {
     const Scene* scene = current();
-    return scene != nullptr && scene->surface && !previewed() && !opening_ &&
-           snapshot_->read_only_reason.empty() && jobs_.empty() && !shown_.outdated();
+    return scene != nullptr && scene->surface && !previewed() && !is_opening() &&
+           snapshot_->read_only_reason.empty() && requests_.empty() && !shown_.outdated();
 }
 
 /// The last edit's step: what is painted on is the shown surface, not an earlier one.
@@ -534,14 +548,14 @@ void Document::end(const EndedStroke& stroke) {
 // --- progress and messages
 
 std::optional<Activity> Document::activity() const {
-    if (opening_) {
-        const JobProgress progress = opening_->job().progress();
+    if (is_opening()) {
+        const TaskProgress progress = opening_.progress();
         return Activity{progress.what.empty() ? "opening" : progress.what, progress.fraction};
     }
-    if (!jobs_.empty()) {
-        const RequestJob& job = jobs_.front();
-        const JobProgress progress = job.progress();
-        const std::string& name = job.label.what;
+    if (!requests_.empty()) {
+        const Request& request = requests_.front();
+        const TaskProgress progress = request.run->progress();
+        const std::string& name = request.label.what;
         const bool same = progress.what.empty() || progress.what == name;
         const std::string what = same ? name : name + ": " + progress.what;
         if (!preparation_) return Activity{what, progress.fraction};
@@ -556,8 +570,8 @@ std::optional<Activity> Document::activity() const {
 
 void Document::cancel() {
     strokes_.cancel();
-    if (opening_) opening_->cancel();
-    for (const RequestJob& job : jobs_) job.cancel();
+    opening_.cancel();
+    for (const Request& request : requests_) request.run->cancel();
     // Its running entry may be entered before it can be stopped.
     if (preparation_) preparation_->cancelled = true;
 }

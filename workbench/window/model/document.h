@@ -3,7 +3,6 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,7 +13,7 @@
 #include "workbench/window/model/message.h"
 #include "workbench/window/model/opening.h"
 #include "workbench/window/model/preparation.h"
-#include "workbench/window/model/request_job.h"
+#include "workbench/window/model/request.h"
 #include "workbench/window/model/shown_scene.h"
 #include "workbench/window/model/stroke_queue.h"
 
@@ -49,7 +48,7 @@ public:
 
     [[nodiscard]] bool is_open() const { return runner_ != nullptr; }
 
-    [[nodiscard]] bool is_opening() const { return opening_ != nullptr; }
+    [[nodiscard]] bool is_opening() const { return opening_.pending(); }
 
     /// Counts the cases that have been opened.
     [[nodiscard]] int opened() const { return opened_; }
@@ -172,12 +171,12 @@ public:
 
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {
-        return opening_ != nullptr || !jobs_.empty() || !strokes_.empty() || is_closing() ||
+        return is_opening() || !requests_.empty() || !strokes_.empty() || is_closing() ||
                shown_.pending();
     }
 
     /// True while a closed case still ends, and holds its project.
-    [[nodiscard]] bool is_closing() const;
+    [[nodiscard]] bool is_closing() const { return !closer_.idle(); }
 
     void cancel();
 
@@ -197,10 +196,9 @@ public:
     [[nodiscard]] int entered() const { return entered_; }
 
 private:
-    template <class Owner>
-    void retire(std::unique_ptr<Owner> owner);
+    void retire(std::shared_ptr<void> owner);
     template <class Result, class Then>
-    void watch(Job<Result> job, RequestLabel label, Then then);
+    void watch(Task<Result> task, const RequestLabel& label, Then then);
     [[nodiscard]] bool begin_request(RequestKind kind);
     void end(const RequestEnd& end);
     void end(const EndedStroke& stroke);
@@ -214,6 +212,7 @@ private:
     void cancel_preview();
     [[nodiscard]] Step stroke_step(const std::string& operation) const;
     void take_opened();
+    void show(Opened opened);
     void take_snapshot();
     void leave_out(const std::vector<EditId>& edits);
     void prepare_next();
@@ -224,10 +223,11 @@ private:
     void fail(const std::string& text, const std::string& operation);
 
     DocumentOptions options_;
-    std::shared_future<void> retired_;  ///< ends when every closed case has ended
-    std::unique_ptr<Opening> opening_;
+    TaskThread closer_;
+    std::shared_ptr<TaskRun> closing_;  ///< ends when every closed case has ended; null: none was
+    Task<Opened> opening_;
     std::unique_ptr<SessionRunner> runner_;
-    std::vector<RequestJob> jobs_;
+    std::vector<Request> requests_;
     StrokeQueue strokes_;
     ShownScene shown_;
     std::filesystem::path project_;

@@ -13,9 +13,10 @@ using namespace std::chrono_literals;
 constexpr auto kRest = 150ms;
 
 /// What the thread keeps between questions: the extractor of the last image.
-class Extracting final : public ExtractionModels::Work {
+class Extracting final : public Answerer<ExtractionQuestion, ExtractionModel> {
 public:
-    void answer(const ExtractionQuestion& question, const ExtractionModels::Turn& turn) override {
+    void answer(const ExtractionQuestion& question,
+                const TaskTurn<ExtractionModel>& turn) override {
         LiveExtractor& extractor = extractor_of(question);
         const auto send = [&](LiveExtractor::State state) {
             turn.send({turn.number, std::move(state), extractor.histogram()});

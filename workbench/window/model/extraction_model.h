@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "workbench/operations/extract_surface/live_extractor.h"
-#include "workbench/window/model/latest_worker.h"
+#include "workbench/window/model/answerer.h"
 
 namespace vesselbench {
 
@@ -24,7 +24,7 @@ struct ExtractionModel {
     std::shared_ptr<const ImageHistogram> histogram;
 };
 
-using ExtractionModels = LatestWorker<ExtractionQuestion, ExtractionModel>;
+using ExtractionModels = AnswerTask<ExtractionQuestion, ExtractionModel>;
 
 /// Work that extracts from a coarse image first, and from all of it when the values rest.
 [[nodiscard]] ExtractionModels::Maker live_extracting();

@@ -86,8 +86,8 @@ void FormInput::find_last(const Document& document, const OperationForm& form, S
 
 void FormInput::take() {
     if (!job_ || !job_->ended()) return;
-    const Job<Scene> job = *std::exchange(job_, std::nullopt);
-    if (job.state() == JobState::Cancelled) return;
+    const Task<Scene> job = *std::exchange(job_, std::nullopt);
+    if (job.state() == TaskState::Cancelled) return;
     try {
         scene_ = job.result();
     } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "workbench/session/task.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/operation_form.h"
 
@@ -50,7 +51,7 @@ private:
     std::optional<Key> key_;
     std::optional<HistoryEntry> last_;  ///< the edit whose result is wanted
     bool is_current_ = false;           ///< which is the document's own model
-    std::optional<Job<Scene>> job_;
+    std::optional<Task<Scene>> job_;
     std::optional<Scene> scene_;
     std::string problem_;
 };

@@ -24,7 +24,7 @@ bool same_outline(const std::optional<Surface>& a, const std::optional<Surface>&
 
 }  // namespace
 
-struct ImageSlices::Task {
+struct ImageSlices::Order {
     int version = 0;  ///< of the image
     Image image;
     std::optional<Image> mask;
@@ -143,31 +143,31 @@ bool ImageSlices::pending() const {
 
 void ImageSlices::start() {
     if (!has_image()) return;
-    Task task{image_version_, image_, mask_, surface_, grid_, figures_, {}};
+    Order order{image_version_, image_, mask_, surface_, grid_, figures_, {}};
     for (const SlicePlane plane : kSlicePlanes) {
         if (!outdated(plane)) continue;
         had_[number(plane)] = wish(plane);
-        task.places.emplace_back(plane, position(plane));
+        order.places.emplace_back(plane, position(plane));
     }
-    if (task.places.empty()) return;
-    task_.begin([task = std::move(task)](const Progress&) { return made(task); });
+    if (order.places.empty()) return;
+    task_.start([order = std::move(order)](const Progress&) { return made(order); });
 }
 
-ImageSlices::Made ImageSlices::made(Task task) {
-    if (!task.figures) task.figures = figures_of(task.image);
-    Made made{.image = task.version, .figures = *task.figures};
-    for (const auto& [plane, position] : task.places)
+ImageSlices::Made ImageSlices::made(Order order) {
+    if (!order.figures) order.figures = figures_of(order.image);
+    Made made{.image = order.version, .figures = *order.figures};
+    for (const auto& [plane, position] : order.places)
         made.contents.push_back(
-            std::make_shared<const SliceContent>(task.content(plane, position)));
+            std::make_shared<const SliceContent>(order.content(plane, position)));
     return made;
 }
 
 bool ImageSlices::take_made() {
+    if (!task_.poll()) return false;
     const auto made = task_.take();
-    const std::string problem = task_.take_problem();
-    if (made || !problem.empty()) problem_ = problem;
-    if (!problem.empty()) return true;
-    if (!made || made->image != image_version_) return false;
+    problem_ = task_.problem();
+    if (!made) return true;
+    if (made->image != image_version_) return false;
     take_figures(made->figures);
     for (const auto& content : made->contents) contents_[number(content->plane)] = content;
     return true;

@@ -8,7 +8,7 @@
 
 #include "geometry/image/slices.h"
 #include "workbench/case/scene.h"
-#include "workbench/window/model/latest_task.h"
+#include "workbench/session/task.h"
 
 namespace vesselbench {
 
@@ -146,13 +146,13 @@ private:
         std::vector<std::shared_ptr<const SliceContent>> contents;
     };
 
-    struct Task;
+    struct Order;
 
     [[nodiscard]] static std::size_t number(SlicePlane plane) {
         return static_cast<std::size_t>(plane);
     }
 
-    [[nodiscard]] static Made made(Task task);
+    [[nodiscard]] static Made made(Order order);
     void show_first_image(const std::optional<Surface>& surface);
     void take_image(const Image& image, const Scene& scene);
     void take_surface(const std::optional<Surface>& surface);
@@ -178,7 +178,7 @@ private:
     Vec3 cross_ = Vec3::Zero();
     GreyWindow grey_;
     bool typed_grey_ = false;  ///< grey_ is the user's
-    LatestTask<Made> task_;
+    Task<Made> task_;
     std::string problem_;
 };
 

@@ -9,7 +9,7 @@
 
 #include "geometry/kernel/stopwatch.h"
 #include "workbench/case/operation.h"
-#include "workbench/window/model/latest_worker.h"
+#include "workbench/window/model/answerer.h"
 
 namespace vesselbench {
 
@@ -66,7 +66,7 @@ public:
     }
 
 protected:
-    using Models = LatestWorker<Question, Model>;
+    using Models = AnswerTask<Question, Model>;
 
     LiveForm(std::function<void()> wake, typename Models::Maker make)
         : models_(std::move(wake), std::move(make)) {}
@@ -91,7 +91,7 @@ protected:
     }
 
     /// Models are taken as they come. \return true if there is a newer one, or a problem
-    bool take_models() { return models_.update(); }
+    bool take_models() { return models_.poll(); }
 
     /// Asks unless that was asked already, or what the last question was asked for is about to
     /// come: values that change in every frame would otherwise keep all of it from being seen.
@@ -102,7 +102,7 @@ protected:
         if (asked_ == key || waits) return;
         asked_ = key;
         since_asked_ = {};
-        question_ = models_.ask(question());
+        question_ = vesselbench::ask(models_, question());
     }
 
     /// \return true if another one is shown

@@ -59,11 +59,11 @@ std::vector<double> values_of(ColouringKind kind, const LiveSmoother::State& sta
 }
 
 /// What the thread keeps between questions: the smoother of the last scene.
-class LiveModelling final : public LiveModels::Work {
+class LiveModelling final : public Answerer<LiveQuestion, LiveModel> {
 public:
     explicit LiveModelling(LiveDevice device) : wanted_(std::move(device)) {}
 
-    void answer(const LiveQuestion& question, const LiveModels::Turn& turn) override {
+    void answer(const LiveQuestion& question, const TaskTurn<LiveModel>& turn) override {
         LiveSmoother& smoother = smoother_of(question);
         const auto show = [&](const LiveSmoother::State& state) {
             turn.send(coloured(turn.number, question.colouring, state));

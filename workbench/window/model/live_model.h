@@ -6,8 +6,8 @@
 
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/operations/smooth/live_smoother.h"
+#include "workbench/window/model/answerer.h"
 #include "workbench/window/model/colourings.h"
-#include "workbench/window/model/latest_worker.h"
 
 namespace vesselbench {
 
@@ -34,7 +34,7 @@ struct LiveModel {
 /// True if a model that is smoothed live can be coloured so.
 [[nodiscard]] bool has_live_colours(ColouringKind kind);
 
-using LiveModels = LatestWorker<LiveQuestion, LiveModel>;
+using LiveModels = AnswerTask<LiveQuestion, LiveModel>;
 
 /// The device that live models may be computed on.
 struct LiveDevice {

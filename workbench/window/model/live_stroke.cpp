@@ -109,8 +109,8 @@ std::optional<LogEntry> LiveStroke::entry() const {
     return committing_->result();
 }
 
-JobProgress LiveStroke::progress() const {
-    return committing_ ? committing_->progress() : JobProgress{};
+TaskProgress LiveStroke::progress() const {
+    return committing_ ? committing_->progress() : TaskProgress{};
 }
 
 }  // namespace vesselbench

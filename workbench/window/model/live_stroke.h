@@ -56,7 +56,7 @@ public:
     /// The edit, once ended; none if there was no dab.
     [[nodiscard]] std::optional<LogEntry> entry() const;
 
-    [[nodiscard]] JobProgress progress() const;
+    [[nodiscard]] TaskProgress progress() const;
 
 private:
     /// The stroke in the session; the surface before it, and its places.
@@ -72,11 +72,11 @@ private:
 
     SessionRunner& runner_;
     StrokeRequest request_;
-    Job<Started> starting_;
+    Task<Started> starting_;
     std::optional<Started> started_;
     std::vector<StrokePlace> waiting_;  ///< for the start
-    std::deque<Job<SceneMove>> dabs_;   ///< sent and not collected
-    std::optional<Job<LogEntry>> committing_;
+    std::deque<Task<SceneMove>> dabs_;  ///< sent and not collected
+    std::optional<Task<LogEntry>> committing_;
     std::optional<Scene> scene_;
     bool ending_ = false, sent_ = false;
 };

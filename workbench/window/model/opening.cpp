@@ -131,36 +131,4 @@ Opened open_case(const OpenRequest& request, const SessionOptions& options,
                       options, progress);
 }
 
-Opening::Opening(OpenRequest request, SessionOptions options, std::function<void()> notify,
-                 std::shared_future<void> after)
-    : request_(std::move(request)) {
-    thread_ = std::thread(
-        [this, options = std::move(options), notify = std::move(notify), after = std::move(after)] {
-            if (after.valid()) after.wait();
-            if (job_->begin()) {
-                std::exception_ptr error;
-                try {
-                    result_.emplace(open_case(request_, options, JobCore::reporter(job_)));
-                    // Reads the records here, not where the session is taken over.
-                    static_cast<void>(result_->session.snapshot());
-                } catch (...) {
-                    error = std::current_exception();
-                }
-                job_->end(error);
-            }
-            if (notify) notify();
-        });
-}
-
-Opening::~Opening() {
-    cancel();
-    thread_.join();
-}
-
-Opened Opening::take() {
-    job_->wait();
-    job_->rethrow();
-    return std::move(*result_);
-}
-
 }  // namespace vesselbench

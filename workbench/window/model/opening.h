@@ -1,17 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <future>
-#include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/prepared_purposes.h"
-#include "workbench/session/job.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -41,34 +36,5 @@ struct Opened {
 /// \throw as Session::open, resolve_input and start_project
 [[nodiscard]] Opened open_case(const OpenRequest& request, const SessionOptions& options,
                                const Progress& progress);
-
-/// open_case() on a thread of its own. The destructor cancels it.
-class Opening {
-public:
-    /// \param notify called by the thread when it has ended
-    /// \param after it waits for the end of this first: a case that is being closed holds its
-    /// project
-    Opening(OpenRequest request, SessionOptions options, std::function<void()> notify,
-            std::shared_future<void> after = {});
-    ~Opening();
-
-    Opening(const Opening&) = delete;
-    Opening& operator=(const Opening&) = delete;
-
-    [[nodiscard]] const OpenRequest& request() const { return request_; }
-
-    [[nodiscard]] const JobCore& job() const { return *job_; }
-
-    void cancel() { job_->cancel(); }
-
-    /// The result, once, after the job's end. \throw what opening threw
-    [[nodiscard]] Opened take();
-
-private:
-    OpenRequest request_;
-    std::shared_ptr<JobCore> job_ = std::make_shared<JobCore>();
-    std::optional<Opened> result_;
-    std::thread thread_;
-};
 
 }  // namespace vesselbench

@@ -60,6 +60,7 @@ void OpeningsModel::forget() {
 
 /// A plan of other wishes is of no use.
 void OpeningsModel::take() {
+    if (!task_.poll()) return;
     if (auto answer = task_.take()) {
         if (answer->question != asked_) return;
         plain_ = plain_arguments(answer->question);
@@ -67,8 +68,8 @@ void OpeningsModel::take() {
         problem_ = planned_->problem;
         new_plan_ = true;
     }
-    if (std::string problem = task_.take_problem(); !problem.empty()) {
-        problem_ = std::move(problem);
+    if (!task_.problem().empty()) {
+        problem_ = task_.problem();
         planned_.reset();
         new_plan_ = true;
     }
@@ -88,7 +89,7 @@ void OpeningsModel::ask(const OperationForm& form) {
     problem_.clear();
     new_plan_ = true;
     task_.forget();
-    task_.begin([operation = operation_, scene = *scene, question = std::move(question),
+    task_.start([operation = operation_, scene = *scene, question = std::move(question),
                  plain = known ? planned_->plain : nullptr](const Progress& progress) {
         PlannedEnds planned = plan_ends(*operation, scene, question, plain, progress);
         return Answer{question, std::move(planned)};

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "geometry/vessel/openings/planned_cut.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/end_rows.h"
 #include "workbench/window/model/form_input.h"
-#include "workbench/window/model/latest_task.h"
 
 namespace vesselbench {
 
@@ -106,7 +106,7 @@ private:
     void renew(const OperationForm& form);
 
     FormInput input_;
-    LatestTask<Answer> task_;
+    Task<Answer> task_;
     std::optional<Arguments> asked_;  ///< planning_arguments() of the form
     Surface surface_;                 ///< of the question
     const Operation* operation_ = nullptr;

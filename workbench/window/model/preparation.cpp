@@ -56,8 +56,8 @@ std::vector<Message> RecipeMessages::take() {
     return messages;
 }
 
-Job<Nothing> Preparation::start(SessionRunner& runner,
-                                const std::shared_ptr<RecipeMessages>& messages) const {
+Task<Nothing> Preparation::start(SessionRunner& runner,
+                                 const std::shared_ptr<RecipeMessages>& messages) const {
     const bool first = next == 0, last = next + 1 == recipe.size();
     return runner.submit([entry = recipe[next], purpose = purpose, project = project, first, last,
                           messages](Session& session, const Progress& progress) {

@@ -45,8 +45,8 @@ struct Preparation {
 
     /// Starts the next entry; after the last one the project is prepared for the purpose.
     /// \param messages receives what it reports
-    [[nodiscard]] Job<Nothing> start(SessionRunner& runner,
-                                     const std::shared_ptr<RecipeMessages>& messages) const;
+    [[nodiscard]] Task<Nothing> start(SessionRunner& runner,
+                                      const std::shared_ptr<RecipeMessages>& messages) const;
 };
 
 /// What is left of a purpose's recipe in a case: its own recipe, else the default one.

@@ -16,9 +16,9 @@ constexpr auto kRest = 60ms;
 /// During a drag, for the best of all before a newer value ends its search [s].
 constexpr double kPatience = 1.0;
 
-class QualityAnalysing final : public QualityAnalyses::Work {
+class QualityAnalysing final : public Answerer<QualityQuestion, QualityAnswer> {
 public:
-    void answer(const QualityQuestion& question, const QualityAnalyses::Turn& turn) override {
+    void answer(const QualityQuestion& question, const TaskTurn<QualityAnswer>& turn) override {
         if (!question.dragged && !turn.rests(kRest)) return;
         if (!search_ || base_ != question.base || operation_ != question.operation) {
             search_.emplace(*question.operation, question.scene);
@@ -57,7 +57,7 @@ void QualityAnalysis::forget() {
 
 void QualityAnalysis::interrupt() {
     if (asked_ == Asked{} || !analyses_.pending()) return;
-    analyses_.interrupt();
+    analyses_.drop();
     asked_ = {};
 }
 
@@ -92,12 +92,12 @@ void QualityAnalysis::ask(const LiveSmoothing::Followed& followed, bool dragged)
     asked_ = now;
     used_ = true;
     since_asked_ = {};
-    question_ = analyses_.ask({.scene = *followed.document.current(),
-                               .base = base_,
-                               .operation = operation_,
-                               .given = followed.form->arguments(),
-                               .tau = tau,
-                               .dragged = dragged});
+    question_ = vesselbench::ask(analyses_, QualityQuestion{.scene = *followed.document.current(),
+                                                            .base = base_,
+                                                            .operation = operation_,
+                                                            .given = followed.form->arguments(),
+                                                            .tau = tau,
+                                                            .dragged = dragged});
 }
 
 bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, QualityPace pace) {
@@ -109,7 +109,7 @@ bool QualityAnalysis::update(const LiveSmoothing::Followed& followed, QualityPac
         else
             ask(followed, pace == QualityPace::Dragged);
     }
-    return analyses_.update();
+    return analyses_.poll();
 }
 
 }  // namespace vesselbench

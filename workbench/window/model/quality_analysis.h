@@ -6,7 +6,7 @@
 
 #include "geometry/kernel/stopwatch.h"
 #include "workbench/suggest/live_search.h"
-#include "workbench/window/model/latest_worker.h"
+#include "workbench/window/model/answerer.h"
 #include "workbench/window/model/live_smoothing.h"
 
 namespace vesselbench {
@@ -33,7 +33,7 @@ struct QualityAnswer {
     LiveSearch::Answer found;
 };
 
-using QualityAnalyses = LatestWorker<QualityQuestion, QualityAnswer>;
+using QualityAnalyses = AnswerTask<QualityQuestion, QualityAnswer>;
 
 /// Work that answers with graphs and suggestions.
 [[nodiscard]] QualityAnalyses::Maker quality_analysing();

@@ -51,13 +51,17 @@ fs::path whole_path(const fs::path& file) {
 
 }  // namespace
 
-Settings::Settings(fs::path folder) : folder_(std::move(folder)) {
+Settings::Settings(fs::path folder) : folder_(std::move(folder)), saving_(nullptr) {
     try {
         read();
     } catch (const std::exception&) {  // the window opens with its defaults
         recent_.clear();
     }
     refresh();
+}
+
+Settings::~Settings() {
+    saving_.wait();
 }
 
 void Settings::read() {
@@ -111,15 +115,16 @@ std::string Settings::text() const {
 }
 
 bool Settings::save() const {
-    if (saving_.valid()) saving_.wait();
+    saving_.wait();
     return written(folder_, text());
 }
 
 void Settings::save_soon() {
-    saving_ = std::async(std::launch::async, [folder = folder_, text = text(), before = saving_] {
-                  if (before.valid()) before.wait();
-                  static_cast<void>(written(folder, text));
-              }).share();
+    static_cast<void>(saving_.poll());
+    saving_.start_after([folder = folder_, text = text()](const Progress&) {
+        static_cast<void>(written(folder, text));
+        return Nothing{};
+    });
 }
 
 }  // namespace vesselbench

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <filesystem>
-#include <future>
 #include <string>
 #include <vector>
 
+#include "workbench/session/task.h"
 #include "workbench/window/model/view_choice.h"
 
 namespace vesselbench {
@@ -24,6 +24,8 @@ public:
 
     /// Reads settings.json of this folder; a missing or damaged file gives the defaults.
     explicit Settings(std::filesystem::path folder);
+    ~Settings();
+    Settings(Settings&&) = default;
 
     /// The sizes of the text that are offered.
     static constexpr std::array kScales = {0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.25, 2.5};
@@ -47,7 +49,8 @@ public:
     /// \return false if the file cannot be written, which is no error for the user's work
     bool save() const;
 
-    /// Saves on another thread: a disk may be slow. The last one counts.
+    /// Saves on another thread: a disk may be slow. The last one counts; the destructor waits for
+    /// it.
     void save_soon();
 
 private:
@@ -56,7 +59,7 @@ private:
 
     std::filesystem::path folder_;
     std::vector<RecentProject> recent_;
-    std::shared_future<void> saving_;  ///< ends when everything so far is saved
+    Task<Nothing> saving_;
 };
 
 }  // namespace vesselbench

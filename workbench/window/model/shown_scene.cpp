@@ -144,31 +144,31 @@ void ShownScene::ask_source() {
 // --- finding it
 
 bool ShownScene::pending() const {
-    return state_.pending() || figures_.pending() || deviation_.pending() || source_.pending();
+    return state_.wanted || figures_.wanted || deviation_.wanted || source_.wanted;
 }
 
 void ShownScene::pause() {
-    state_.pause();
-    figures_.pause();
-    deviation_.pause();
-    source_.pause();
+    state_.task.drop();
+    figures_.task.drop();
+    deviation_.task.drop();
+    source_.task.drop();
 }
 
 void ShownScene::request(SessionRunner& runner) {
     if (state_.due()) request_state(runner);
-    if (state_.pending()) return;
+    if (state_.wanted) return;
     if (figures_.due()) request_figures(runner);
     if (deviation_.due()) request_deviation(runner);
     if (source_.due()) request_source(runner);
 }
 
 void ShownScene::request_state(SessionRunner& runner) {
-    state_.start(runner.scene_after(*last_known(*snapshot_, variant_)));
+    state_.task = runner.scene_after(*last_known(*snapshot_, variant_));
 }
 
 void ShownScene::request_figures(SessionRunner& runner) {
-    figures_.start(runner.submit([source = source_edit(), variant = variant_, scene = *current_](
-                                     Session& session, const Progress& progress) {
+    figures_.task = runner.submit([source = source_edit(), variant = variant_, scene = *current_](
+                                      Session& session, const Progress& progress) {
         ShownFigures figures;
         if (!scene.surface || scene.surface->empty()) return figures;
         figures.volume = volume(*scene.surface);
@@ -177,13 +177,13 @@ void ShownScene::request_figures(SessionRunner& runner) {
         if (source)
             figures.deviation = from_source(session, *source, variant, *scene.surface, progress);
         return figures;
-    }));
+    });
 }
 
 void ShownScene::request_deviation(SessionRunner& runner) {
     const std::optional<Scene> before = preview_ ? current_ : std::nullopt;
-    deviation_.start(runner.submit([source = source_edit(), before, variant = variant_,
-                                    scene = *scene()](Session& session, const Progress& progress) {
+    deviation_.task = runner.submit([source = source_edit(), before, variant = variant_,
+                                     scene = *scene()](Session& session, const Progress& progress) {
         const Surface& surface = surface_of(scene);
         if (before)
             return std::make_shared<const DeviationMap>(
@@ -192,23 +192,23 @@ void ShownScene::request_deviation(SessionRunner& runner) {
         const auto compared = comparable_vertices(surface, made_ends(session, variant, progress));
         return std::make_shared<const DeviationMap>(
             deviation_map(surface, surface_of(from), compared, progress));
-    }));
+    });
 }
 
 void ShownScene::request_source(SessionRunner& runner) {
-    source_.start(runner.scene_after(*source_edit()));
+    source_.task = runner.scene_after(*source_edit());
 }
 
 // --- what has been found
 
-template <class Answer>
-std::optional<Answer> ShownScene::taken(SessionAnswer<Answer>& answer, const char* what) {
-    try {
-        return answer.take();
-    } catch (const std::exception& error) {
-        report_(std::string(what) + ": " + error.what());
-        return std::nullopt;
-    }
+/// Of a wish that failed, the reason is reported, and it is given up.
+template <class Result>
+std::optional<Result> ShownScene::taken(Wish<Result>& wish, const char* what) {
+    if (!wish.task.poll()) return std::nullopt;
+    wish.wanted = false;
+    auto found = wish.task.take();
+    if (!found) report_(std::string(what) + ": " + wish.task.problem());
+    return found;
 }
 
 bool ShownScene::poll() {
@@ -218,13 +218,13 @@ bool ShownScene::poll() {
 }
 
 bool ShownScene::poll_state() {
-    if (!state_.pending()) return false;
+    if (!state_.wanted) return false;
     auto scene = taken(state_, "The model cannot be read");
     if (scene)
         set(std::move(*scene));
-    else if (!state_.pending())
+    else if (!state_.wanted)
         set({});  // not the model of another state
-    return !state_.pending();
+    return !state_.wanted;
 }
 
 bool ShownScene::poll_figures() {

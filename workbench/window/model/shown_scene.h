@@ -8,7 +8,6 @@
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/session/session_runner.h"
 #include "workbench/session/surface_change.h"
-#include "workbench/window/model/session_answer.h"
 
 namespace vesselbench {
 
@@ -53,7 +52,7 @@ public:
     [[nodiscard]] bool pending() const;
 
     /// True while the scene is that of an earlier state.
-    [[nodiscard]] bool outdated() const { return state_.pending(); }
+    [[nodiscard]] bool outdated() const { return state_.wanted; }
 
     /// Counts changes of scene().
     [[nodiscard]] int changes() const { return changes_; }
@@ -91,6 +90,27 @@ public:
     [[nodiscard]] const std::optional<Surface>& source() const { return known_source_; }
 
 private:
+    /// What the session's thread finds between the user's requests: what was cancelled for one of
+    /// them is due again after it.
+    template <class Result>
+    struct Wish {
+        bool wanted = false;  ///< and not known
+        Task<Result> task;
+
+        /// It is wanted, and not the one before.
+        void ask() {
+            forget();
+            wanted = true;
+        }
+
+        void forget() {
+            task.forget();
+            wanted = false;
+        }
+
+        [[nodiscard]] bool due() const { return wanted && !task.pending(); }
+    };
+
     void scene_changed();
     void ask_deviation();
     void ask_source();
@@ -98,8 +118,8 @@ private:
     bool poll_figures();
     bool poll_deviation();
     bool poll_source();
-    template <class Answer>
-    std::optional<Answer> taken(SessionAnswer<Answer>& answer, const char* what);
+    template <class Result>
+    std::optional<Result> taken(Wish<Result>& wish, const char* what);
     void request_state(SessionRunner& runner);
     void request_figures(SessionRunner& runner);
     void request_deviation(SessionRunner& runner);
@@ -115,10 +135,10 @@ private:
     std::shared_ptr<const DeviationMap> known_deviation_;
     std::optional<Surface> known_source_;
     bool wants_deviation_ = false, wants_source_ = false;
-    SessionAnswer<Scene> state_;
-    SessionAnswer<ShownFigures> figures_;
-    SessionAnswer<std::shared_ptr<const DeviationMap>> deviation_;
-    SessionAnswer<Scene> source_;
+    Wish<Scene> state_;
+    Wish<ShownFigures> figures_;
+    Wish<std::shared_ptr<const DeviationMap>> deviation_;
+    Wish<Scene> source_;
     int changes_ = 0;
 };
 

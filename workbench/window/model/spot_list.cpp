@@ -32,7 +32,7 @@ void SpotList::open(const std::filesystem::path& project, std::string read_only)
     close();
     project_ = project;
     blocked_ = std::move(read_only);
-    reading_->begin([project](const Progress&) { return stored_spots(project); });
+    reading_->start([project](const Progress&) { return stored_spots(project); });
 }
 
 std::string SpotList::close() {
@@ -48,23 +48,22 @@ std::string SpotList::close() {
 }
 
 bool SpotList::update() {
-    auto read = reading_->take();
-    const bool stored = storing_->take().has_value();
-    const std::string unread = reading_->take_problem(), problem = storing_->take_problem();
-    if (read) spots_ = std::move(*read);
-    if (stored && !storing_->pending()) unsaved_ = false;
-    if (stored || !problem.empty()) failure_ = problem;
+    const bool read = reading_->poll(), stored = storing_->poll();
+    if (auto spots = reading_->take()) spots_ = std::move(*spots);
     // What cannot be read is not written over.
-    if (!unread.empty()) blocked_ = "the stored spots cannot be read: " + unread;
-    return read || stored || !unread.empty() || !problem.empty();
+    if (read && !reading_->problem().empty())
+        blocked_ = "the stored spots cannot be read: " + reading_->problem();
+    if (stored) failure_ = storing_->problem();
+    if (stored && failure_.empty() && !storing_->pending()) unsaved_ = false;
+    return read || stored;
 }
 
 void SpotList::keep() {
     if (project_.empty() || !blocked_.empty()) return;
     unsaved_ = true;
-    storing_->begin([project = project_, spots = spots_](const Progress&) {
+    storing_->start_after([project = project_, spots = spots_](const Progress&) {
         store_spots(project, spots);
-        return true;
+        return Nothing{};
     });
 }
 

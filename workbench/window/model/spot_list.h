@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "workbench/session/stored_spots.h"
-#include "workbench/window/model/latest_task.h"
+#include "workbench/session/task.h"
 
 namespace vesselbench {
 
@@ -68,8 +68,8 @@ private:
     std::string failure_;  ///< why the last change could not be stored
     bool unsaved_ = false;
     // Always there, but while what they do is waited for.
-    std::optional<LatestTask<std::vector<Spot>>> reading_;
-    std::optional<LatestTask<bool>> storing_;
+    std::optional<Task<std::vector<Spot>>> reading_;
+    std::optional<Task<Nothing>> storing_;
 };
 
 }  // namespace vesselbench

@@ -9,29 +9,20 @@ namespace vesselbench {
 
 namespace {
 
-class Searching final : public GallerySearches::Work {
-public:
-    void answer(const GalleryQuestion& question, const GallerySearches::Turn& turn) override {
-        GalleryAnswer answer;
-        const auto receive = [&](PresetSuggestion found) {
-            answer.found.push_back(std::make_shared<const PresetSuggestion>(std::move(found)));
-            turn.send(answer);
-        };
-        suggest_presets(*question.operation, question.scene, question.given, receive,
-                        turn.progress);
-    }
-
-    void forget() override {}
-};
+void search_presets(const Operation& operation, const Scene& scene, const Arguments& given,
+                    const TaskTurn<GalleryAnswer>& turn) {
+    GalleryAnswer answer;
+    const auto receive = [&](PresetSuggestion found) {
+        answer.found.push_back(std::make_shared<const PresetSuggestion>(std::move(found)));
+        turn.send(answer);
+    };
+    suggest_presets(operation, scene, given, receive, turn.progress);
+}
 
 }  // namespace
 
-GallerySearches::Maker gallery_searching() {
-    return [] { return std::make_unique<Searching>(); };
-}
-
 SuggestionGallery::SuggestionGallery(const std::function<void()>& wake)
-    : spots(wake), searches_(wake, gallery_searching()) {}
+    : spots(wake), searches_(wake) {}
 
 // --- following the form
 
@@ -45,7 +36,7 @@ bool SuggestionGallery::update(const LiveSmoothing::Followed& followed, const Li
         take_original(followed.document.current());
         if (followed.form->valid()) ask(followed, live);
     }
-    return searches_.update() || spotted;
+    return searches_.poll() || spotted;
 }
 
 void SuggestionGallery::show(GalleryMode mode) {
@@ -54,7 +45,7 @@ void SuggestionGallery::show(GalleryMode mode) {
     mode_ = mode;
     picks_ = false;
     if (mode != GalleryMode::Off || !searches_.pending()) return;
-    searches_.interrupt();
+    searches_.drop();
     asked_ = {};
 }
 
@@ -75,9 +66,10 @@ void SuggestionGallery::ask(const LiveSmoothing::Followed& followed, const LiveS
     if (now == asked_) return;
     asked_ = std::move(now);
     searches_.forget();  // the old ones suit another model, or other arguments
-    searches_.ask({.scene = *followed.document.current(),
-                   .operation = &followed.form->operation(),
-                   .given = asked_.given});
+    searches_.start([scene = *followed.document.current(), &operation = followed.form->operation(),
+                     given = asked_.given](const TaskTurn<GalleryAnswer>& turn) {
+        search_presets(operation, scene, given, turn);
+    });
 }
 
 std::shared_ptr<const PresetSuggestion> SuggestionGallery::suggestion(std::size_t i) const {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "workbench/session/task.h"
 #include "workbench/suggest/preset_suggestions.h"
-#include "workbench/window/model/latest_worker.h"
 #include "workbench/window/model/live_smoothing.h"
 #include "workbench/window/model/spot_list.h"
 
@@ -20,20 +20,10 @@ enum class GalleryMode {
     Spots    ///< beside the model, one spot magnified under each of them (Fig. 6.19)
 };
 
-struct GalleryQuestion {
-    Scene scene;
-    const Operation* operation = nullptr;
-    Arguments given;  ///< without defaults
-};
-
 /// Those found so far: little, medium, strong.
 struct GalleryAnswer {
     std::vector<std::shared_ptr<const PresetSuggestion>> found;
 };
-
-using GallerySearches = LatestWorker<GalleryQuestion, GalleryAnswer>;
-
-[[nodiscard]] GallerySearches::Maker gallery_searching();
 
 /// The gallery of suggestions for a smoothing form, and the spots that are inspected in it. What
 /// was found stays while the gallery is closed, until it no longer suits the form. Used by the
@@ -102,7 +92,7 @@ private:
         bool operator==(const Asked&) const = default;
     };
 
-    GallerySearches searches_;
+    Task<GalleryAnswer> searches_;
     GalleryMode mode_ = GalleryMode::Off;
     bool possible_ = false;  ///< a form smooths a model
     Asked asked_;

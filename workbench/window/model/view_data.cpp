@@ -20,14 +20,15 @@ ViewData::ViewData(const std::function<void()>& wake) : colours_(wake), lines_(w
 
 const std::shared_ptr<const CenterlineGraph>& ViewData::centerlines() const {
     static const Lines kNone;
-    return lines_.result() ? *lines_.result() : kNone;
+    return lines_.newest() ? *lines_.newest() : kNone;
 }
 
 void ViewData::ask_colours(const Document& document, Asked now) {
     if (now == asked_colours_) return;
     asked_colours_ = now;
-    if (now.scene < 0) return colours_.forget();
-    colours_.begin([kind = now.kind, scene = *document.shown()](const Progress& progress) {
+    colours_.forget();
+    if (now.scene < 0) return;
+    colours_.start([kind = now.kind, scene = *document.shown()](const Progress& progress) {
         return colour_values(kind, scene, progress);
     });
 }
@@ -35,8 +36,9 @@ void ViewData::ask_colours(const Document& document, Asked now) {
 void ViewData::ask_lines(const Document& document, Asked now) {
     if (now == asked_lines_) return;
     asked_lines_ = now;
-    if (now.scene < 0) return lines_.forget();
-    lines_.begin([surface = *document.shown()->surface](const Progress& progress) {
+    lines_.forget();
+    if (now.scene < 0) return;
+    lines_.start([surface = *document.shown()->surface](const Progress& progress) {
         return centerlines_of(surface, {}, progress);
     });
 }
@@ -51,7 +53,7 @@ bool ViewData::update(const Document& document, const ViewChoice& view, const Sh
         ask_colours(document, coloured ? Asked{number, view.colouring} : Asked{});
         ask_lines(document, any && wants_lines(view, layers) ? Asked{number} : Asked{});
     }
-    const bool colours = colours_.update(), lines = lines_.update();
+    const bool colours = colours_.poll(), lines = lines_.poll();
     return colours || lines;
 }
 

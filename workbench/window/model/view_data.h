@@ -5,7 +5,7 @@
 #include <string>
 
 #include "geometry/vessel/centerlines/centerline_graph.h"
-#include "workbench/window/model/background_search.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/colourings.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/view_choice.h"
@@ -25,7 +25,7 @@ public:
 
     /// Null while there are none, and for patches and deviation.
     [[nodiscard]] const std::shared_ptr<const ColourValues>& colours() const {
-        return colours_.result();
+        return colours_.newest();
     }
 
     /// Why there are no colours; empty: no problem.
@@ -56,8 +56,8 @@ private:
 
     using Lines = std::shared_ptr<const CenterlineGraph>;
 
-    BackgroundSearch<ColourValues> colours_;
-    BackgroundSearch<Lines> lines_;
+    Task<ColourValues> colours_;
+    Task<Lines> lines_;
     Asked asked_colours_, asked_lines_;
 };
 

@@ -130,10 +130,22 @@ bool Workplace::update_places() {
     if (!same_scene || (tips && !searched_tips_)) {
         searched_scenes_ = document.scene_changes();
         searched_tips_ = tips;
-        const Scene* scene = document.shown();
-        search_.begin(scene != nullptr && scene->surface ? &*scene->surface : nullptr, tips);
+        search_places(document.shown(), tips);
     }
-    return search_.update();
+    if (!search_.poll()) return false;
+    auto places = search_.take();
+    places_ = places ? std::move(*places) : SurfacePlaces{.problem = search_.problem()};
+    return true;
+}
+
+/// Of no surface there are no places.
+void Workplace::search_places(const Scene* scene, bool tips) {
+    search_.forget();
+    places_ = {};
+    if (scene == nullptr || !scene->surface || scene->surface->empty()) return;
+    search_.start([surface = *scene->surface, tips](const Progress& progress) {
+        return places_of(surface, tips, progress);
+    });
 }
 
 void Workplace::renew_lists() {

@@ -18,11 +18,11 @@
 #include "workbench/window/model/openings_model.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
-#include "workbench/window/model/place_search.h"
 #include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/suggestion_gallery.h"
+#include "workbench/window/model/surface_places.h"
 #include "workbench/window/model/unit_question.h"
 #include "workbench/window/model/view_data.h"
 #include "workbench/window/model/worst_places.h"
@@ -171,7 +171,7 @@ public:
     void pick_label(int label);
 
     /// The places of the shown surface; vessel ends only if the form wants them.
-    [[nodiscard]] const SurfacePlaces& surface_places() const { return search_.places(); }
+    [[nodiscard]] const SurfacePlaces& surface_places() const { return places_; }
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
 
@@ -336,6 +336,7 @@ private:
     void tell_difference();
     void tell_fallback();
     [[nodiscard]] bool update_places();
+    void search_places(const Scene* scene, bool tips);
     [[nodiscard]] Arguments suggested_arguments(const Operation& operation) const;
     void arm_required();
     [[nodiscard]] bool preview_is_current() const;
@@ -356,7 +357,8 @@ private:
     FileQuestion question_ = FileQuestion::None;
     std::string asked_parameter_;
     std::string armed_;
-    PlaceSearch search_;
+    Task<SurfacePlaces> search_;
+    SurfacePlaces places_;
     ViewData view_data_;
     std::filesystem::path picture_file_;
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search

@@ -125,14 +125,15 @@ void FileDialog::enter(const fs::path& folder) {
     listing_ = {.folder = folder};
     typed_folder_ = folder.string();
     error_.clear();
-    reading_.begin([folder, suffixes = suffixes_for(question_)](const Progress& progress) {
+    reading_.start([folder, suffixes = suffixes_for(question_)](const Progress& progress) {
         return list_folder(folder, suffixes, progress);
     });
 }
 
 void FileDialog::take_listing() {
+    if (!reading_.poll()) return;
     auto listing = reading_.take();
-    if (const std::string problem = reading_.take_problem(); !problem.empty()) error_ = problem;
+    if (!listing) error_ = reading_.problem();
     if (!listing || listing->folder != listing_.folder) return;
     listing_ = std::move(*listing);
     if (!listing_.error.empty()) error_ = listing_.error;

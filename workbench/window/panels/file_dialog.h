@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "workbench/session/task.h"
 #include "workbench/window/model/folder_listing.h"
-#include "workbench/window/model/latest_task.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
@@ -45,7 +45,7 @@ private:
 
     FileQuestion question_ = FileQuestion::None;
     FolderListing listing_;  ///< without entries while they are read
-    LatestTask<FolderListing> reading_;
+    Task<FolderListing> reading_;
     std::string typed_folder_;
     bool folder_entered_ = false;  ///< by Enter, in this frame
     std::string name_;

@@ -42,6 +42,7 @@ void BranchHighlight::update(const OperationForm* form, const Surface* surface,
         clear();
         return;
     }
+    static_cast<void>(task_.poll());
     if (const auto answer = task_.take()) {
         clear();
         if (*answer) drawn_ = std::make_shared<const DrawnSurface>(**answer);
@@ -51,7 +52,7 @@ void BranchHighlight::update(const OperationForm* form, const Surface* surface,
     if (positions_ != surface->positions) clear();
     asked_ = now;
     positions_ = surface->positions;
-    task_.begin([surface = *surface, ask = *now](const Progress& progress) {
+    task_.start_after([surface = *surface, ask = *now](const Progress& progress) {
         return lit_part(surface, ask.tip, ask.margin, progress);
     });
 }

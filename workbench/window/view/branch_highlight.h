@@ -6,7 +6,7 @@
 
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
-#include "workbench/window/model/latest_task.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/operation_form.h"
 
 namespace vesselbench {
@@ -44,7 +44,7 @@ private:
     std::optional<Question> asked_;
     std::shared_ptr<const Positions> positions_;  ///< of the surface
     std::shared_ptr<const DrawnSurface> drawn_;
-    LatestTask<std::optional<DrawingArrays>> task_;
+    Task<std::optional<DrawingArrays>> task_;
     int version_ = 0;
 };
 

@@ -105,17 +105,16 @@ void ClipSection::update_cells(const PanelContext& c) {
         if (cells_) ++version_;
         cells_.reset();
         asked_ = {};
-        if (search_.result() || search_.pending()) search_.forget();
-        static_cast<void>(search_.update());
+        search_.forget();
         return;
     }
     if (range_ != c.place.view.range().value_or(colours->range)) ++version_;
     range_ = c.place.view.range().value_or(colours->range);
-    if (search_.update()) take_cells();
+    if (search_.poll()) take_cells();
     const Asked now{colours, plane_->point, plane_->normal};
     if (now == asked_ || search_.pending()) return;  // a dragged plane shows what is ready
     asked_ = now;
-    search_.renew([mesh = scene->volume_mesh, colours,
+    search_.start([mesh = scene->volume_mesh, colours,
                    plane = Plane{now.point, now.normal}](const Progress& progress) {
         return prepared(*mesh, *colours, plane, progress);
     });
@@ -125,9 +124,9 @@ void ClipSection::take_cells() {
     ++version_;
     cells_.reset();
     outlines_.reset();
-    const auto& ready = search_.result();
+    auto ready = search_.take();  // none: it failed
     if (!ready || ready->values.empty()) return;
-    cells_ = std::make_shared<DrawnSurface>(ready->arrays);
+    cells_ = std::make_shared<DrawnSurface>(std::move(ready->arrays));
     cells_->set_values(ready->values);
     outlines_ = std::make_shared<const DrawnLines>(ready->outlines);
 }

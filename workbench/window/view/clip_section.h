@@ -8,7 +8,7 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "meshing/tetrahedra/volume_section.h"
-#include "workbench/window/model/background_search.h"
+#include "workbench/session/task.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_strips.h"
 
@@ -69,7 +69,7 @@ private:
     void take_cells();
     [[nodiscard]] std::string place_text(const ClipChoice& choice) const;
 
-    BackgroundSearch<Prepared> search_;
+    Task<Prepared> search_;
     std::optional<ClipPlane> plane_;
     std::shared_ptr<const Positions> measured_;  ///< whose box it is
     Bounds box_;

@@ -67,7 +67,8 @@ void MeasuringTool::update(const PanelContext& c, const SeenModel& seen) {
     if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) forget();
     tool_ = c.place.view.tool;
     seen_scenes_ = document.scene_changes();
-    if (search_.update() && search_.result()) diameters_.push_back(*search_.result());
+    static_cast<void>(search_.poll());
+    if (const auto found = search_.take()) diameters_.push_back(*found);
     if (const auto picked = picker_.result()) take(*picked);
     const bool measures = tool_ != MeasureTool::None && c.place.armed().empty();
     if (measures && seen.surface != nullptr && seen.clicked) add_click(seen);
@@ -101,7 +102,8 @@ void MeasuringTool::search_diameter(const PanelContext& c) {
     if (places_.empty() || search_.pending() || data.finds_centerlines()) return;
     const auto& lines = data.centerlines();
     if (!lines || scene == nullptr || !scene->surface) return places_.clear();
-    search_.begin([surface = *scene->surface, lines, point = places_.front()](const Progress&) {
+    search_.forget();
+    search_.start([surface = *scene->surface, lines, point = places_.front()](const Progress&) {
         return diameter_or_throw(surface, *lines, point);
     });
     places_.pop_front();

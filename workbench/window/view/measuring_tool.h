@@ -7,7 +7,7 @@
 
 #include "geometry/vessel/centerlines/vessel_diameter.h"
 #include "gpu/render/pick.h"
-#include "workbench/window/model/background_search.h"
+#include "workbench/session/task.h"
 #include "workbench/window/view/view_places.h"
 #include "workbench/window/view/view_strips.h"
 
@@ -58,7 +58,7 @@ private:
 
     Picker picker_;
     std::function<void()> wake_;
-    BackgroundSearch<VesselDiameter> search_;
+    Task<VesselDiameter> search_;
     MeasureTool tool_ = MeasureTool::None;
     int seen_scenes_ = -1;
     std::deque<Click> clicks_;

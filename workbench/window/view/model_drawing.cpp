@@ -37,21 +37,21 @@ void ModelDrawing::reshape(const Surface& surface) {
 }
 
 void ModelDrawing::lay_out(const Surface& surface) {
-    task_.begin([surface, known = drawn_ ? drawn_->arrays().layout : nullptr](const Progress&) {
-        return prepare_drawing(surface, known);
-    });
+    const auto known = drawn_ ? drawn_->arrays().layout : nullptr;
+    task_.start_after(
+        [surface, known](const Progress&) { return prepare_drawing(surface, known); });
 }
 
 bool ModelDrawing::update() {
     new_ = false;
     bool changed = std::exchange(moved_, false);
-    if (auto arrays = task_.take()) {
-        upload([&] { take(std::move(*arrays)); });
-        changed = true;
-        new_ = drawn_ != nullptr;
-    }
-    if (const std::string problem = task_.take_problem(); !problem.empty()) {
-        fail(problem);
+    if (task_.poll()) {
+        if (auto arrays = task_.take()) {
+            upload([&] { take(std::move(*arrays)); });
+            new_ = drawn_ != nullptr;
+        } else {
+            fail(task_.problem());
+        }
         changed = true;
     }
     upload([&] { changed = upload_values() || changed; });

@@ -11,8 +11,8 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/colourings.h"
-#include "workbench/window/model/latest_task.h"
 #include "workbench/window/model/live_stroke.h"
 
 namespace vesselbench {
@@ -111,7 +111,7 @@ private:
 
     std::shared_ptr<DrawnSurface> drawn_;
     Surface shown_;  ///< as drawn, with all moves
-    LatestTask<DrawingArrays> task_;
+    Task<DrawingArrays> task_;
     std::vector<SceneMove> late_;  ///< moves since a layout was asked for
     bool moved_ = false;           ///< since the last update
     bool new_ = false;

@@ -83,14 +83,15 @@ void OverlayLayers::update_source(const PanelContext& c) {
         asked_source_ = positions;
         if (source_) ++version_;
         source_.reset();
+        source_search_.forget();
         if (wanted)
-            source_search_.begin(
+            source_search_.start(
                 [surface = *surface](const Progress&) { return prepare_drawing(surface); });
-        else
-            source_search_.forget();
     }
-    if (!source_search_.update() || !source_search_.result()) return;
-    source_ = std::make_shared<DrawnSurface>(*source_search_.result());
+    static_cast<void>(source_search_.poll());
+    auto arrays = source_search_.take();
+    if (!arrays) return;
+    source_ = std::make_shared<DrawnSurface>(std::move(*arrays));
     ++version_;
 }
 

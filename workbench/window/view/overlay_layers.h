@@ -7,7 +7,7 @@
 
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
-#include "workbench/window/model/background_search.h"
+#include "workbench/session/task.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/screen_places.h"
 
@@ -44,7 +44,7 @@ private:
     void update_source(const PanelContext& context);
     void update_lines(const PanelContext& context);
 
-    BackgroundSearch<DrawingArrays> source_search_;
+    Task<DrawingArrays> source_search_;
     std::shared_ptr<const Positions> asked_source_;
     std::shared_ptr<DrawnSurface> source_;
     std::shared_ptr<const CenterlineGraph> graph_;  ///< that is drawn

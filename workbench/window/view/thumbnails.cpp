@@ -7,7 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "workbench/session/known_results.h"
-#include "workbench/window/model/latest_task.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/thumbnail_files.h"
 #include "workbench/window/view/thumbnail_drawing.h"
 
@@ -52,7 +52,7 @@ struct Thumbnails::Impl {
     void keep(const Document& document);
     [[nodiscard]] std::optional<ResultId> result_of(StateId state);
 
-    [[nodiscard]] bool making() const { return reading || arrays.pending(); }
+    [[nodiscard]] bool making() const { return reading.pending() || arrays.pending(); }
 
     fs::path cache;
     std::map<fs::path, Texture> projects;  ///< by their files
@@ -67,10 +67,10 @@ struct Thumbnails::Impl {
     std::map<ResultId, Made> made;
     std::optional<StateId> wanted;
     ResultId making_result = 0;  ///< what is read or laid out
-    std::optional<Job<Scene>> reading;
-    LatestTask<DrawingArrays> arrays;
+    Task<Scene> reading;
+    Task<DrawingArrays> arrays;
     ResultId kept = 0;  ///< whose picture is the project's
-    LatestTask<bool> writing;
+    Task<Nothing> writing;
     std::optional<ThumbnailDrawing> drawing;
 };
 
@@ -84,7 +84,7 @@ bool Thumbnails::pending() const {
 }
 
 void Thumbnails::update(const Document& document, Renderer& renderer) {
-    (void)impl_->writing.take();
+    static_cast<void>(impl_->writing.poll());
     impl_->may_load = true;
     impl_->loads_later = false;
     impl_->follow(document);
@@ -101,7 +101,7 @@ void Thumbnails::Impl::follow(const Document& document) {
     if (project != document.project()) {
         project = document.project();
         made.clear();
-        reading.reset();
+        reading = {};
         arrays.forget();
         making_result = kept = 0;
     }
@@ -137,14 +137,11 @@ void Thumbnails::Impl::begin(const Document& document) {
 }
 
 void Thumbnails::Impl::take_scene() {
-    if (!reading || !reading->ended()) return;
-    const Job<Scene> job = *std::exchange(reading, std::nullopt);
-    try {
-        lay_out(job.result());
-    } catch (const Cancelled&) {  // asked for again when it is seen again
-    } catch (const std::exception&) {
-        made[making_result] = {};
-    }
+    if (!reading.poll()) return;  // one that was cancelled is asked for again when it is seen again
+    if (const auto scene = reading.take())
+        lay_out(*scene);
+    else
+        made[making_result] = {};  // no picture
 }
 
 void Thumbnails::Impl::lay_out(const Scene& scene) {
@@ -152,20 +149,21 @@ void Thumbnails::Impl::lay_out(const Scene& scene) {
         made[making_result] = {};
         return;
     }
-    arrays.begin([surface = *scene.surface](const Progress&) { return thumbnail_arrays(surface); });
+    arrays.start([surface = *scene.surface](const Progress&) { return thumbnail_arrays(surface); });
 }
 
 void Thumbnails::Impl::take_arrays(Renderer& renderer) {
+    if (!arrays.poll()) return;
     auto ready = arrays.take();
-    if (!arrays.take_problem().empty()) made[making_result] = {};  // no picture
-    if (!ready) return;
     Made& entry = made[making_result];
+    entry = {};  // no picture
+    if (!ready) return;
     try {
         if (!drawing) drawing.emplace();
         entry.picture = drawing->draw(renderer, std::move(*ready));
         entry.texture = texture_of(entry.picture);
     } catch (const std::exception&) {
-        entry = {};  // no picture
+        entry = {};
     }
 }
 
@@ -182,10 +180,10 @@ void Thumbnails::Impl::keep(const Document& document) {
     kept = now;
     if (found->second.picture.rgba.empty()) return;
     projects.erase(thumbnail_file(cache, project));
-    writing.begin(
+    writing.start_after(
         [cache = cache, project = project, picture = found->second.picture](const Progress&) {
             save_thumbnail(cache, project, picture);
-            return true;
+            return Nothing{};
         });
 }
 

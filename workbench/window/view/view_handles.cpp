@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include "geometry/kernel/same_surface.h"
 #include "workbench/window/model/crop_handles.h"
 #include "workbench/window/model/cut_handles.h"
 #include "workbench/window/model/length_handles.h"
@@ -31,7 +32,7 @@ void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colo
 }  // namespace
 
 void ViewHandles::forget() {
-    search_.update(nullptr, std::nullopt);
+    take_cut(nullptr, std::nullopt);
     cut_form_.reset();
     shape_ = {};
     positions_.reset();
@@ -64,16 +65,44 @@ void ViewHandles::take_shape(const PanelContext& c) {
     const bool cuts = form && model != nullptr && has_field(*form, Meaning::Planes);
     cut_form_.reset();
     if (cuts) cut_form_ = c.place.openings().lists_ends() ? c.place.openings().cut_form() : form;
-    search_.update(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
+    take_cut(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
     shape_ = {};
     if (!form || model == nullptr) return;
     if (has_field(*form, Meaning::Box))
         shape_ = crop_shape(*form, bounds_);
     else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
-    else if (cut_form_ && search_.cut())
-        shape_ = cut_shape(*cut_form_, *search_.cut());
+    else if (cut_form_ && cut_)
+        shape_ = cut_shape(*cut_form_, *cut_);
     if (!c.place.armed().empty()) shape_.handles.clear();
+}
+
+/// Begins a search if the question or the surface is another one, and takes a result. While a plane
+/// is dragged, the search that runs is completed, so that cuts are seen meanwhile.
+void ViewHandles::take_cut(const Surface* surface, const std::optional<CutQuestion>& question) {
+    if (surface == nullptr || !question) {
+        search_.forget();
+        asked_.reset();
+        asked_surface_ = {};
+        cut_.reset();
+        return;
+    }
+    if (search_.poll()) {
+        cut_ = search_.take();
+        if (!cut_) cut_ = Cut{.problem = search_.problem()};
+    }
+    const bool same = same_surface(asked_surface_, *surface);
+    if (same && asked_ == question) return;
+    if (!same || !asked_ || asked_->tip != question->tip) {
+        search_.forget();
+        cut_.reset();
+    }
+    asked_ = question;
+    asked_surface_ = *surface;
+    search_.start_after([surface = asked_surface_, question = *question,
+                         known = cut_ ? cut_->branch : nullptr](const Progress& progress) {
+        return find_cut(surface, question, known, progress);
+    });
 }
 
 // --- dragging
@@ -88,7 +117,7 @@ void ViewHandles::find_hot(const PanelContext& c, const PixelView& view, const V
 void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
     start_ = {.index = *hot_,
               .handle = shape_.handles[*hot_],
-              .cut = search_.cut(),
+              .cut = cut_,
               .cut_form = cut_form_,
               .openings = openings_,
               .cursor = cursor,
@@ -174,8 +203,7 @@ void ViewHandles::draw(PanelContext& c, const PixelView& screen) const {
                        {at->x() + c.ui.em * 1.1F, at->y() + c.ui.em * (note.below ? 1.8F : 0.0F)},
                        note.text);
     if (!c.place.armed().empty() || c.place.searches_places()) return;
-    const std::optional<Cut>& cut = search_.cut();
-    if (cut && !cut->problem.empty()) return draw_hint(c.ui, rect_of(screen), cut->problem);
+    if (cut_ && !cut_->problem.empty()) return draw_hint(c.ui, rect_of(screen), cut_->problem);
     if (state_ == State::Idle && !hot_) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (state_ == State::Dragging)

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "geometry/kernel/measure.h"
-#include "workbench/window/model/cut_search.h"
+#include "geometry/vessel/openings/planned_cut.h"
+#include "workbench/session/task.h"
 #include "workbench/window/model/form_shape.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/screen_places.h"
@@ -63,6 +64,7 @@ private:
 
     void take_model(const PanelContext& context);
     void take_shape(const PanelContext& context);
+    void take_cut(const Surface* surface, const std::optional<CutQuestion>& question);
     void find_hot(const PanelContext& context, const PixelView& view, const ViewPixel& cursor);
     void begin(PanelContext& context, const PixelView& view, const ViewPixel& cursor);
     void follow(PanelContext& context, const PixelView& view, const ViewPixel& cursor);
@@ -70,7 +72,10 @@ private:
                                                double snap) const;
     void draw_handle(PanelContext& context, const PixelView& screen, std::size_t index) const;
 
-    CutSearch search_;
+    Task<Cut> search_;
+    std::optional<CutQuestion> asked_;  ///< none: there is nothing to cut
+    Surface asked_surface_;
+    std::optional<Cut> cut_;  ///< the last one of the question's branch; none: not known yet
     std::optional<OperationForm> cut_form_;  ///< of the one cut that has handles
     FormShape shape_;
     std::shared_ptr<const Positions> positions_;  ///< whose bounds these are

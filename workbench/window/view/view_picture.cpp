@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
+#include "workbench/session/task.h"
 
 namespace vesselbench {
 
@@ -41,13 +42,13 @@ struct ViewPicture::Impl {
     static void read(const ImDrawList*, const ImDrawCmd* command) {
         auto& own = *static_cast<Impl*>(command->UserCallbackData);
         const Picture picture = read_pixels(own.rect, own.window_height);
-        own.saving.begin([picture, file = own.file](const Progress&) {
+        own.saving.start_after([picture, file = own.file](const Progress&) {
             write_file(file, png(picture));
             return file;
         });
     }
 
-    BackgroundSearch<fs::path> saving;
+    Task<fs::path> saving;
     fs::path file;
     ScreenRect rect;
     float window_height = 0;
@@ -56,18 +57,20 @@ struct ViewPicture::Impl {
 ViewPicture::ViewPicture(std::function<void()> wake)
     : impl_(std::make_unique<Impl>(std::move(wake))) {}
 
-ViewPicture::~ViewPicture() = default;
+/// A picture that was taken is written.
+ViewPicture::~ViewPicture() {
+    impl_->saving.wait();
+}
 
 bool ViewPicture::pending() const {
     return impl_->saving.pending();
 }
 
 void ViewPicture::collect(Document& document) {
-    const auto& saving = impl_->saving;
-    if (!impl_->saving.update()) return;
-    if (saving.result())
-        document.tell(
-            make_message(MessageKind::Success, "Saved picture " + saving.result()->string()));
+    auto& saving = impl_->saving;
+    if (!saving.poll()) return;
+    if (const auto file = saving.take())
+        document.tell(make_message(MessageKind::Success, "Saved picture " + file->string()));
     else
         document.tell(make_message(MessageKind::Error, saving.problem()));
 }

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 
-#include "workbench/window/model/background_search.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
