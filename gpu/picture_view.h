@@ -1,6 +1,6 @@
 #pragma once
 
-#include "gpu/picture.h"
+#include "gpu/picture_options.h"
 #include "gpu/render/layers.h"
 
 namespace vesselbench {

@@ -18,7 +18,6 @@
 #include <gdcmTrace.h>
 
 #include "geometry/formats/image_bytes.h"
-#include "geometry/formats/image_formats.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/inner_file.h"
@@ -366,12 +365,6 @@ std::vector<std::string> files_in(const std::string& folder) {
     return files;
 }
 
-/// The row of DICOM in the table of image formats.
-const Format& dicom_format() {
-    return *std::ranges::find_if(image_formats(),
-                                 [](const Format& row) { return row.sniff == is_dicom; });
-}
-
 void check_one_series(const std::vector<Frames>& files, const std::string& name) {
     std::map<std::string, int> series;
     for (const Frames& file : files) ++series[file.series];
@@ -389,6 +382,17 @@ void check_one_series(const std::vector<Frames>& files, const std::string& name)
 
 bool is_dicom(std::string_view head) {
     return head.size() >= 132 && head.substr(128, 4) == "DICM";
+}
+
+const Format& dicom_format() {
+    static const Format format = {.name = "DICOM",
+                                  .kind = FormatKind::Image,
+                                  .suffixes = {".dcm", ".ima"},
+                                  .content = "several frames, or a folder of slices",
+                                  .folder = "of DICOM slices",
+                                  .sniff = is_dicom,
+                                  .any_name = true};
+    return format;
 }
 
 ImageFile read_dicom(const std::string& path) {

@@ -3,7 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/formats/image_file.h"
+#include "geometry/formats/format.h"
+#include "geometry/formats/loaded_image.h"
 
 namespace vesselbench {
 
@@ -26,5 +27,8 @@ namespace vesselbench {
 
 /// True if a file that begins with these bytes has DICOM's preamble.
 [[nodiscard]] bool is_dicom(std::string_view head);
+
+/// What the table of image formats says about DICOM.
+[[nodiscard]] const Format& dicom_format();
 
 }  // namespace vesselbench

@@ -1,22 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "geometry/image/image.h"
+#include "geometry/formats/loaded_image.h"
 #include "geometry/kernel/progress.h"
 
 namespace vesselbench {
-
-/// An image as read from a file.
-struct ImageFile {
-    Image image;                 ///< [mm], LPS, with the file's true orientation
-    std::string format;          ///< name of its row in image_formats()
-    std::optional<double> unit;  ///< [mm] the file's stated unit; none if it states none
-    std::vector<std::string>
-        notes;  ///< what was missing in the file, and the assumptions made instead
-};
 
 /// Reads an image with its orientation, converted to [mm] and LPS, in a format of image_formats():
 /// by its suffix, or by its content if the format recognises it; a folder holds the slices of one

@@ -42,14 +42,7 @@ const std::vector<ImageFormat>& image_formats() {
           .content = "legacy structured points",
           .sniff = is_legacy_structured_points},
          read_legacy_vtk_image},
-        {{.name = "DICOM",
-          .kind = Image,
-          .suffixes = {".dcm", ".ima"},
-          .content = "several frames, or a folder of slices",
-          .folder = "of DICOM slices",
-          .sniff = is_dicom,
-          .any_name = true},
-         read_dicom}};
+        {dicom_format(), read_dicom}};
     return rows;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/formats/format.h"
-#include "geometry/formats/image_file.h"
+#include "geometry/formats/loaded_image.h"
 
 namespace vesselbench {
 

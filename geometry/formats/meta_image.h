@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geometry/formats/image_file.h"
+#include "geometry/formats/loaded_image.h"
 #include "geometry/kernel/progress.h"
 
 namespace vesselbench {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "geometry/formats/image_file.h"
+#include "geometry/formats/loaded_image.h"
 
 namespace vesselbench {
 

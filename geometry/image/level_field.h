@@ -1,9 +1,8 @@
 #pragma once
 
-#include <optional>
-
 #include "geometry/image/contrast_fit.h"
 #include "geometry/image/image.h"
+#include "geometry/image/vessel_body.h"
 #include "geometry/kernel/progress.h"
 
 namespace vesselbench {
@@ -25,12 +24,6 @@ struct WallLevels {
 struct LevelField {
     Image levels;  ///< smooth along the wall; away from it, the threshold it started from
     WallLevels wall;
-};
-
-/// Which body of an image is the vessel.
-struct VesselBody {
-    std::optional<Vec3> seed;  ///< [mm] a point in it; absent: the largest body
-    bool all = false;          ///< all bodies are vessels
 };
 
 /// Finds the levels whose surface encloses what the vessel fills, however thin it is. A scanner's

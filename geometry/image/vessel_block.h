@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
-#include "geometry/image/level_field.h"
+#include "geometry/image/vessel_body.h"
 
 namespace vesselbench {
 

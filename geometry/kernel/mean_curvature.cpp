@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/kernel/measure.h"
+#include "geometry/kernel/vertex_normals.h"
 
 namespace vesselbench {
 

@@ -9,6 +9,7 @@
 #include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/spread.h"
 #include "geometry/kernel/surface.h"
+#include "geometry/kernel/vertex_normals.h"
 
 namespace vesselbench {
 
@@ -41,20 +42,6 @@ struct Bounds {
 /// Edge lengths [mm] over all edges, each counted once.
 [[nodiscard]] Spread edge_lengths(const Surface& surface);
 [[nodiscard]] double mean_edge_length(const Surface& surface);
-
-/// Unit vertex normals, mean of the triangle normals weighted by the angle at the vertex; zero
-/// where that is undefined. Source: Thuermer and Wuethrich, "Computing vertex normals from
-/// polygonal facets", 1998.
-[[nodiscard]] Positions vertex_normals(const Surface& surface);
-
-/// The same, computed once per shape (derived_cache.h).
-[[nodiscard]] std::shared_ptr<const Positions> vertex_normals_of(
-    const Surface& surface, DerivedCache& cache = derived_cache());
-
-/// Per vertex the largest angle [deg] between the vertex normal and the normals of its triangles
-/// (thesis 5.4.1).
-[[nodiscard]] std::vector<double> normal_curvature(const Surface& surface,
-                                                   DerivedCache& cache = derived_cache());
 
 struct PatchMeasures {
     std::size_t row = 0;  ///< of the patch table

@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 

@@ -1,7 +1,7 @@
 #include "geometry/kernel/regular_file.h"
 
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/whole_file.h"
 
 namespace vesselbench {
 

@@ -11,11 +11,6 @@ namespace vesselbench {
 
 namespace fs = std::filesystem;
 
-std::string bare_name(const fs::path& path) {
-    const fs::path normal = path.lexically_normal();
-    return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
-}
-
 std::string writing_text(const fs::path& path) {
     return "writing " + bare_name(path);
 }

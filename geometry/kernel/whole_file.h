@@ -6,12 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/progress.h"
 
 namespace vesselbench {
-
-/// Name of a file or folder without the folders it lies in, for error texts.
-[[nodiscard]] std::string bare_name(const std::filesystem::path& path);
 
 /// "writing a.stl", for progress.
 [[nodiscard]] std::string writing_text(const std::filesystem::path& path);

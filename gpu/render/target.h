@@ -1,7 +1,7 @@
 #pragma once
 
 #include "gpu/objects.h"
-#include "gpu/picture.h"
+#include "gpu/picture_options.h"
 #include "gpu/render/layers.h"
 
 namespace vesselbench {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/kernel/surface.h"
+#include "smoothing/context/cap_parameters.h"
 
 namespace vesselbench {
 
@@ -16,12 +17,6 @@ struct Cap {
     std::vector<VertexId> rim;   ///< vertices with a triangle beyond, or on a boundary, ascending
     Vec3 normal = Vec3::Zero();  ///< unit mean normal, outward
     bool from_patch = false;     ///< a patch other than the wall, and therefore a cap by definition
-};
-
-/// Parameters of the cap detection (thesis 5.3.4).
-struct CapParameters {
-    double flat_angle_deg = 5.0;  ///< largest angle of vertex and face normals in a flat area [deg]
-    int smallest_faces = 10;      ///< flat areas of fewer faces are no caps
 };
 
 /// Finds the caps of a surface in any orientation: flat areas, grown up to the edges around

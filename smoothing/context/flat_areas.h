@@ -6,7 +6,7 @@
 
 #include "geometry/kernel/surface.h"
 #include "smoothing/context/area_normals.h"
-#include "smoothing/context/caps.h"
+#include "smoothing/context/cap_parameters.h"
 
 namespace vesselbench {
 

@@ -4,13 +4,9 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 #include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/linear_parameters.h"
 
 namespace vesselbench {
-
-/// Parameters of the Laplace filter (thesis Eq. 3.1).
-struct LaplaceParameters {
-    double lambda = 0.5;  ///< step [-], 0 <= lambda <= 1
-};
 
 /// Moves every vertex towards the mean of its neighbours: smooth, but the surface shrinks. Uniform
 /// umbrella operator (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite.

@@ -4,16 +4,9 @@
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 #include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/linear_parameters.h"
 
 namespace vesselbench {
-
-/// Parameters of the Laplace+HC filter. The thesis's tables and Chapter 6 call alpha and beta
-/// "lambda" and "mu".
-struct LaplaceHcParameters {
-    double lambda = 0.5;  ///< Laplacian step [-], 0 <= lambda <= 1 (Eq. 3.3)
-    double alpha = 0.0;   ///< 1: pull to the original position, 0: to the previous one [-]
-    double beta = 0.5;    ///< weight of the vertex's own back-correction [-], in [0, 1]
-};
 
 /// Laplacian smoothing in which every step is pushed back towards the surface before it
 /// ("humphrey's classes"): little shrinkage, but large staircases remain. Uniform umbrella operator

@@ -2,10 +2,8 @@
 
 #include <vector>
 
-#include "smoothing/filters/laplace.h"
-#include "smoothing/filters/laplace_hc.h"
+#include "smoothing/filters/linear_parameters.h"
 #include "smoothing/filters/linear_step.h"
-#include "smoothing/filters/taubin.h"
 
 namespace vesselbench {
 

@@ -1,22 +1,12 @@
 #pragma once
 
-#include <optional>
-
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
 #include "smoothing/filters/filter_settings.h"
+#include "smoothing/filters/linear_parameters.h"
 
 namespace vesselbench {
-
-/// Parameters of Taubin's lambda|mu filter, transfer function f(k) = (1 - lambda k)(1 - mu k) for
-/// the umbrella operator's eigenvalues -k, 0 <= k <= 2.
-struct TaubinParameters {
-    double lambda = 0.5;            ///< shrinking step [-], 0 <= lambda <= 1
-    std::optional<double> mu = {};  ///< inflating step [-], <= -lambda; default -1.02 lambda
-
-    [[nodiscard]] double used_mu() const { return mu.value_or(-1.02 * lambda); }
-};
 
 /// Smooths positions without shrinking the surface (the thesis's "LowPass" filter). Uniform
 /// umbrella operator (Dx)_i = 1/|N(i)| sum_{j in N(i)} (x_j - x_i), negative semidefinite.

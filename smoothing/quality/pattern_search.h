@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "smoothing/quality/search.h"
+#include "smoothing/quality/search_space.h"
 
 namespace vesselbench {
 

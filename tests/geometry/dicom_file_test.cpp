@@ -10,6 +10,7 @@
 #include <gdcmUIDGenerator.h>
 
 #include "geometry/formats/dicom.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/kernel/errors.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"

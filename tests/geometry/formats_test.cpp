@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/centerline_file.h"
+#include "geometry/formats/image_file.h"
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_file.h"
 #include "geometry/formats/surface_formats.h"

@@ -14,6 +14,7 @@
 #include "gpu/fence.h"
 #include "gpu/gpu_meter.h"
 #include "gpu/gpu_smoother.h"
+#include "gpu/picture.h"
 #include "gpu/picture_view.h"
 #include "gpu/render/drawn_device_surface.h"
 #include "gpu/render/renderer.h"

@@ -1,7 +1,5 @@
 #include "workbench/prepare/apply_recipe.h"
 
-#include "workbench/prepare/recipe_run.h"
-
 namespace vesselbench {
 
 std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,

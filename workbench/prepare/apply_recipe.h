@@ -1,24 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/progress.h"
-#include "workbench/prepare/recipe.h"
-#include "workbench/session/session.h"
+#include "workbench/prepare/recipe_run.h"
 
 namespace vesselbench {
-
-/// Receives messages about a recipe's edits, one line of text at a time.
-using Teller = std::function<void(const std::string&)>;
-
-/// The loaded surface cannot be repaired: the input is bad, not the recipe.
-class UnusableSource : public InvalidInput {
-public:
-    using InvalidInput::InvalidInput;
-};
 
 /// Applies a recipe's entries to a session, one edit each, in their order.
 /// \param variant of the edits of steps 4-8

@@ -5,21 +5,11 @@
 #include <vector>
 
 #include "workbench/prepare/apply_recipe.h"
-#include "workbench/prepare/input.h"
+#include "workbench/prepare/prepare_options.h"
 #include "workbench/report/report_html.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
-
-struct PrepareOptions {
-    InputOptions input;
-    std::string purpose;                 ///< its name, see purposes()
-    std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
-    std::vector<std::string> arguments;  ///< "operation.parameter=value"
-    std::filesystem::path out;           ///< folder of the results
-    bool resume = false;                 ///< goes on in the folder's project
-    std::string author;                  ///< of the edits; empty: the login name
-};
 
 struct PrepareSummary {
     std::vector<std::string> products;  ///< names of the files and folders written

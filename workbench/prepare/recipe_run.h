@@ -5,9 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "workbench/prepare/apply_recipe.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/progress.h"
+#include "workbench/prepare/recipe.h"
+#include "workbench/session/session.h"
 
 namespace vesselbench {
+
+/// Receives messages about a recipe's edits, one line of text at a time.
+using Teller = std::function<void(const std::string&)>;
+
+/// The loaded surface cannot be repaired: the input is bad, not the recipe.
+class UnusableSource : public InvalidInput {
+public:
+    using InvalidInput::InvalidInput;
+};
 
 /// Something that a recipe could not do as it says.
 struct RecipeWarning {

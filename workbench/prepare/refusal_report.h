@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "geometry/kernel/diagnostic.h"
-#include "workbench/prepare/prepare.h"
+#include "workbench/prepare/prepare_options.h"
 
 namespace vesselbench {
 

@@ -14,19 +14,12 @@
 #include "workbench/case/edit_record.h"
 #include "workbench/case/history.h"
 #include "workbench/case/scene.h"
+#include "workbench/project/source_file.h"
 
 namespace vesselbench {
 
 /// Image voxels up to this size are embedded; larger ones are kept as size and SHA-256 only.
 constexpr std::size_t kEmbeddedImageBytes = std::size_t{256} << 20;
-
-/// A file that an edit read.
-struct SourceFile {
-    std::string parameter;  ///< of the operation
-    std::string name;       ///< without its folder
-    std::string hash;       ///< SHA-256 of its content
-    std::string place;      ///< path relative to the project; kept only if the scene refers to it
-};
 
 /// A result added by a transaction.
 struct NewResult {

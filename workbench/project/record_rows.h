@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "workbench/case/edit_record.h"
+#include "workbench/case/history.h"
 #include "workbench/project/database.h"
-#include "workbench/project/project.h"
+#include "workbench/project/source_file.h"
 
 namespace vesselbench {
 

@@ -37,15 +37,15 @@ SearchSpace with_more_iterations(SearchSpace space) {
     return space;
 }
 
-class LiveFilterSearch final : public LiveSearch::Way {
+class LiveFilterSearch final : public LiveSearchWay {
 public:
     LiveFilterSearch(const Operation& operation, Scene scene)
         : operation_(operation), scene_(std::move(scene)) {}
 
-    void answer(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+    void answer(const Arguments& given, double tau, const Receiver& receive,
                 const Progress& progress) override;
 
-    void answer_dragged(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+    void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
                         const Progress& progress) override;
 
 private:
@@ -54,7 +54,7 @@ private:
     void take_best(const SmoothingSubject& now, const Arguments& arguments, ScoreSettings score);
     [[nodiscard]] ParameterSet prepare(const Arguments& given, double tau,
                                        const Progress& progress);
-    [[nodiscard]] LiveSearch::Answer answer_of(const StepwiseAnswer& found) const;
+    [[nodiscard]] LiveSearchAnswer answer_of(const StepwiseAnswer& found) const;
 
     const Operation& operation_;
     Scene scene_;
@@ -127,15 +127,14 @@ ParameterSet LiveFilterSearch::prepare(const Arguments& given, double tau,
     return smoothing_set(now, graphs_->space());
 }
 
-LiveSearch::Answer LiveFilterSearch::answer_of(const StepwiseAnswer& found) const {
-    LiveSearch::Answer out{
-        .analysis = found.analysis, .filter = filter_, .complete = found.complete};
+LiveSearchAnswer LiveFilterSearch::answer_of(const StepwiseAnswer& found) const {
+    LiveSearchAnswer out{.analysis = found.analysis, .filter = filter_, .complete = found.complete};
     if (found.best) out.best = values_of(operation_, best_->space(), found.best->values);
     return out;
 }
 
-void LiveFilterSearch::answer(const Arguments& given, double tau,
-                              const LiveSearch::Receiver& receive, const Progress& progress) {
+void LiveFilterSearch::answer(const Arguments& given, double tau, const Receiver& receive,
+                              const Progress& progress) {
     take_subject(given);
     const ParameterSet now = prepare(given, tau, progress);
     analyse_step_by_step(
@@ -143,14 +142,13 @@ void LiveFilterSearch::answer(const Arguments& given, double tau,
         progress);
 }
 
-void LiveFilterSearch::answer_dragged(const Arguments& given, double tau,
-                                      const LiveSearch::Receiver& receive,
+void LiveFilterSearch::answer_dragged(const Arguments& given, double tau, const Receiver& receive,
                                       const Progress& progress) {
     take_subject(given);
     const ParameterSet now =
         prepare(with_nearest_values(operation_, given, graphs_->space(), false), tau, progress);
     const auto send = [&](const StepwiseAnswer& found) {
-        LiveSearch::Answer out = answer_of(found);
+        LiveSearchAnswer out = answer_of(found);
         set_current_values(out.analysis, given);
         receive(out);
     };
@@ -159,7 +157,7 @@ void LiveFilterSearch::answer_dragged(const Arguments& given, double tau,
 
 }  // namespace
 
-std::unique_ptr<LiveSearch::Way> live_filter_search(const Operation& operation, Scene scene) {
+std::unique_ptr<LiveSearchWay> live_filter_search(const Operation& operation, Scene scene) {
     return std::make_unique<LiveFilterSearch>(operation, std::move(scene));
 }
 

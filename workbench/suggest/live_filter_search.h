@@ -2,12 +2,13 @@
 
 #include <memory>
 
-#include "workbench/suggest/live_search.h"
+#include "workbench/case/operation.h"
+#include "workbench/suggest/live_search_way.h"
 
 namespace vesselbench {
 
 /// The live search of an operation that smooths: by iterations of its filter.
-[[nodiscard]] std::unique_ptr<LiveSearch::Way> live_filter_search(const Operation& operation,
-                                                                  Scene scene);
+[[nodiscard]] std::unique_ptr<LiveSearchWay> live_filter_search(const Operation& operation,
+                                                                Scene scene);
 
 }  // namespace vesselbench

@@ -15,15 +15,15 @@ SearchParameter* find(SearchSpace& space, const std::string& name) {
     return at == space.parameters.end() ? nullptr : &*at;
 }
 
-class LiveProcessingSearch final : public LiveSearch::Way {
+class LiveProcessingSearch final : public LiveSearchWay {
 public:
     LiveProcessingSearch(const Operation& operation, Scene scene)
         : operation_(operation), scene_(std::move(scene)) {}
 
-    void answer(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+    void answer(const Arguments& given, double tau, const Receiver& receive,
                 const Progress& progress) override;
 
-    void answer_dragged(const Arguments& given, double tau, const LiveSearch::Receiver& receive,
+    void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
                         const Progress& progress) override;
 
 private:
@@ -32,8 +32,8 @@ private:
     void take_fixed(const Arguments& given);
     [[nodiscard]] const ParameterSet& set_of(const Arguments& given, const Progress& progress);
     [[nodiscard]] SearchSpace best_space(const ParameterSet& now);
-    [[nodiscard]] LiveSearch::Answer answer_of(const StepwiseAnswer& found,
-                                               const SearchSpace& searched) const;
+    [[nodiscard]] LiveSearchAnswer answer_of(const StepwiseAnswer& found,
+                                             const SearchSpace& searched) const;
 
     const Operation& operation_;
     Scene scene_;
@@ -86,9 +86,9 @@ SearchSpace LiveProcessingSearch::best_space(const ParameterSet& now) {
     return space;
 }
 
-LiveSearch::Answer LiveProcessingSearch::answer_of(const StepwiseAnswer& found,
-                                                   const SearchSpace& space) const {
-    LiveSearch::Answer out{.analysis = found.analysis, .filter = "", .complete = found.complete};
+LiveSearchAnswer LiveProcessingSearch::answer_of(const StepwiseAnswer& found,
+                                                 const SearchSpace& space) const {
+    LiveSearchAnswer out{.analysis = found.analysis, .filter = "", .complete = found.complete};
     if (!found.best) return out;
     Arguments all;
     set_values(all, operation_, space, found.best->values);
@@ -105,8 +105,8 @@ void LiveProcessingSearch::prepare(const Arguments& given) {
     take_fixed(given);
 }
 
-void LiveProcessingSearch::answer(const Arguments& given, double tau,
-                                  const LiveSearch::Receiver& receive, const Progress& progress) {
+void LiveProcessingSearch::answer(const Arguments& given, double tau, const Receiver& receive,
+                                  const Progress& progress) {
     prepare(given);
     const ParameterSet& now = set_of(given, progress);
     const ScoreSettings score{.form = usual_score_of(operation_), .tau = tau};
@@ -117,15 +117,14 @@ void LiveProcessingSearch::answer(const Arguments& given, double tau,
 }
 
 void LiveProcessingSearch::answer_dragged(const Arguments& given, double tau,
-                                          const LiveSearch::Receiver& receive,
-                                          const Progress& progress) {
+                                          const Receiver& receive, const Progress& progress) {
     prepare(given);
     // Each value takes a run: the coarse ones are all that can be had.
     const ParameterSet& now = set_of(with_nearest_values(operation_, given, all_, true), progress);
     const ScoreSettings score{.form = usual_score_of(operation_), .tau = tau};
     ParameterSearch graphs(table_, all_, score), best(table_, best_space(now), score);
     const auto send = [&](const StepwiseAnswer& found) {
-        LiveSearch::Answer out = answer_of(found, best.space());
+        LiveSearchAnswer out = answer_of(found, best.space());
         set_current_values(out.analysis, given);
         receive(out);
     };
@@ -134,7 +133,7 @@ void LiveProcessingSearch::answer_dragged(const Arguments& given, double tau,
 
 }  // namespace
 
-std::unique_ptr<LiveSearch::Way> live_processing_search(const Operation& operation, Scene scene) {
+std::unique_ptr<LiveSearchWay> live_processing_search(const Operation& operation, Scene scene) {
     return std::make_unique<LiveProcessingSearch>(operation, std::move(scene));
 }
 

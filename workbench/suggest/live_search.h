@@ -1,12 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <optional>
-#include <string>
 
-#include "smoothing/quality/stepwise_analysis.h"
 #include "workbench/case/operation.h"
+#include "workbench/suggest/live_search_way.h"
 
 namespace vesselbench {
 
@@ -18,16 +15,8 @@ public:
     /// \param operation of the table, with a search
     LiveSearch(const Operation& operation, Scene scene);
 
-    struct Answer {
-        SensitivityAnalysis analysis;   ///< of all parameters of the filter and its weights, or of
-                                        ///< the operation
-        std::optional<Arguments> best;  ///< values of the best of all; none: not known yet
-        bool leave_as_is = false;       ///< the best is the surface as it is
-        std::string filter;             ///< that is varied, if nobody has chosen another one
-        bool complete = false;          ///< no finer answer follows
-    };
-
-    using Receiver = std::function<void(const Answer&)>;
+    using Answer = LiveSearchAnswer;
+    using Receiver = LiveSearchWay::Receiver;
 
     /// Sends answers, coarse ones first, until it is complete.
     /// \param given by the user, without defaults
@@ -43,25 +32,8 @@ public:
     void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
                         const Progress& progress);
 
-    /// How an operation is searched.
-    class Way {
-    public:
-        Way() = default;
-        virtual ~Way() = default;
-        Way(const Way&) = delete;
-        Way& operator=(const Way&) = delete;
-
-        /// As LiveSearch::answer.
-        virtual void answer(const Arguments& given, double tau, const Receiver& receive,
-                            const Progress& progress) = 0;
-
-        /// As LiveSearch::answer_dragged.
-        virtual void answer_dragged(const Arguments& given, double tau, const Receiver& receive,
-                                    const Progress& progress) = 0;
-    };
-
 private:
-    std::unique_ptr<Way> way_;
+    std::unique_ptr<LiveSearchWay> way_;
 };
 
 }  // namespace vesselbench

@@ -6,7 +6,7 @@
 #include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
-#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/centerlines/centerline_parameters.h"
 
 namespace vesselbench {
 

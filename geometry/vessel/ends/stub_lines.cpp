@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
 
 namespace vesselbench {
 

@@ -190,10 +190,6 @@ private:
 
 }  // namespace
 
-double angle_deg(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / std::numbers::pi;
-}
-
 std::optional<OpeningAxis> axis_inward(const Surface& surface, const Plane& plane, double diameter,
                                        double outward) {
     const Track track = track_of(surface, plane, diameter, outward);

@@ -4,11 +4,9 @@
 
 #include "geometry/kernel/cross_section.h"
 #include "geometry/vessel/ends/patch_shape.h"
+#include "geometry/vessel/openings/angle.h"
 
 namespace vesselbench {
-
-/// Angle between two directions [deg], from 0 to 180.
-[[nodiscard]] double angle_deg(const Vec3& a, const Vec3& b);
 
 /// The vessel's direction at an opening, from the centroids of the sections up to two diameters
 /// inward: a cubic fitted by least squares. As far as the sections' radii scatter, as on a surface

@@ -10,7 +10,7 @@
 
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/unsmoothed.h"
-#include "geometry/vessel/openings/opening_axis.h"
+#include "geometry/vessel/openings/angle.h"
 
 namespace vesselbench {
 

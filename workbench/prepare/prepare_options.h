@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "workbench/prepare/input.h"
+
+namespace vesselbench {
+
+struct PrepareOptions {
+    InputOptions input;
+    std::string purpose;                 ///< its name, see purposes()
+    std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
+    std::vector<std::string> arguments;  ///< "operation.parameter=value"
+    std::filesystem::path out;           ///< folder of the results
+    bool resume = false;                 ///< goes on in the folder's project
+    std::string author;                  ///< of the edits; empty: the login name
+};
+
+}  // namespace vesselbench
