@@ -6,7 +6,6 @@
 #include <list>
 #include <map>
 #include <mutex>
-#include <string>
 
 #include <tbb/task_arena.h>
 
@@ -19,22 +18,17 @@ namespace {
 /// How long a cancelled waiter may keep waiting.
 constexpr std::chrono::milliseconds kLookAround{20};
 
-ContentKey key_of_positions(const Positions& positions) {
-    static_assert(sizeof(Vec3) == 3 * sizeof(double));
-    return content_key(std::as_bytes(std::span<const Vec3>(positions)));
-}
-
 /// Keys of shared arrays, so that each is hashed once. An array's address may be reused once the
 /// array is gone, its control block's may not while a weak pointer to it is kept.
 class ArrayKeys {
 public:
-    template <class Array, class Read>
-    ContentKey key_of(const std::shared_ptr<const Array>& array, const Read& read) {
+    ContentKey key_of(const std::shared_ptr<const void>& array,
+                      const std::function<ContentKey()>& hash) {
         {
             const std::lock_guard lock(mutex_);
             if (const auto found = keys_.find(array); found != keys_.end()) return found->second;
         }
-        const ContentKey key = read(*array);  // without the lock: others need not wait
+        const ContentKey key = hash();  // without the lock: others need not wait
         const std::lock_guard lock(mutex_);
         if (keys_.size() >= limit_) drop_gone();
         keys_.emplace(array, key);
@@ -53,12 +47,6 @@ private:
     std::map<std::weak_ptr<const void>, ContentKey, std::owner_less<>> keys_;
     std::size_t limit_ = kFewest;
 };
-
-ContentKey key_of_patches(const std::vector<Patch>& patches) {
-    std::string text;
-    for (const Patch& patch : patches) text += to_string(patch.kind) + ' ' + patch.name + '\0';
-    return content_key(std::span<const char>(text));
-}
 
 }  // namespace
 
@@ -155,26 +143,9 @@ std::shared_ptr<const void> DerivedCache::find_or_make(const Key& key,
     }
 }
 
-ContentKey DerivedCache::shape_key(const Surface& surface) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
-    return content_key(
-        {surface.topology->key(), parts_->array_keys.key_of(surface.positions, &key_of_positions)});
-}
-
-ContentKey shape_key(const Topology& topology, const Positions& positions) {
-    return content_key({topology.key(), key_of_positions(positions)});
-}
-
-ContentKey shape_key(const Positions& positions, std::span<const Triangle> triangles) {
-    return content_key({topology_key(triangles, positions.size()), key_of_positions(positions)});
-}
-
-ContentKey DerivedCache::surface_key(const Surface& surface) {
-    const ContentKey shape = shape_key(surface);
-    const ContentKey labels = parts_->array_keys.key_of(
-        surface.patch_labels,
-        [](const PatchLabels& all) { return content_key(std::span<const std::uint16_t>(all)); });
-    return content_key({shape, labels, key_of_patches(surface.patches)});
+ContentKey DerivedCache::key_of(const std::shared_ptr<const void>& array,
+                                const std::function<ContentKey()>& hash) {
+    return parts_->array_keys.key_of(array, hash);
 }
 
 std::size_t DerivedCache::bytes() const {

@@ -10,7 +10,6 @@
 
 #include "geometry/kernel/content_key.h"
 #include "geometry/kernel/progress.h"
-#include "geometry/kernel/surface.h"
 
 namespace vesselbench {
 
@@ -51,14 +50,10 @@ public:
             find_or_make({typeid(T), kind, key}, make_sized, progress));
     }
 
-    /// Key of positions and triangles. A shared array is hashed once; its key is kept as long as
-    /// the array lives.
-    /// \throw InvalidInput if the surface has no triangle
-    [[nodiscard]] ContentKey shape_key(const Surface& surface);
-
-    /// Key of positions, triangles, patch labels and the patch table.
-    /// \throw InvalidInput if the surface has no triangle
-    [[nodiscard]] ContentKey surface_key(const Surface& surface);
+    /// The key of a shared array, which is hashed once; the key is kept as long as the array lives.
+    /// \param hash of the array's content
+    [[nodiscard]] ContentKey key_of(const std::shared_ptr<const void>& array,
+                                    const std::function<ContentKey()>& hash);
 
     /// [bytes] currently held
     [[nodiscard]] std::size_t bytes() const;
@@ -93,11 +88,6 @@ private:
 
     std::unique_ptr<Parts> parts_;
 };
-
-/// Key of positions and triangles, hashed on every call; equal to that of a surface with the same
-/// arrays.
-[[nodiscard]] ContentKey shape_key(const Topology& topology, const Positions& positions);
-[[nodiscard]] ContentKey shape_key(const Positions& positions, std::span<const Triangle> triangles);
 
 /// The cache that functions of surfaces use unless given another. Entries are pure functions of
 /// their keys, so sharing them changes no result; see docs/decisions.md.

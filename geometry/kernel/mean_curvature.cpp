@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/kernel/surface_key.h"
 #include "geometry/kernel/vertex_normals.h"
 
 namespace vesselbench {
@@ -57,7 +58,7 @@ MeanCurvature mean_curvature(const Surface& surface) {
 std::shared_ptr<const MeanCurvature> mean_curvature_of(const Surface& surface,
                                                        DerivedCache& cache) {
     return cache.find_or_make<MeanCurvature>(
-        "mean curvature", cache.shape_key(surface),
+        "mean curvature", shape_key(surface, cache),
         [&] { return signed_curvature(surface, *vertex_normals_of(surface, cache)); },
         [](const MeanCurvature& made) {
             return std::as_bytes(std::span(made.values)).size() +

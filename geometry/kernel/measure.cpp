@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/mean_curvature.h"
 #include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/surface_key.h"
 #include "geometry/kernel/triangle_shape.h"
 
 namespace vesselbench {
@@ -206,7 +207,7 @@ SurfaceMeasures measured(const Surface& surface, DerivedCache& cache) {
 SurfaceMeasures measure(const Surface& surface, DerivedCache& cache) {
     if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to measure");
     return *cache.find_or_make<SurfaceMeasures>(
-        "measures", cache.surface_key(surface), [&] { return measured(surface, cache); },
+        "measures", surface_key(surface, cache), [&] { return measured(surface, cache); },
         [](const SurfaceMeasures& made) {
             return sizeof made + made.patches.size() * sizeof(PatchMeasures);
         });

@@ -13,6 +13,7 @@
 
 #include "geometry/kernel/box_tree.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_key.h"
 
 namespace vesselbench {
 
@@ -253,7 +254,7 @@ std::vector<TrianglePair> self_intersections(const Surface& surface, const Progr
     const auto search = [&] {
         return self_intersections(surface.points(), surface.triangles(), progress);
     };
-    return known_pairs(cache.shape_key(surface), search, cache, progress);
+    return known_pairs(shape_key(surface, cache), search, cache, progress);
 }
 
 void remember_no_self_intersections(const Topology& topology, const Positions& positions,

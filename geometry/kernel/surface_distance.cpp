@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/distance_tree.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_key.h"
 
 namespace vesselbench {
 
@@ -292,7 +293,7 @@ SurfaceDistance known_distance(const ContentKey& key, const Make& make, DerivedC
 
 SurfaceDistance distance_to(const Surface& surface, DerivedCache& cache) {
     return known_distance(
-        cache.shape_key(surface), [&] { return SurfaceDistance(surface); }, cache);
+        shape_key(surface, cache), [&] { return SurfaceDistance(surface); }, cache);
 }
 
 SurfaceDistance distance_to(const Positions& positions, std::span<const Triangle> triangles,

@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/parallel.h"
+#include "geometry/kernel/surface_key.h"
 
 namespace vesselbench {
 
@@ -57,7 +58,7 @@ Positions vertex_normals(const Surface& surface) {
 std::shared_ptr<const Positions> vertex_normals_of(const Surface& surface, DerivedCache& cache) {
     if (surface.empty()) return std::make_shared<const Positions>(vertex_normals(surface));
     return cache.find_or_make<Positions>(
-        "vertex normals", cache.shape_key(surface), [&] { return vertex_normals(surface); },
+        "vertex normals", shape_key(surface, cache), [&] { return vertex_normals(surface); },
         [](const Positions& normals) { return std::as_bytes(std::span(normals)).size(); });
 }
 

@@ -17,6 +17,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/surface_key.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "tests/support/shapes.h"
 
@@ -52,34 +53,34 @@ std::shared_ptr<const int> number_in(DerivedCache& cache, int number, std::size_
 SCENARIO("Content keys stand for contents", "[geometry][derived_cache]") {
     const Surface sphere = icosphere(10.0, 2);
     DerivedCache cache;
-    const ContentKey key = cache.shape_key(sphere);
-    CHECK(cache.shape_key(sphere) == key);
-    CHECK(cache.shape_key(copy_of(sphere)) == key);
+    const ContentKey key = shape_key(sphere, cache);
+    CHECK(shape_key(sphere, cache) == key);
+    CHECK(shape_key(copy_of(sphere), cache) == key);
     CHECK(shape_key(sphere.points(), sphere.triangles()) == key);
     CHECK(shape_key(*sphere.topology, sphere.points()) == key);
     WHEN("one coordinate changes by one bit") {
         Positions points = sphere.points();
         points.back().z() = std::nextafter(points.back().z(), 1e9);
-        CHECK(cache.shape_key(sphere.with_positions(points)) != key);
+        CHECK(shape_key(sphere.with_positions(points), cache) != key);
     }
     WHEN("one triangle is turned, or a vertex added that no triangle uses") {
         std::vector<Triangle> triangles(sphere.triangles().begin(), sphere.triangles().end());
         Positions points = sphere.points();
         points.emplace_back(0, 0, 0);
-        CHECK(cache.shape_key(make_surface(points, triangles)) != key);
+        CHECK(shape_key(make_surface(points, triangles), cache) != key);
         std::swap(triangles[7][0], triangles[7][1]);
-        CHECK(cache.shape_key(make_surface(sphere.points(), triangles)) != key);
+        CHECK(shape_key(make_surface(sphere.points(), triangles), cache) != key);
     }
     WHEN("only a patch's label, kind or name changes") {
-        const ContentKey whole = cache.surface_key(sphere);
-        CHECK(cache.surface_key(copy_of(sphere)) == whole);
+        const ContentKey whole = surface_key(sphere, cache);
+        CHECK(surface_key(copy_of(sphere), cache) == whole);
         PatchLabels labels = *sphere.patch_labels;
         const std::vector<Patch> two = {{"wall", PatchKind::Wall}, {"inlet", PatchKind::Inlet}};
-        const ContentKey relabelled = cache.surface_key(sphere.with_patches(labels, two));
+        const ContentKey relabelled = surface_key(sphere.with_patches(labels, two), cache);
         CHECK(relabelled != whole);
         labels[3] = 1;
-        CHECK(cache.surface_key(sphere.with_patches(labels, two)) != relabelled);
-        CHECK(cache.shape_key(sphere.with_patches(labels, two)) == key);
+        CHECK(surface_key(sphere.with_patches(labels, two), cache) != relabelled);
+        CHECK(shape_key(sphere.with_patches(labels, two), cache) == key);
     }
     WHEN("the content is larger than what one thread takes at a time") {
         std::vector<double> many(500000, 1.0);
@@ -94,13 +95,14 @@ SCENARIO("Content keys stand for contents", "[geometry][derived_cache]") {
         for (int i = 0; i < 500; ++i) {
             Positions points = sphere.points();
             points[0].x() += i;
-            keys.push_back(cache.shape_key(make_surface(
-                std::move(points), {sphere.triangles().begin(), sphere.triangles().end()})));
+            keys.push_back(shape_key(make_surface(std::move(points), {sphere.triangles().begin(),
+                                                                      sphere.triangles().end()}),
+                                     cache));
         }
         std::sort(keys.begin(), keys.end());
         CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
     }
-    CHECK_THROWS_AS(cache.shape_key(Surface{}), InvalidInput);
+    CHECK_THROWS_AS(shape_key(Surface{}, cache), InvalidInput);
 }
 
 SCENARIO("Derived things are found by content", "[geometry][derived_cache]") {

@@ -79,7 +79,6 @@ const Names kDeclareWithoutSource = {
 
 // Units that still need each other: a list that only shrinks.
 const std::set<Names> kUnitsInCircles = {
-    {"geometry/kernel/derived_cache", "geometry/kernel/surface", "geometry/kernel/topology"},
     {"geometry/vessel/openings/end_opener", "geometry/vessel/openings/named_ends",
      "geometry/vessel/openings/openings", "geometry/vessel/openings/plan_draft",
      "geometry/vessel/openings/rim_and_cap_places"},

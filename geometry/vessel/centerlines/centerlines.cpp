@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/surface_key.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/lumen_bridges.h"
 #include "geometry/vessel/centerlines/lumen_grid.h"
@@ -302,7 +303,7 @@ std::shared_ptr<const Lines> lines_of(const Surface& surface,
                                       const Progress& progress, DerivedCache& cache) {
     if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
     return cache.find_or_make<Lines>(
-        "centerlines", content_key({cache.surface_key(surface), key_of(parameters)}),
+        "centerlines", content_key({surface_key(surface, cache), key_of(parameters)}),
         [&] { return find_lines(surface, parameters, progress); }, &bytes_of, progress);
 }
 
