@@ -5,13 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <set>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "tests/soak/random_arguments.h"
+#include "tests/support/operation_examples.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
@@ -58,28 +58,23 @@ std::string trouble(const std::string& operation, const Scene& scene, const Argu
     }
 }
 
+/// On the tube below.
+test::ExampleGround ground(const soak::SmallFiles& files) {
+    const auto file = [&](const char* name) { return (files.folder() / name).string(); };
+    return {.radius = 2.0,
+            .wall = Vec3(2, 0, 8),
+            .end = Vec3(0, 0, 16),
+            .branch = Vec3(2, 0, 12),
+            .files = {{InputKind::Surface, file("closed.vtp")},
+                      {InputKind::Image, file("lumen.nrrd")},
+                      {InputKind::Neighbour, file("closed.vtp")}},
+            .mask = file("mask.nrrd")};
+}
+
 /// What the operation needs beside the parameter, so that its number matters.
 Arguments companions(const Operation& operation, const Parameter& parameter,
                      const soak::SmallFiles& files) {
-    const auto file = [&](const char* name) { return (files.folder() / name).string(); };
-    const Arguments dab = {{"at", Vec3(2, 0, 8)}, {"radius", 2.0}};
-    const std::map<std::string, Arguments> usual = {
-        {"load-surface", {{"file", file("closed.vtp")}, {"units", std::string("mm")}}},
-        {"load-image", {{"file", file("lumen.nrrd")}, {"mask", file("mask.nrrd")}}},
-        {"load-neighbour",
-         {{"name", std::string("vein")},
-          {"file", file("closed.vtp")},
-          {"units", std::string("mm")}}},
-        {"crop", {{"centre", Vec3(0, 0, 8)}, {"radius", 6.0}}},
-        {"remove-branch", {{"tip", Vec3(2, 0, 12)}}},
-        {"clip-opening", {{"tip", Vec3(0, 0, 16)}}},
-        {"brush-smooth", dab},
-        {"brush-inflate", dab},
-        {"brush-weight", dab},
-        {"widen", {{"width", 3.0}}},
-        {"remesh", {{"radius", std::string("rays")}}}};
-    const auto found = usual.find(operation.name);
-    Arguments all = found == usual.end() ? Arguments() : found->second;
+    Arguments all = test::example_arguments(operation, ground(files));
     if (const auto& condition = parameter.only_with) {
         all.set(condition->parameter, condition->values.front());
         if (condition->parameter == "staircase") all.set("stack_axis", Vec3(0, 0, 1));
@@ -129,9 +124,6 @@ Scene tube_scene(const soak::SmallFiles& files) {
     return scene;
 }
 
-/// Operations that need holes to work on.
-const std::set<std::string> kOnHoles = {"repair", "fill-hole"};
-
 }  // namespace
 
 SCENARIO("Extreme numbers end in a result or a text, within time and memory", "[soak][extremes]") {
@@ -145,7 +137,7 @@ SCENARIO("Extreme numbers end in a result or a text, within time and memory", "[
             for (const Value& number : extremes(parameter)) {
                 Arguments arguments = companions(operation, parameter, files);
                 arguments.set(parameter.name, number);
-                const Scene& scene = kOnHoles.contains(operation.name) ? open : tube;
+                const Scene& scene = operation.example.scene == ExampleScene::Holes ? open : tube;
                 const std::string found = trouble(operation.name, scene, arguments);
                 INFO(operation.name << " " << parameter.name << "=" << to_text(number) << ": "
                                     << found);
@@ -158,10 +150,10 @@ SCENARIO("Extreme numbers end in a result or a text, within time and memory", "[
 SCENARIO("The usual arguments beside extreme numbers work", "[soak][extremes]") {
     const soak::SmallFiles files(test::temporary_folder() + "/files");
     const Scene tube = tube_scene(files);
-    for (const char* name :
-         {"load-image", "load-neighbour", "crop", "brush-smooth", "brush-inflate", "brush-weight",
-          "widen", "remesh", "smooth", "decimate", "extrude-opening", "print-check"}) {
-        CAPTURE(name);
-        CHECK_NOTHROW(run(name, tube, companions(find_operation(name), {}, files)));
+    for (const Operation& operation : operation_table()) {
+        const ExampleScene needed = operation.example.scene;
+        if (needed == ExampleScene::Holes || needed == ExampleScene::Branches) continue;
+        CAPTURE(operation.name);
+        CHECK_NOTHROW(run(operation.name, tube, companions(operation, {}, files)));
     }
 }

@@ -247,7 +247,7 @@ SmallFiles::SmallFiles(std::filesystem::path folder) : folder_(std::move(folder)
 
 std::string SmallFiles::one_for(const Operation& operation, const std::string& parameter,
                                 Dice& dice) const {
-    if (operation.name != "load-image")
+    if (operation.recipe.loads != InputKind::Image)
         return (folder_ / one_of(std::vector{"open.stl", "closed.vtp", "ball.ply"}, dice)).string();
     const bool labels = parameter == "mask" || dice.chance(0.2);
     return (folder_ / (labels ? "mask.nrrd" : "lumen.nrrd")).string();

@@ -165,9 +165,9 @@ std::string RandomEditor::act(Session& session) {
 
 const Operation& RandomEditor::some_operation(const Session& session, const Scene& scene) {
     if (session.log().empty())
-        return find_operation(dice_.chance(0.7) ? "load-surface" : "load-image");
+        return loading_operation(dice_.chance(0.7) ? InputKind::Surface : InputKind::Image);
     if (!scene.surface && dice_.chance(0.6))
-        return find_operation(scene.image ? "extract-surface" : "load-surface");
+        return scene.image ? extracting_operation() : loading_operation(InputKind::Surface);
     const auto table = operation_table();
     return table[dice_.whole(0, static_cast<int>(table.size()) - 1)];
 }

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/operation_examples.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -22,22 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;  ///< field and its text
+constexpr double kRadius = 4.0;  // [mm] of the tubes
 
-/// How an operation is tried.
-struct Trial {
-    std::string operation;
-    std::string input;  ///< "tube", "open", "image", "y" or "opened"
-    Texts given;
-    Texts changed;  ///< for its next revision
-};
-
-/// The files that trials open and name, beside the projects: changed edits find them again there.
+/// The files that examples open and name, beside the projects: changed edits find them again there.
 class Files {
 public:
     Files() : folder_(temporary_folder()) {
-        write_surface(fine_tube(4.0, 30.0, 24), path("tube.vtp"));
-        write_surface(open_tube(4.0, 30.0, 24, 28), path("open.stl"));
+        write_surface(fine_tube(kRadius, 30.0, 24), path("tube.vtp"));
+        write_surface(open_tube(kRadius, 30.0, 24, 28), path("open.stl"));
         write_surface(mapped(fine_tube(1.0, 30.0, 12),
                              [](const Vec3& p) { return Vec3(p + Vec3(8.0, 0.0, 0.0)); }),
                       path("neighbour.stl"));
@@ -50,15 +42,34 @@ public:
 
     [[nodiscard]] std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
-    /// What to open for a trial.
-    [[nodiscard]] std::string input(const std::string& name) const {
-        if (name == "tube") return path("tube.vtp");
-        if (name == "open") return path("open.stl");
-        if (name == "image") return image();
-        return path(name == "y" ? "y/exact.vtp" : "opened.vbench");
+    /// What to open for an example.
+    [[nodiscard]] std::string input(ExampleScene scene) const {
+        switch (scene) {
+            case ExampleScene::Holes:
+                return path("open.stl");
+            case ExampleScene::Branches:
+                return path("y/exact.vtp");
+            case ExampleScene::Openings:
+                return path("opened.vbench");
+            case ExampleScene::Image:
+                return image();
+            default:
+                return path("tube.vtp");
+        }
     }
 
     [[nodiscard]] std::string image() const { return path("image.nii.gz"); }
+
+    /// Places of the tube's wall, and of the phantom "y", the scene with branches.
+    [[nodiscard]] ExampleGround ground() const {
+        return {.radius = kRadius,
+                .wall = Vec3(kRadius, 0.0, 15.0),
+                .end = Vec3(0.0, 0.0, -20.0),
+                .branch = Vec3(11.5, 0.0, 16.4),
+                .files = {{InputKind::Surface, path("open.stl")},
+                          {InputKind::Image, image()},
+                          {InputKind::Neighbour, path("neighbour.stl")}}};
+    }
 
 private:
     static void run(const std::vector<std::string>& words) {
@@ -70,41 +81,12 @@ private:
     std::string folder_;
 };
 
-std::vector<Trial> trials(const Files& files) {
-    const std::string side = "4,0,15", end = "0,0,-20";
-    return {
-        {"load-surface", "tube", {{"file", files.path("open.stl")}}, {{"units", "mm"}}},
-        {"load-image", "tube", {{"file", files.image()}}, {{"units", "mm"}}},
-        {"load-neighbour",
-         "tube",
-         {{"name", "bone"}, {"file", files.path("neighbour.stl")}},
-         {{"name", "vein"}}},
-        {"extract-surface", "image", {{"resample", "0.8"}}, {{"gaussian", "0.5"}}},
-        {"crop", "tube", {{"box", "-9,-9,5,9,9,40"}}, {{"box", "-9,-9,9,9,9,40"}}},
-        {"keep-component", "tube", {{"count", "1"}}, {{"count", "2"}}},
-        {"repair", "open", {}, {{"smallest_feature", "0.002"}}},
-        {"remove-branch", "y", {{"tip", "11.5,0,16.4"}}, {{"margin", "0.5"}}},
-        {"brush-smooth", "tube", {{"at", side}, {"radius", "2"}}, {{"strength", "0.4"}}},
-        {"brush-inflate", "tube", {{"at", side}, {"radius", "2"}}, {{"strength", "-0.4"}}},
-        {"brush-weight", "tube", {{"at", side}, {"radius", "2"}}, {{"attribute", "plaque"}}},
-        {"fill-hole", "open", {}, {{"near", "0,0,30"}}},
-        {"widen", "tube", {{"width", "9"}}, {{"width", "9.5"}}},
-        {"clip-opening", "y", {{"tip", end}, {"radii", "3"}}, {{"radii", "4"}}},
-        {"extrude-opening", "opened", {{"diameters", "2"}}, {{"diameters", "1"}}},
-        {"smooth", "tube", {{"iterations", "2"}}, {{"filter", "taubin"}}},
-        {"remesh", "tube", {{"edge", "2"}, {"radius", "rays"}}, {{"mode", "uniform"}}},
-        {"decimate", "tube", {{"share", "0.6"}}, {{"share", "0.5"}}},
-        {"subdivide", "tube", {}, {{"iterations", "2"}}},
-        {"tetrahedralize", "tube", {{"improve", "1"}}, {{"growth", "0.3"}}},
-        {"print-check", "tube", {}, {{"thinnest", "1"}}},
-    };
-}
-
-void fill(Driver& window, const Texts& texts) {
-    for (const auto& [field, text] : texts) {
-        INFO(field << "=" << text);
-        REQUIRE(window.fill_item("field." + field, text));
-        REQUIRE(window.app().place().form()->field(field).text == text);
+void fill(Driver& window, const Arguments& values) {
+    for (const auto& [name, value] : values.values()) {
+        const std::string text = to_text(value);
+        INFO(name << "=" << text);
+        REQUIRE(window.fill_item("field." + name, text));
+        REQUIRE(window.app().place().form()->field(name).text == text);
     }
 }
 
@@ -128,19 +110,20 @@ void undo(Driver& window) {
     REQUIRE(window.settle());
 }
 
-void try_out(Driver& window, const Trial& trial) {
+void try_out(Driver& window, const Operation& operation, const ExampleGround& ground) {
     const std::size_t edits = edit_count(window);
-    choose(window, to_string(find_operation(trial.operation).usual_step), trial.operation);
-    fill(window, trial.given);
+    const Arguments given = example_arguments(operation, ground);
+    choose(window, to_string(operation.usual_step), operation.name);
+    fill(window, given);
     preview(window);
     CHECK(edit_count(window) == edits);
     apply_form(window);
     REQUIRE(edit_count(window) == edits + 1);
     const LogEntry made = newest(window);
-    CHECK(made.edit.operation == trial.operation);
-    for (const auto& [field, text] : trial.given) CHECK(made.edit.given.has(field));
+    CHECK(made.edit.operation == operation.name);
+    for (const auto& [name, value] : given.values()) CHECK(made.edit.given.has(name));
     REQUIRE(window.click_item("rail.edit." + std::to_string(made.edit.edit.id)));
-    fill(window, trial.changed);
+    fill(window, example_changes(operation, ground));
     preview(window);
     apply_form(window);
     const LogEntry changed = newest(window);
@@ -158,12 +141,9 @@ SCENARIO("Every operation works from the window", "[window][operations]") {
     const auto window = window_on(Screen::None);
     if (!window) return;
     const Files files;
-    std::set<std::string> tried;
-    for (const Trial& trial : trials(files)) {
-        INFO(trial.operation);
-        open_file(*window, files.input(trial.input));
-        try_out(*window, trial);
-        tried.insert(trial.operation);
+    for (const Operation& operation : operation_table()) {
+        INFO(operation.name);
+        open_file(*window, files.input(operation.example.scene));
+        try_out(*window, operation, files.ground());
     }
-    for (const Operation& operation : operation_table()) CHECK(tried.contains(operation.name));
 }

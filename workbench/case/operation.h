@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "workbench/case/checked_arguments.h"
+#include "workbench/case/operation_example.h"
 #include "workbench/case/operation_search.h"
 #include "workbench/case/parameter.h"
 #include "workbench/case/recipe_part.h"
@@ -61,6 +62,7 @@ struct Operation {
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};
+    OperationExample example = {};
 };
 
 /// Runs an operation's batch form in this process.

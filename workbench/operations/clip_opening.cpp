@@ -96,7 +96,9 @@ Operation clip_opening_operation() {
         .parameters = clip_opening_parameters(),
         .start = &started<LiveClipping>,
         .thesis = "4.2.7",
-        .recipe = {.cuts_ends = true}};
+        .recipe = {.cuts_ends = true},
+        .example = {
+            .scene = ExampleScene::Branches, .placed = {"tip"}, .changed = {{"radii", 4.0}}}};
 }
 
 }  // namespace vesselbench

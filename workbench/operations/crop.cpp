@@ -107,7 +107,10 @@ Operation crop_operation() {
               .help =
                   "which pieces of a cut surface are kept: the one with the largest area, or all",
               .choices = {"largest", "all"}}},
-        .run = &crop};
+        .run = &crop,
+        .example = {.placed = {"centre"},
+                    .given = {{"radius", 3.0}},
+                    .changed = {{"component", std::string("all")}}}};
 }
 
 }  // namespace vesselbench

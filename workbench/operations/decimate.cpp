@@ -278,7 +278,8 @@ Operation decimate_operation() {
             .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},
                        .counts_triangles = true,
-                       .strong_is_first = true}};
+                       .strong_is_first = true},
+            .example = {.changed = {{"share", 0.4}}}};
 }
 
 }  // namespace vesselbench

@@ -368,7 +368,8 @@ Operation extract_surface_operation() {
             .parameters = std::move(parameters),
             .start = &started<LiveExtraction>,
             .thesis = "3.2.1-3.2.3",
-            .recipe = {.makes_source = true}};
+            .recipe = {.makes_source = true},
+            .example = {.scene = ExampleScene::Image, .changed = {{"gaussian", 0.125}}}};
 }
 
 }  // namespace vesselbench

@@ -212,7 +212,8 @@ Operation extrude_opening_operation() {
                   .help = "decisions of an earlier run: the length at each opening, which may be "
                           "shorter if another vessel is in the way"}},
             .run = &extrude,
-            .thesis = "4.2.8"};
+            .thesis = "4.2.8",
+            .example = {.scene = ExampleScene::Openings, .changed = {{"diameters", 1.0}}}};
 }
 
 }  // namespace vesselbench

@@ -83,7 +83,8 @@ Operation fill_hole_operation() {
               .minimum = 0,
               .maximum = 2}},
         .run = &fill,
-        .thesis = "4.2.6"};
+        .thesis = "4.2.6",
+        .example = {.scene = ExampleScene::Holes, .changed = {{"continuity", std::int64_t{0}}}}};
 }
 
 }  // namespace vesselbench

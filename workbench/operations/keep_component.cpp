@@ -72,7 +72,8 @@ Operation keep_component_operation() {
                             .help = "number of the largest parts to keep, without seed",
                             .minimum = 1}},
             .run = &keep,
-            .thesis = "3.2"};
+            .thesis = "3.2",
+            .example = {.changed = {{"count", std::int64_t{2}}}}};
 }
 
 }  // namespace vesselbench

@@ -169,7 +169,8 @@ Operation load_image_operation() {
             .run = &load_image,
             .isolated = true,
             .thesis = "3.2",
-            .recipe = {.loads = InputKind::Image}};
+            .recipe = {.loads = InputKind::Image},
+            .example = {.changed = {{"units", std::string("mm")}}}};
 }
 
 }  // namespace vesselbench

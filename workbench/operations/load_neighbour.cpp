@@ -74,7 +74,8 @@ Operation load_neighbour_operation() {
             .run = &load,
             .isolated = true,
             .thesis = "5.2",
-            .recipe = {.loads = InputKind::Neighbour}};
+            .recipe = {.loads = InputKind::Neighbour},
+            .example = {.changed = {{"name", std::string("vein")}}}};
 }
 
 }  // namespace vesselbench

@@ -70,7 +70,8 @@ Operation load_surface_operation() {
             .run = &load,
             .isolated = true,
             .thesis = "3.2",
-            .recipe = {.loads = InputKind::Surface, .makes_source = true}};
+            .recipe = {.loads = InputKind::Surface, .makes_source = true},
+            .example = {.changed = {{"units", std::string("mm")}}}};
 }
 
 }  // namespace vesselbench

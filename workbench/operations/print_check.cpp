@@ -141,7 +141,8 @@ Operation print_check_operation() {
             .thesis = "2.3",
             .recipe = {.report_section = ReportSection{.key = "print",
                                                        .title = "Print",
-                                                       .about = "Check of the printable model."}}};
+                                                       .about = "Check of the printable model."}},
+            .example = {.changed = {{"bend", 60.0}}}};
 }
 
 }  // namespace vesselbench

@@ -228,7 +228,9 @@ Operation remesh_operation() {
         .thesis = "3.3.2, 4.2.9",
         .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},
-                   .counts_triangles = true}};
+                   .counts_triangles = true},
+        .example = {.given = {{"radius", std::string("rays")}},
+                    .changed = {{"mode", std::string("uniform")}}}};
 }
 
 }  // namespace vesselbench

@@ -66,7 +66,8 @@ Operation remove_branch_operation() {
                         .minimum = 1,
                         .maximum = 2}},
         .run = &remove,
-        .thesis = "4.2.2"};
+        .thesis = "4.2.2",
+        .example = {.scene = ExampleScene::Branches, .changed = {{"margin", 0.5}}}};
 }
 
 }  // namespace vesselbench

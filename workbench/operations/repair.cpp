@@ -211,7 +211,8 @@ Operation repair_operation() {
         .run = &run,
         .isolated = true,
         .thesis = "3.2",
-        .recipe = {.proves_source = true}};
+        .recipe = {.proves_source = true},
+        .example = {.scene = ExampleScene::Holes, .changed = {{"smallest_feature", 0.002}}}};
 }
 
 }  // namespace vesselbench

@@ -217,7 +217,8 @@ Operation smooth_operation() {
             .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
             .search = {.smoothing = &smoothing_subject,
                        .filter_parameter = "filter",
-                       .hint = "staircase=true keeps its thresholds, beta_min and alpha"}};
+                       .hint = "staircase=true keeps its thresholds, beta_min and alpha"},
+            .example = {.changed = {{"filter", std::string("taubin")}}}};
 }
 
 }  // namespace vesselbench

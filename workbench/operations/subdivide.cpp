@@ -45,7 +45,8 @@ Operation subdivide_operation() {
                             .maximum = 6}},
             .run = &run,
             .thesis = "3.3.1",
-            .search = {.parameters = &searched_parameters}};
+            .search = {.parameters = &searched_parameters},
+            .example = {.changed = {{"iterations", std::int64_t{2}}}}};
 }
 
 }  // namespace vesselbench

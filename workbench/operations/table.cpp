@@ -35,4 +35,10 @@ const Operation& loading_operation(InputKind kind) {
     });
 }
 
+const Operation& extracting_operation() {
+    return *std::ranges::find_if(operation_table(), [](const Operation& operation) {
+        return operation.recipe.makes_source && !operation.recipe.loads;
+    });
+}
+
 }  // namespace vesselbench

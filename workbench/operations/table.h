@@ -19,6 +19,9 @@ namespace vesselbench {
 /// The operation that loads such an input.
 [[nodiscard]] const Operation& loading_operation(InputKind kind);
 
+/// The operation that makes the source's surface of an image.
+[[nodiscard]] const Operation& extracting_operation();
+
 /// The registration of the operations, ordered by their usual steps. Each row `name` is a function
 /// `Operation name_operation()`, defined in operations/name.cpp (the brushes share brush.cpp).
 // clang-format off

@@ -104,7 +104,8 @@ Operation tetrahedralize_operation() {
         .run = &tetrahedralize,
         .isolated = true,
         .thesis = "3.3.3",
-        .recipe = {.makes_volume_mesh = true}};
+        .recipe = {.makes_volume_mesh = true},
+        .example = {.changed = {{"growth", 0.3}}}};
 }
 
 }  // namespace vesselbench

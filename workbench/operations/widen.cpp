@@ -90,7 +90,8 @@ Operation widen_operation() {
                             .minimum = 0.0,
                             .above_minimum = true}},
             .run = &run,
-            .thesis = "4.2.4"};
+            .thesis = "4.2.4",
+            .example = {.given = {{"width", 2.25}}, .changed = {{"width", 2.375}}}};
 }
 
 }  // namespace vesselbench

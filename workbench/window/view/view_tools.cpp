@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "workbench/operations/table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/widgets/controls.h"
@@ -130,7 +131,7 @@ void draw_empty_view(PanelContext& c, const ViewScene& scene) {
     if (shown == nullptr || !shown->image || c.place.form()) return;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (button(c.ui, "view.extract", "Extract surface", {.primary = true, .width = wide}))
-        return c.place.choose("extract-surface");
+        return c.place.choose(extracting_operation().name);
     ImGui::SetCursorScreenPos({corner.x, corner.y + ImGui::GetFrameHeight() + c.ui.grid(1)});
     if (!shown->mask && c.place.can_add_mask() &&
         button(c.ui, "view.add_mask", "Add a mask",
