@@ -72,7 +72,7 @@ struct RunningWindow {
 
 }  // namespace
 
-SCENARIO("The window is closed in the middle of an operation", "[window][endings]") {
+SCENARIO("The window is closed in the middle of an operation", "[window][endings][display]") {
     const Screen screen = GENERATE(Screen::None, Screen::Display);
     auto window = window_on(screen);
     if (!window) return;
@@ -89,7 +89,8 @@ SCENARIO("The window is closed in the middle of an operation", "[window][endings
     CHECK(edit_count(*window) == 2);
 }
 
-SCENARIO("A project that another window holds is shown, not changed", "[window][endings]") {
+SCENARIO("A project that another window holds is shown, not changed",
+         "[window][endings][display]") {
     const std::string project = tube_project(24);
     ::setenv("XDG_CONFIG_HOME", temporary_folder().c_str(), 1);
     if (!start_display()) return;
@@ -151,7 +152,7 @@ SCENARIO("A stroke that does not end", "[.][painting]") {
         window->move_mouse(view.middle_x() + way, view.middle_y() + way);
 }
 
-SCENARIO("The window is killed in the middle of a stroke", "[window][endings]") {
+SCENARIO("The window is killed in the middle of a stroke", "[window][endings][display]") {
     if (!start_display()) return;
     const std::string project = tube_project(48);
     ::setenv(kPainted, project.c_str(), 1);

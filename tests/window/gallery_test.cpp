@@ -176,7 +176,7 @@ SCENARIO("A suggestion of the gallery is taken by a double click", "[window][gal
     if (const auto window = window_on(Screen::None)) take_and_apply(*window, take_by_double_click);
 }
 
-SCENARIO("A suggestion of the gallery is taken on a display", "[window][gallery][walk]") {
+SCENARIO("A suggestion of the gallery is taken on a display", "[window][gallery][walk][display]") {
     if (const auto window = window_on(Screen::Display)) take_and_apply(*window, take_by_button);
 }
 
@@ -307,11 +307,12 @@ SCENARIO("The gallery is interrupted while it searches", "[window][gallery]") {
     }
 }
 
-SCENARIO("Spots are kept with the project on a display", "[window][gallery][spots][walk]") {
+SCENARIO("Spots are kept with the project on a display",
+         "[window][gallery][spots][walk][display]") {
     if (const auto window = window_on(Screen::Display)) keep_spots(*window);
 }
 
-SCENARIO("The gallery is left while it searches on a display", "[window][gallery][walk]") {
+SCENARIO("The gallery is left while it searches on a display", "[window][gallery][walk][display]") {
     const auto window = window_on(Screen::Display);
     if (!window) return;
     open_smooth(*window, 96);

@@ -147,7 +147,8 @@ SCENARIO("The mouse smooths on the device, and Apply enters the CPU's result",
     smooth_on_device(Screen::None);
 }
 
-SCENARIO("The mouse smooths on the device under a display", "[window][live][live-device][walk]") {
+SCENARIO("The mouse smooths on the device under a display",
+         "[window][live][live-device][walk][display]") {
     smooth_on_device(Screen::Display);
 }
 

@@ -126,11 +126,12 @@ SCENARIO("The iso-value slides, and Apply enters what is seen", "[window][extrac
     if (const auto window = window_on(Screen::None)) slide_and_apply(*window);
 }
 
-SCENARIO("The iso-value slides on a display", "[window][extraction][walk]") {
+SCENARIO("The iso-value slides on a display", "[window][extraction][walk][display]") {
     if (const auto window = window_on(Screen::Display)) slide_and_apply(*window);
 }
 
-SCENARIO("Escape brings back the iso-value from before a drag", "[window][extraction][walk]") {
+SCENARIO("Escape brings back the iso-value from before a drag",
+         "[window][extraction][walk][display]") {
     const Screen screen = GENERATE(Screen::None, Screen::Display);
     const auto window = window_on(screen);
     if (!window) return;

@@ -93,7 +93,7 @@ SCENARIO("The right button smooths, and Apply enters what is seen", "[window][li
     if (const auto window = window_on(Screen::None)) smooth_live(*window);
 }
 
-SCENARIO("The right button smooths on a display", "[window][live][walk]") {
+SCENARIO("The right button smooths on a display", "[window][live][walk][display]") {
     if (const auto window = window_on(Screen::Display)) smooth_live(*window);
 }
 

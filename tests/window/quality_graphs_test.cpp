@@ -91,7 +91,7 @@ SCENARIO("A share is dragged in the graph of a decimation, and applied", "[windo
     if (const auto window = window_on(Screen::None)) decimate_by_graph(*window);
 }
 
-SCENARIO("A share is dragged in a graph on a display", "[window][live][walk]") {
+SCENARIO("A share is dragged in a graph on a display", "[window][live][walk][display]") {
     if (const auto window = window_on(Screen::Display)) decimate_by_graph(*window);
 }
 

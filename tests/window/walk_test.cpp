@@ -178,7 +178,7 @@ void check_undo_and_redo(Driver& window) {
 
 }  // namespace
 
-SCENARIO("The bundled case is prepared by hand", "[window][walk]") {
+SCENARIO("The bundled case is prepared by hand", "[window][walk][display]") {
     const auto window = window_on(Screen::Display);
     if (!window) return;
     REQUIRE(window->click_item("case.aneurysm"));
