@@ -26,8 +26,9 @@ pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 find_package(glfw3 3.3 CONFIG REQUIRED)
 
-# stb is headers only, on the compiler's own path; the fonts of labels and window are embedded.
+# stb and mustache are headers only, on the compiler's own path; the fonts of labels and window are embedded.
 find_path(STB_INCLUDE_DIR stb/stb_truetype.h REQUIRED)
+find_path(MUSTACHE_INCLUDE_DIR kainjow/mustache.hpp REQUIRED)
 find_file(LABEL_FONT DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu REQUIRED)
 
 set(ROBOTO_FOLDER /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF)

@@ -65,7 +65,7 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "To be cast.",
                              "wax grams",
                              "12.5",
-                             "flow [cm&sup3;/s]",
+                             "flow [cm\u00B3/s]",
                              "least [mm] 0.5, noise 0<",
                              "10 numbers",
                              "<h2>Vessel ends</h2>",

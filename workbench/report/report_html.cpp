@@ -3,29 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
+#include "workbench/report/report_template.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kStyle = R"(
-body{font:15px/1.5 system-ui,sans-serif;color:#1c2530;max-width:1100px;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.7rem;margin-bottom:.2rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #ccd5de}
-table{border-collapse:collapse;width:100%;margin:.6rem 0}td,th{text-align:left;padding:.25rem .7rem .25rem 0;
-border-bottom:1px solid #e6ebf0;vertical-align:top}th{color:#5a6875;font-weight:600}td.n,th.n{text-align:right;
-font-variant-numeric:tabular-nums;white-space:nowrap}.about{color:#5a6875}.warn{background:#fff4dc;
-border-left:4px solid #e0a100;padding:.4rem .8rem;margin:.4rem 0}.tiles{display:flex;flex-wrap:wrap;gap:.8rem;
-margin:1rem 0}.tile{background:#f2f5f8;border-radius:6px;padding:.6rem 1rem}.tile b{display:block;font-size:1.25rem}
-.pictures{display:flex;flex-wrap:wrap;gap:.8rem}figure{margin:0;flex:1 1 300px}figure img{width:100%;
-border:1px solid #e6ebf0}figcaption{color:#5a6875;font-size:.9rem}.good{color:#1a7f37}.bad{color:#b42318}
-)";
+namespace mustache = kainjow::mustache;
 
 /// Below this, a number is a rounding error of lengths and angles.
 constexpr double kNothing = 1e-9;
@@ -42,8 +34,8 @@ std::string number_text(double number) {
 /// [m/s]".
 std::string words_of(std::string key) {
     static const std::vector<std::pair<std::string, std::string>> units = {
-        {"_kg_m3", "kg/m&sup3;"}, {"_cm3_s", "cm&sup3;/s"}, {"_m_s", "m/s"}, {"_pa_s", "Pa s"},
-        {"_mm3", "mm&sup3;"},     {"_mm2", "mm&sup2;"},     {"_mm", "mm"},   {"_deg", "deg"}};
+        {"_kg_m3", "kg/m\u00B3"}, {"_cm3_s", "cm\u00B3/s"}, {"_m_s", "m/s"}, {"_pa_s", "Pa s"},
+        {"_mm3", "mm\u00B3"},     {"_mm2", "mm\u00B2"},     {"_mm", "mm"},   {"_deg", "deg"}};
     std::string unit;
     for (const auto& [ending, name] : units)
         if (unit.empty() && key.ends_with(ending)) {
@@ -51,7 +43,7 @@ std::string words_of(std::string key) {
             unit = " [" + name + "]";
         }
     std::ranges::replace(key, '_', ' ');
-    return xml_escaped(key) + unit;
+    return key + unit;
 }
 
 /// Longer lists, such as the planes of many cuts, are left to report.json.
@@ -67,7 +59,7 @@ std::string shown(const Json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
     if (value.is_number()) return number_text(value.get<double>());
-    if (value.is_string()) return xml_escaped(value.get<std::string>());
+    if (value.is_string()) return value.get<std::string>();
     if (is_long_list(value)) return std::to_string(value.size()) + " numbers";
     if (value.is_array()) {
         std::string text;
@@ -80,41 +72,40 @@ std::string shown(const Json& value) {
     return text;
 }
 
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-    std::string text = "<tr>";
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        text += std::string("<") + tag + (i > 0 ? " class=n>" : ">") + cells[i] + "</" + tag + ">";
-    return text + "</tr>\n";
-}
-
 const Json& part_of(const Json& json, const std::string& key) {
     static const Json nothing;
     return json.is_object() && json.contains(key) ? json[key] : nothing;
 }
 
-std::string tile(const std::string& name, const std::string& value) {
-    return "<div class=tile><b>" + value + "</b>" + name + "</div>\n";
+/// The values of some keys in readable form; "-": there is none.
+Json texts_of(const Json& json, std::initializer_list<const char*> keys) {
+    Json texts = Json::object();
+    for (const char* key : keys) texts[key] = shown(part_of(json, key));
+    return texts;
 }
 
-std::string tiles(const Json& report) {
+/// Each element of a list in readable form.
+Json texts_of(const Json& list) {
+    Json texts = Json::array();
+    for (const Json& part : list) texts.push_back(shown(part));
+    return texts;
+}
+
+Json tiles(const Json& report) {
     const Json& after = part_of(part_of(report, "quality"), "after");
-    std::string html = "<div class=tiles>";
-    html += tile("triangles", shown(part_of(after, "triangles")));
-    html += tile("volume [mm&sup3;]", shown(part_of(after, "volume")));
-    html += tile("openings", std::to_string(part_of(report, "openings").size()));
+    Json tiles = Json::array();
+    const auto add = [&](const char* name, const std::string& value) {
+        tiles.push_back({{"name", name}, {"value", value}});
+    };
+    add("triangles", shown(part_of(after, "triangles")));
+    add("volume [mm\u00B3]", shown(part_of(after, "volume")));
+    add("openings", std::to_string(part_of(report, "openings").size()));
     if (report.contains("volume_mesh"))
-        html += tile("tetrahedra", shown(part_of(report["volume_mesh"], "cells")));
+        add("tetrahedra", shown(part_of(report["volume_mesh"], "cells")));
     const Json& inlets = part_of(part_of(report, "flow"), "inlets");
-    if (!inlets.empty()) html += tile("Reynolds number", shown(part_of(inlets[0], "reynolds")));
-    html += tile("warnings", std::to_string(part_of(report, "warnings").size()));
-    return html + "</div>\n";
-}
-
-std::string warnings(const Json& report) {
-    std::string html;
-    for (const Json& warning : part_of(report, "warnings"))
-        html += "<div class=warn>" + shown(warning) + "</div>\n";
-    return html.empty() ? "" : "<h2>What to look at</h2>\n" + html;
+    if (!inlets.empty()) add("Reynolds number", shown(part_of(inlets[0], "reynolds")));
+    add("warnings", std::to_string(part_of(report, "warnings").size()));
+    return tiles;
 }
 
 std::string base64(const std::string& bytes) {
@@ -132,55 +123,42 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
-std::string gallery(std::span<const ReportPicture> pictures) {
-    if (pictures.empty()) return "";
-    std::string html = "<h2>Pictures</h2>\n<div class=pictures>";
+Json gallery(std::span<const ReportPicture> pictures) {
+    Json list = Json::array();
     for (const ReportPicture& picture : pictures)
-        html += "<figure><img alt=\"" + xml_escaped(picture.title) +
-                "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption>" +
-                xml_escaped(picture.title) + "</figcaption></figure>\n";
-    return html + "</div>\n";
+        list.push_back({{"title", picture.title}, {"png", base64(picture.png)}});
+    return list;
 }
 
 std::string seconds_text(const Json& value) {
     return value.is_number() ? formatted(value.get<double>(), "%.1f") : shown(value);
 }
 
-std::string step_row(const Json& step) {
-    const Json& change = part_of(step, "change");
+std::string volume_text(const Json& change) {
     const Json &before = part_of(change, "volume_before_mm3"),
                &after = part_of(change, "volume_after_mm3");
-    const Json& no_volume = part_of(change, "no_volume_change");
-    std::string volume = no_volume.is_string() ? "- (" + shown(no_volume) + ")" : "-";
     if (before.is_number() && after.is_number() && before.get<double>() > 0)
-        volume = number_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
-    std::string arguments;
+        return number_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
+    const Json& reason = part_of(change, "no_volume_change");
+    return reason.is_string() ? "- (" + shown(reason) + ")" : "-";
+}
+
+Json step_texts(const Json& step) {
+    const Json& change = part_of(step, "change");
+    std::vector<std::string> arguments;
     for (const auto& [name, value] : part_of(step, "resolved").items())
-        arguments += (arguments.empty() ? "" : ", ") + xml_escaped(name) + "=" + shown(value);
-    return "<tr><td class=n>" + shown(part_of(step, "edit")) + "</td><td>" +
-           shown(part_of(step, "step")) + "</td><td><b>" + shown(part_of(step, "operation")) +
-           "</b><br><span class=about>" + arguments + "</span></td><td class=n>" +
-           seconds_text(part_of(step, "duration_s")) + "</td><td class=n>" +
-           shown(part_of(change, "triangles_after")) + "</td><td class=n>" + volume +
-           "</td><td class=n>" + shown(part_of(change, "mean_deviation_mm")) + " / " +
-           shown(part_of(change, "largest_deviation_mm")) + "</td></tr>\n";
+        arguments.push_back(name + "=" + shown(value));
+    Json texts = texts_of(step, {"edit", "step", "operation"});
+    texts.update(
+        texts_of(change, {"triangles_after", "mean_deviation_mm", "largest_deviation_mm"}));
+    texts.update({{"arguments", joined(arguments)},
+                  {"seconds", seconds_text(part_of(step, "duration_s"))},
+                  {"volume", volume_text(change)}});
+    return texts;
 }
 
-std::string steps(const Json& report) {
-    std::string html =
-        "<h2>What was done</h2>\n<table><tr><th class=n>edit</th><th>step</th><th>operation and "
-        "arguments</th>"
-        "<th class=n>seconds</th><th class=n>triangles</th><th class=n>volume</th>"
-        "<th class=n>mean / largest deviation [mm]</th></tr>\n";
-    for (const Json& step : part_of(report, "steps")) html += step_row(step);
-    return html +
-           "</table>\n<p class=about>Every row is an edit of the project that can be undone, "
-           "changed by its number, and replayed.</p>\n";
-}
-
-std::string quality(const Json& report) {
+Json quality(const Json& report) {
     const Json& both = part_of(report, "quality");
-    const Json &before = part_of(both, "before"), &after = part_of(both, "after");
     static const std::vector<std::pair<const char*, const char*>> names = {
         {"triangles", "triangles"},
         {"components", "components"},
@@ -189,19 +167,24 @@ std::string quality(const Json& report) {
         {"manifold", "manifold"},
         {"self_intersections", "self-intersections"},
         {"genus", "genus"},
-        {"area", "area [mm&sup2;]"},
-        {"volume", "volume [mm&sup3;]"},
+        {"area", "area [mm\u00B2]"},
+        {"volume", "volume [mm\u00B3]"},
         {"edge_length", "edge length [mm]"},
         {"equiangle_skewness", "equiangle skewness [-], 0 is best"},
         {"radius_ratio", "radius ratio [-], 1 is best"},
         {"normal_curvature_deg", "mean normal curvature [deg]"},
         {"mean_curvature", "integral of the mean curvature [mm]"}};
-    std::string html = "<h2>Surface quality</h2>\n<table>" + row({"", "before", "after"}, "th");
+    Json rows = Json::array();
     for (const auto& [key, name] : names)
-        html += row({name, shown(part_of(before, key)), shown(part_of(after, key))});
+        rows.push_back({{"name", name},
+                        {"before", shown(part_of(part_of(both, "before"), key))},
+                        {"after", shown(part_of(part_of(both, "after"), key))}});
     const Json& wall = part_of(both, "wall");
-    if (wall.is_object()) html += row({"wall only: skewness, radius ratio", "", shown(wall)});
-    return html + "</table>\n";
+    if (wall.is_object())
+        rows.push_back({{"name", "wall only: skewness, radius ratio"},
+                        {"before", ""},
+                        {"after", shown(wall)}});
+    return rows;
 }
 
 bool is_for_flow(const Json& report) {
@@ -209,22 +192,12 @@ bool is_for_flow(const Json& report) {
     return purpose != purposes().end() && purpose->simulates_flow;
 }
 
-std::string openings(const Json& report) {
-    std::string html =
-        "<h2>Openings</h2>\n<table><tr><th>name</th><th class=n>kind</th>"
-        "<th class=n>diameter [mm]</th><th class=n>area [mm&sup2;]</th><th class=n>centroid "
-        "[mm]</th><th class=n>outward normal</th><th class=n>flatness [mm]</th><th class=n>tilt "
-        "against the vessel there [deg]</th></tr>\n";
+Json openings(const Json& report) {
+    Json list = Json::array();
     for (const Json& patch : part_of(report, "openings"))
-        html += row({shown(part_of(patch, "name")), shown(part_of(patch, "kind")),
-                     shown(part_of(patch, "diameter")), shown(part_of(patch, "area")),
-                     shown(part_of(patch, "centroid")), shown(part_of(patch, "normal")),
-                     shown(part_of(patch, "flatness")), shown(part_of(patch, "tilt_deg"))});
-    return html + "</table>\n<p class=about>As the model has them" +
-           (is_for_flow(report) ? ", at the ends of its extensions. A flat end that was kept "
-                                  "although it was tilted is named under the vessel ends."
-                                : ".") +
-           "</p>\n";
+        list.push_back(texts_of(patch, {"name", "kind", "diameter", "area", "centroid", "normal",
+                                        "flatness", "tilt_deg"}));
+    return list;
 }
 
 /// As an argument, to be copied.
@@ -244,32 +217,15 @@ std::string opening_text(const Json& report, const Json& name) {
 }
 
 /// What became of every vessel end, worst first.
-std::string ends(const Json& report) {
-    const Json& list = part_of(report, "ends");
-    if (!list.is_array() || list.empty()) return "";
-    std::string html =
-        "<h2>Vessel ends</h2>\n<table><tr><th>place [mm]</th><th class=n>vessel's diameter at its "
-        "end [mm]</th><th>became</th><th>opening in the model, its diameter</th><th>why</th>"
-        "</tr>\n";
-    for (const Json& end : list)
-        html += row({place_text(part_of(end, "place_mm")), shown(part_of(end, "diameter_mm")),
-                     shown(part_of(end, "fate")), opening_text(report, part_of(end, "opening")),
-                     shown(part_of(end, "why"))});
-    return html + "</table>\n<p class=about>A place of this table chooses an end: " +
-           (is_for_flow(report) ? "inlet=, open= and closed=" : "open= and closed=") +
-           " of clip-opening take it.</p>\n";
-}
-
-/// A part of the report as a table of names and values; nothing if it is absent.
-std::string plain_table(const Json& report, const ReportSection& section) {
-    const Json& part = part_of(report, section.key);
-    if (!part.is_object()) return "";
-    std::string html =
-        "<h2>" + section.title + "</h2>\n<p class=about>" + section.about + "</p>\n<table>";
-    for (const auto& [name, value] : part.items()) {
-        html += row({words_of(name), shown(value)});
+Json ends(const Json& report) {
+    Json list = Json::array();
+    for (const Json& end : part_of(report, "ends")) {
+        Json texts = texts_of(end, {"diameter_mm", "fate", "why"});
+        texts["place"] = place_text(part_of(end, "place_mm"));
+        texts["opening"] = opening_text(report, part_of(end, "opening"));
+        list.push_back(std::move(texts));
     }
-    return html + "</table>\n";
+    return list;
 }
 
 /// Those of every report, beside the ones that operations declare.
@@ -300,11 +256,19 @@ const std::vector<ReportSection>& usual_sections() {
     return sections;
 }
 
-std::string products(const Json& report) {
-    std::string html = "<h2>Files</h2>\n<ul>\n";
-    for (const Json& file : part_of(report, "products"))
-        html += "<li><code>" + shown(file) + "</code></li>\n";
-    return html + "</ul>\n";
+/// The parts of the report that are there, each as a table of names and values.
+Json sections_of(const Json& report, std::span<const ReportSection> declared) {
+    Json list = Json::array();
+    for (const auto& sections : {std::span<const ReportSection>(usual_sections()), declared})
+        for (const ReportSection& section : sections) {
+            const Json& part = part_of(report, section.key);
+            if (!part.is_object()) continue;
+            Json rows = Json::array();
+            for (const auto& [name, value] : part.items())
+                rows.push_back({{"name", words_of(name)}, {"value", shown(value)}});
+            list.push_back({{"title", section.title}, {"about", section.about}, {"rows", rows}});
+        }
+    return list;
 }
 
 /// Of a report from another version too, whose purpose may be unknown.
@@ -313,21 +277,45 @@ std::string title_of(const std::string& name) {
     return found != purposes().end() ? found->title : "Model";
 }
 
+/// For the template, which escapes what HTML has signs for; control characters are none of them.
+mustache::data template_data(const Json& json) {
+    if (json.is_string()) return printable(json.get<std::string>());
+    if (json.is_boolean()) return json.get<bool>();
+    mustache::data data(json.is_array() ? mustache::data::type::list
+                                        : mustache::data::type::object);
+    for (const auto& [key, value] : json.items()) {
+        if (json.is_array())
+            data << template_data(value);
+        else
+            data[key] = template_data(value);
+    }
+    return data;
+}
+
 }  // namespace
 
 std::string report_html(const Json& report, std::span<const ReportPicture> pictures,
                         std::span<const ReportSection> sections) {
-    const std::string input = shown(part_of(part_of(report, "input"), "name"));
-    std::string html = "<!doctype html>\n<html lang=en><head><meta charset=utf-8><title>" + input +
-                       "</title><style>" + kStyle + "</style></head><body>\n";
-    html += "<h1>" + input + "</h1>\n<p class=about>" + title_of(report.value("purpose", "")) +
-            ", prepared by vesselbench " + shown(part_of(report, "program_version")) + ". " +
-            shown(part_of(report, "units_text")) + "</p>\n";
-    html += tiles(report) + warnings(report) + gallery(pictures) + steps(report) + quality(report) +
-            openings(report) + ends(report);
-    for (const ReportSection& section : usual_sections()) html += plain_table(report, section);
-    for (const ReportSection& section : sections) html += plain_table(report, section);
-    return html + products(report) + "</body></html>\n";
+    Json steps = Json::array();
+    for (const Json& step : part_of(report, "steps")) steps.push_back(step_texts(step));
+    Json page = {{"input", shown(part_of(part_of(report, "input"), "name"))},
+                 {"title", title_of(report.value("purpose", ""))},
+                 {"version", shown(part_of(report, "program_version"))},
+                 {"units", shown(part_of(report, "units_text"))},
+                 {"for_flow", is_for_flow(report)},
+                 {"tiles", tiles(report)},
+                 {"warnings", texts_of(part_of(report, "warnings"))},
+                 {"pictures", gallery(pictures)},
+                 {"steps", steps},
+                 {"quality", quality(report)},
+                 {"openings", openings(report)},
+                 {"ends", ends(report)},
+                 {"sections", sections_of(report, sections)},
+                 {"products", texts_of(part_of(report, "products"))}};
+    for (const char* list : {"warnings", "pictures", "ends"})
+        page[std::string("any_") + list] = !page[list].empty();
+    mustache::mustache html(report_templates().at("report.html"));
+    return html.render(template_data(page));
 }
 
 }  // namespace vesselbench
