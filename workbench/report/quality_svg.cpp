@@ -1,42 +1,17 @@
 #include "workbench/report/quality_svg.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <span>
 #include <sstream>
 
 #include "geometry/kernel/wording.h"
-#include "gpu/picture.h"
+#include "workbench/report/quality_graph.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// How a measure is drawn; colours are distinguishable for the colour-blind, dashes in print.
-struct Look {
-    QualityMeasure measure;
-    const char* name;
-    const char* colour;
-    const char* dashes;
-};
-
-constexpr std::array<Look, 5> kLooks = {
-    {{QualityMeasure::Curvature, "curvature", "#1b6ca8", ""},
-     {QualityMeasure::Error, "error", "#c8442b", "7 3"},
-     {QualityMeasure::Volume, "volume change", "#2e8b57", "2 3"},
-     {QualityMeasure::Triangles, "triangles", "#7a6a00", "10 3 2 3"},
-     {QualityMeasure::Skewness, "skewness", "#6b4fa0", "12 4"}}};
-
-/// Styles of the measures that change.
-std::vector<Look> looks_of(const QualityScale& scale) {
-    const std::vector<QualityMeasure> measures = measures_of(scale);
-    std::vector<Look> looks;
-    for (const Look& look : kLooks)
-        if (std::ranges::find(measures, look.measure) != measures.end()) looks.push_back(look);
-    return looks;
-}
 
 constexpr double kMostShown = 2.0;  // of a graph's measures, relative to 100 %
 
@@ -67,57 +42,53 @@ public:
              << coordinate(x2) << "\" y2=\"" << coordinate(y2) << "\" " << look << "/>\n";
     }
 
-    /// \param crisp without antialiasing, for adjacent fields
-    void box(double x, double y, double width, double height, const std::string& look,
-             bool crisp = false) {
+    void box(double x, double y, double width, double height, const std::string& look) {
         out_ << "<rect x=\"" << coordinate(x) << "\" y=\"" << coordinate(y) << "\" width=\""
              << coordinate(width) << "\" height=\"" << coordinate(height) << "\" " << look
-             << (crisp ? " shape-rendering=\"crispEdges\"" : "") << "/>\n";
+             << "/>\n";
     }
 
-    void curve(const std::string& points, const std::string& look) {
-        out_ << "<polyline points=\"" << points << "\" fill=\"none\" " << look << "/>\n";
+    void curve(const std::vector<GraphPoint>& points, const std::string& look) {
+        out_ << "<polyline points=\"" << listed(points) << "\" fill=\"none\" " << look << "/>\n";
     }
 
-    /// A triangle whose tip is at x, y.
-    void mark(double x, double y, bool down, const std::string& look) {
-        const double back = down ? y - 9 : y + 9;
-        out_ << "<polygon points=\"" << coordinate(x) << ',' << coordinate(y) << ' '
-             << coordinate(x - 5) << ',' << coordinate(back) << ' ' << coordinate(x + 5) << ','
-             << coordinate(back) << "\" " << look << "/>\n";
+    /// The mark of a suggested value, whose tip is at x, y.
+    void mark(double x, double y) {
+        out_ << "<polygon points=\"" << listed(suggestion_mark({x, y}, 5, 9))
+             << "\" fill=\"#8a2be2\"/>\n";
     }
 
     [[nodiscard]] std::string finished() const { return out_.str() + "</svg>\n"; }
 
 private:
+    static std::string listed(std::span<const GraphPoint> points) {
+        std::string text;
+        for (const auto& [x, y] : points)
+            text += (text.empty() ? "" : " ") + coordinate(x) + ',' + coordinate(y);
+        return text;
+    }
+
     std::ostringstream out_;
 };
 
-std::string stroke(const char* colour, double width, const std::string& dashes = "") {
-    return std::string("stroke=\"") + colour + "\" stroke-width=\"" + coordinate(width) + "\"" +
+/// \param colour 0xRRGGBB
+std::string hex(std::uint32_t colour) {
+    char text[16];
+    std::snprintf(text, sizeof text, "#%06x", colour);
+    return text;
+}
+
+std::string hex(const PixelColour& colour) {
+    return hex(colour[0] << 16 | colour[1] << 8 | colour[2]);
+}
+
+std::string stroke(const std::string& colour, double width, const std::string& dashes = "") {
+    return "stroke=\"" + colour + "\" stroke-width=\"" + coordinate(width) + "\"" +
            (dashes.empty() ? "" : " stroke-dasharray=\"" + dashes + "\"");
 }
 
 std::string axis_title(const QualityCurve& curve) {
     return curve.name + (curve.unit.empty() ? "" : " [" + curve.unit + "]");
-}
-
-/// A step of 1, 2 or 5 times a power of ten that yields about `wanted` steps.
-double round_step(double range, int wanted) {
-    const double rough = range / wanted;
-    const double power = std::pow(10.0, std::floor(std::log10(rough)));
-    for (const double factor : {1.0, 2.0, 5.0})
-        if (factor * power >= 0.999 * rough) return factor * power;
-    return 10.0 * power;
-}
-
-std::vector<double> ticks(double from, double to, int wanted) {
-    std::vector<double> list;
-    if (!(to > from)) return {from};
-    const double step = round_step(to - from, wanted);
-    for (double at = std::ceil(from / step - 1e-9) * step; at <= to + 1e-9 * step; at += step)
-        list.push_back(std::abs(at) < 1e-9 * step ? 0.0 : at);
-    return list;
 }
 
 void add_head(Drawing& drawing, const QualityTitle& title, const std::string& what) {
@@ -154,15 +125,15 @@ std::string whole_text(const QualityScale& scale, QualityMeasure measure) {
 /// Lower edge of a legend that starts at y.
 double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const QualityTitle& title,
                   double y) {
-    for (const Look& look : looks_of(analysis.scale)) {
-        drawing.line(20, y - 4, 56, y - 4, stroke(look.colour, 2.2, look.dashes));
+    for (const MeasureLook& look : looks_of(measures_of(analysis.scale))) {
+        drawing.line(20, y - 4, 56, y - 4, stroke(hex(look.colour), 2.2, look.dashes));
         drawing.text(64, y, look.name, "font-weight=\"bold\"");
         drawing.text(170, y, whole_text(analysis.scale, look.measure));
         y += 18;
     }
     drawing.line(38, y - 12, 38, y + 2, stroke(kInk, 1.4, "4 3"));
     drawing.text(64, y, "current value");
-    drawing.mark(176, y - 8, false, "fill=\"#8a2be2\"");
+    drawing.mark(176, y - 8);
     drawing.text(190, y, "suggested, others fixed (tau " + formatted(title.tau) + ")");
     drawing.text(20, y + 20,
                  "strong change: " + analysis.scale.strong + "; values above " +
@@ -171,61 +142,36 @@ double add_legend(Drawing& drawing, const SensitivityAnalysis& analysis, const Q
     return y + 26;
 }
 
-/// One panel: maps values to the paper.
-struct Panel {
-    double left, top, width, height;
-    double from, to, high;
-
-    [[nodiscard]] double x(double value) const {
-        return to > from ? left + width * (value - from) / (to - from) : left + width / 2;
-    }
-
-    [[nodiscard]] double y(double share) const { return top + height * (1.0 - share / high); }
-};
-
-void add_grid(Drawing& drawing, const Panel& panel, const QualityCurve& curve, bool with_labels) {
-    for (const double share : ticks(0.0, panel.high, 6)) {
-        drawing.line(panel.left, panel.y(share), panel.left + panel.width, panel.y(share),
-                     stroke(kFaint, 1));
+void add_grid(Drawing& drawing, const GraphFrame& panel, const QualityCurve& curve,
+              bool with_labels) {
+    for (const double share : axis_ticks(0.0, panel.high, 6)) {
+        drawing.line(panel.left, panel.y(share), panel.right(), panel.y(share), stroke(kFaint, 1));
         if (with_labels)
             drawing.text(panel.left - 8, panel.y(share) + 4, formatted(100.0 * share, "%.4g"),
                          "text-anchor=\"end\"");
     }
-    for (const double value : ticks(panel.from, panel.to, 5)) {
-        drawing.line(panel.x(value), panel.top + panel.height, panel.x(value),
-                     panel.top + panel.height + 5, stroke(kInk, 1));
-        drawing.text(panel.x(value), panel.top + panel.height + 30, formatted(value),
+    for (const double value : axis_ticks(panel.from, panel.to, 5)) {
+        drawing.line(panel.x(value), panel.bottom(), panel.x(value), panel.bottom() + 5,
+                     stroke(kInk, 1));
+        drawing.text(panel.x(value), panel.bottom() + 30, formatted(value),
                      "text-anchor=\"middle\"");
     }
     drawing.box(panel.left, panel.top, panel.width, panel.height,
                 "fill=\"none\" " + stroke(kInk, 1));
-    drawing.text(panel.left + panel.width / 2, panel.top + panel.height + 50, axis_title(curve),
+    drawing.text(panel.left + panel.width / 2, panel.bottom() + 50, axis_title(curve),
                  "text-anchor=\"middle\" font-weight=\"bold\"");
 }
 
-void add_curves(Drawing& drawing, const Panel& panel, const QualityCurve& curve,
-                const std::vector<Look>& looks) {
-    for (const Look& look : looks) {
-        std::string points;
-        const auto finish = [&] {
-            if (!points.empty()) drawing.curve(points, stroke(look.colour, 2.2, look.dashes));
-            points.clear();
-        };
-        for (const CurvePoint& point : curve.points) {
-            if (!point.measures) {
-                finish();
-                continue;
-            }
-            points +=
-                coordinate(panel.x(point.value)) + ',' +
-                coordinate(panel.y(std::clamp(point.scaled.of(look.measure), 0.0, panel.high))) +
-                ' ';
-        }
-        finish();
+void add_curves(Drawing& drawing, const GraphFrame& panel, const QualityCurve& curve,
+                const std::vector<MeasureLook>& looks) {
+    for (const MeasureLook& look : looks) {
+        const auto share = [&](const CurvePoint& point) { return point.scaled.of(look.measure); };
+        for (const auto& line : graph_lines(curve, panel, share))
+            drawing.curve(line, stroke(hex(look.colour), 2.2, look.dashes));
     }
-    drawing.line(panel.x(curve.current), panel.top, panel.x(curve.current),
-                 panel.top + panel.height, stroke(kInk, 1.4, "4 3"));
-    drawing.mark(panel.x(curve.suggested), panel.top + panel.height + 6, false, "fill=\"#8a2be2\"");
+    drawing.line(panel.x(curve.current), panel.top, panel.x(curve.current), panel.bottom(),
+                 stroke(kInk, 1.4, "4 3"));
+    drawing.mark(panel.x(curve.suggested), panel.bottom() + 6);
 }
 
 /// Top of the percent axis, the same for all panels.
@@ -241,59 +187,42 @@ double highest_share(const SensitivityAnalysis& analysis) {
                     kMostShown);  // beyond twice the strong change, figures are irrelevant
 }
 
-std::string colour_text(const Colour& linear) {
-    char text[8];
-    const auto [red, green, blue] = pixel_colour(linear);
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", red, green, blue);
-    return text;
-}
-
-void add_bar(Drawing& drawing, const QualityCurve& curve, const QualityBar& bar, const Panel& at) {
-    const auto& points = curve.points;
-    const auto edge = [&](std::size_t i) {  // between two values; the ends extend by half a step
-        if (i == 0) return at.left;
-        if (i == points.size()) return at.left + at.width;
-        return at.x(0.5 * (points[i - 1].value + points[i].value));
-    };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const bool known = !std::isnan(bar.goodness[i]);
-        drawing.box(
-            edge(i), at.top, edge(i + 1) - edge(i) + 0.3, at.height,
-            known
-                ? "fill=\"" + colour_text(heated_colour(static_cast<float>(bar.goodness[i]))) + "\""
-                : std::string("fill=\"#e8e8f4\""));
-    }
+void add_bar(Drawing& drawing, const QualityCurve& curve, const QualityBar& bar,
+             const GraphFrame& at) {
+    for (const BarField& field : bar_fields(curve, bar, at))
+        drawing.box(field.left, at.top, field.right - field.left + 0.3, at.height,
+                    "fill=\"" + (field.colour ? hex(*field.colour) : "#e8e8f4") + "\"");
     drawing.box(at.left, at.top, at.width, at.height, "fill=\"none\" " + stroke("#888", 0.8));
-    const double x = std::clamp(at.x(curve.current), at.left + 4, at.left + at.width - 4);
+    const double x = std::clamp(at.x(curve.current), at.left + 4, at.right() - 4);
     drawing.box(x - 4, at.top - 2, 8, at.height + 4, "fill=\"none\" " + stroke("white", 3));
     drawing.box(x - 4, at.top - 2, 8, at.height + 4, "fill=\"none\" " + stroke(kInk, 1.4, "4 2"));
-    drawing.mark(at.x(curve.suggested), at.top + at.height + 1, false, "fill=\"#8a2be2\"");
+    drawing.mark(at.x(curve.suggested), at.bottom() + 1);
 }
 
-void add_bar_axis(Drawing& drawing, const QualityCurve& curve, const Panel& at) {
-    for (const double value : ticks(at.from, at.to, 5)) {
+void add_bar_axis(Drawing& drawing, const QualityCurve& curve, const GraphFrame& at) {
+    for (const double value : axis_ticks(at.from, at.to, 5)) {
         drawing.line(at.x(value), at.top, at.x(value), at.top + 4, stroke(kInk, 1));
         drawing.text(at.x(value), at.top + 17, formatted(value), "text-anchor=\"middle\"");
     }
-    drawing.text(at.left + at.width + 14, at.top + 17, axis_title(curve), "fill=\"#444\"");
+    drawing.text(at.right() + 14, at.top + 17, axis_title(curve), "fill=\"#444\"");
 }
 
 double add_colour_scale(Drawing& drawing, double y, const QualityScale& scale) {
     for (int i = 0; i < 60; ++i)
         drawing.box(190 + 4 * i, y - 11, 4.3, 14,
-                    "fill=\"" + colour_text(heated_colour(static_cast<float>(i) / 59.0F)) + "\"");
+                    "fill=\"" + hex(pixel_colour(heated_colour(i / 59.0))) + "\"");
     drawing.box(190, y - 11, 240, 14, "fill=\"none\" " + stroke("#888", 0.8));
     drawing.text(182, y, "worse (100 %)", "text-anchor=\"end\"");
     drawing.text(438, y, "better (0 %)");
     y += 24;
-    for (const Look& look : looks_of(scale)) {
+    for (const MeasureLook& look : looks_of(measures_of(scale))) {
         drawing.text(20, y, look.name, "font-weight=\"bold\"");
         drawing.text(130, y, whole_text(scale, look.measure));
         y += 18;
     }
     drawing.box(22, y - 12, 8, 16, "fill=\"none\" " + stroke(kInk, 1.4, "4 2"));
     drawing.text(40, y, "current value");
-    drawing.mark(144, y - 8, false, "fill=\"#8a2be2\"");
+    drawing.mark(144, y - 8);
     drawing.text(158, y, "suggested, others fixed");
     drawing.text(20, y + 20, "strong change: " + scale.strong, "fill=\"#666\"");
     return y + 30;
@@ -310,15 +239,15 @@ std::string quality_graphs_svg(const SensitivityAnalysis& analysis, const Qualit
     const double high = highest_share(analysis);
     for (std::size_t i = 0; i < analysis.curves.size(); ++i) {
         const QualityCurve& curve = analysis.curves[i];
-        const Panel panel{kLeft + static_cast<double>(i) * (kWidth + kGap),
-                          kTop,
-                          kWidth,
-                          kHeight,
-                          curve.points.front().value,
-                          curve.points.back().value,
-                          high};
+        const GraphFrame panel{kLeft + static_cast<double>(i) * (kWidth + kGap),
+                               kTop,
+                               kWidth,
+                               kHeight,
+                               curve.points.front().value,
+                               curve.points.back().value,
+                               high};
         add_grid(drawing, panel, curve, i == 0);
-        add_curves(drawing, panel, curve, looks_of(analysis.scale));
+        add_curves(drawing, panel, curve, looks_of(measures_of(analysis.scale)));
     }
     drawing.text(22, kTop + kHeight / 2, "measure [%]",
                  "text-anchor=\"middle\" font-weight=\"bold\" transform=\"rotate(-90 22 " +
@@ -343,11 +272,10 @@ std::string quality_bars_svg(const SensitivityAnalysis& analysis, const QualityT
     double y = 74;
     for (std::size_t i = 0; i < bars.size(); ++i) {
         const QualityCurve& curve = analysis.curves[bars[i].curve];
-        const Panel at{
+        const GraphFrame at{
             kLeft, y, kWidth, kBar, curve.points.front().value, curve.points.back().value, 1.0};
-        const auto look =
-            std::ranges::find(kLooks, bars[i].measure, [](const Look& l) { return l.measure; });
-        drawing.text(kLeft - 10, y + 16, std::string(look->name) + ", " + curve.name,
+        const MeasureLook look = looks_of({bars[i].measure}).front();
+        drawing.text(kLeft - 10, y + 16, std::string(look.name) + ", " + curve.name,
                      "text-anchor=\"end\"");
         add_bar(drawing, curve, bars[i], at);
         y += kStep;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "gpu/colours.h"
+#include "workbench/report/quality_graph.h"
 #include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 #include "workbench/window/model/quality_words.h"
@@ -23,34 +22,29 @@ namespace {
 
 constexpr double kMostShown = 1.5;  ///< of a graph's measures, by the strong change [-]
 
-struct MeasureLook {
-    QualityMeasure measure;
-    const char* help;
-    Paint dark, light;  ///< themes
-};
+/// What 100 % means, to be followed by its figure.
+const char* whole_help(QualityMeasure measure) {
+    switch (measure) {
+        case QualityMeasure::Curvature:
+            return "Mean curvature, summed over the surface; 100 %: ";
+        case QualityMeasure::Error:
+            return "Mean distance from the surface before; 100 %: ";
+        case QualityMeasure::Volume:
+            return "Change of volume; 100 %: ";
+        case QualityMeasure::Triangles:
+            return "Number of triangles; 100 %: ";
+        case QualityMeasure::Skewness:
+            break;
+    }
+    return "Mean equiangle skewness; 0 %: all triangles are equilateral, 100 %: ";
+}
 
-constexpr std::array<MeasureLook, 5> kLooks = {
-    {{QualityMeasure::Curvature,
-      "Mean curvature, summed over the surface; 100 %: ", paint(0x5B9BE0), paint(0x1B6CA8)},
-     {QualityMeasure::Error, "Mean distance from the surface before; 100 %: ", paint(0xE8806E),
-      paint(0xC8442B)},
-     {QualityMeasure::Volume, "Change of volume; 100 %: ", paint(0x5FB87A), paint(0x2E8B57)},
-     {QualityMeasure::Triangles, "Number of triangles; 100 %: ", paint(0xD2B04C), paint(0x7A6A00)},
-     {QualityMeasure::Skewness,
-      "Mean equiangle skewness; 0 %: all triangles are equilateral, 100 %: ", paint(0xA9A3D8),
-      paint(0x6B4FA0)}}};
-
-/// Those of a form's graphs.
-std::vector<MeasureLook> looks_of(const QualityScale& scale, const OperationForm& form) {
-    const auto seen = seen_measures(scale, form.operation());
-    std::vector<MeasureLook> looks;
-    for (const MeasureLook& look : kLooks)
-        if (std::ranges::count(seen, look.measure) > 0) looks.push_back(look);
-    return looks;
+std::vector<MeasureLook> looks_in(const SensitivityAnalysis& analysis, const OperationForm& form) {
+    return looks_of(seen_measures(analysis.scale, form.operation()));
 }
 
 Paint colour_of(const Ui& ui, const MeasureLook& look) {
-    return ui.theme.dark ? look.dark : look.light;
+    return paint(ui.theme.dark ? look.on_dark : look.colour);
 }
 
 Paint suggestion_colour(const Ui& ui) {
@@ -61,29 +55,18 @@ ImDrawList& draw_list() {
     return *ImGui::GetWindowDrawList();
 }
 
+ImVec2 on_screen(double x, double y) {
+    return {static_cast<float>(x), static_cast<float>(y)};
+}
+
 /// " mm" behind a figure; empty without a unit
 std::string unit_of(const QualityCurve& curve) {
     return curve.unit.empty() || curve.unit == "-" ? "" : " " + curve.unit;
 }
 
-/// The axis of a parameter.
-struct Axis {
-    ScreenRect rect;
-    double from = 0.0, to = 1.0;
-
-    [[nodiscard]] float x(double value) const {
-        const double share = to > from ? (value - from) / (to - from) : 0.5;
-        return rect.x + rect.width * static_cast<float>(std::clamp(share, 0.0, 1.0));
-    }
-
-    [[nodiscard]] double value(float x) const {
-        const double share = std::clamp((x - rect.x) / std::max(rect.width, 1.0F), 0.0F, 1.0F);
-        return from + share * (to - from);
-    }
-};
-
-Axis axis_of(const QualityCurve& curve, const ScreenRect& rect) {
-    return {rect, curve.least, curve.most};
+/// From the top of the rectangle, which is the screen's.
+GraphFrame frame_of(const QualityCurve& curve, const ScreenRect& rect) {
+    return {rect.x, rect.y, rect.width, rect.height, curve.least, curve.most, kMostShown};
 }
 
 /// What the form says now, which may be newer than the curve.
@@ -113,7 +96,7 @@ bool can_set(const OperationForm& form, const QualityCurve& curve, double value)
 
 /// ImGui's last item sets the parameter while it is pressed; the model follows.
 void handle_press(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
-                  const Axis& axis) {
+                  const GraphFrame& axis) {
     if (ImGui::IsItemActivated()) c.place.begin_setting();
     if (ImGui::IsItemActive() && c.place.is_driving()) {
         const double value = axis.value(ImGui::GetIO().MousePos.x);
@@ -126,8 +109,9 @@ void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCu
                      ImVec2 tip) {
     const float reach = c.ui.em * 0.35F;
     const ImVec2 back = ImGui::GetCursorScreenPos();
-    draw_list().AddTriangleFilled(tip, {tip.x - reach, tip.y + 1.6F * reach},
-                                  {tip.x + reach, tip.y + 1.6F * reach}, suggestion_colour(c.ui));
+    const auto [top, left, right] = suggestion_mark({tip.x, tip.y}, reach, 1.6F * reach);
+    draw_list().AddTriangleFilled(on_screen(top.x, top.y), on_screen(left.x, left.y),
+                                  on_screen(right.x, right.y), suggestion_colour(c.ui));
     ImGui::SetCursorScreenPos({tip.x - 1.5F * reach, tip.y});
     const std::string name = "quality.suggest." + curve.name;
     const bool settable = can_set(form, curve, curve.suggested);
@@ -142,26 +126,17 @@ void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCu
 // --- graphs
 
 void draw_curve(const PanelContext& c, const SensitivityAnalysis& analysis,
-                const QualityCurve& curve, const Axis& axis, const MeasureLook& look) {
-    std::vector<ImVec2> line;
-    const auto finish = [&] {
-        if (line.size() > 1)
-            draw_list().AddPolyline(line.data(), static_cast<int>(line.size()),
-                                    colour_of(c.ui, look), ImDrawFlags_None,
-                                    std::max(1.5F, c.ui.em / 8));
-        line.clear();
+                const QualityCurve& curve, const GraphFrame& axis, const MeasureLook& look) {
+    const auto share = [&](const CurvePoint& point) {
+        return shown_share(analysis, point, look.measure);
     };
-    for (const CurvePoint& point : curve.points) {
-        if (!point.measures) {
-            finish();
-            continue;
-        }
-        const double share =
-            std::clamp(shown_share(analysis, point, look.measure), 0.0, kMostShown) / kMostShown;
-        line.emplace_back(axis.x(point.value),
-                          axis.rect.y + axis.rect.height * static_cast<float>(1.0 - share));
+    for (const auto& points : graph_lines(curve, axis, share)) {
+        if (points.size() < 2) continue;
+        std::vector<ImVec2> line;
+        for (const auto& [x, y] : points) line.push_back(on_screen(x, y));
+        draw_list().AddPolyline(line.data(), static_cast<int>(line.size()), colour_of(c.ui, look),
+                                ImDrawFlags_None, std::max(1.5F, c.ui.em / 8));
     }
-    finish();
 }
 
 void label(const PanelContext& c, ImVec2 at, float alignment, const std::string& words) {
@@ -171,23 +146,21 @@ void label(const PanelContext& c, ImVec2 at, float alignment, const std::string&
                         words.c_str());
 }
 
-void draw_grid(const PanelContext& c, const Axis& axis) {
-    const ScreenRect& rect = axis.rect;
-    draw_list().AddRectFilled({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height},
-                              c.ui.theme.field);
-    for (const double percent : {0.0, 50.0, 100.0}) {
-        const float y =
-            rect.y + rect.height * static_cast<float>(1.0 - percent / (100.0 * kMostShown));
-        draw_list().AddLine({rect.x, y}, {rect.x + rect.width, y}, c.ui.theme.border);
-        label(c, {rect.x - c.ui.grid(0.5F), y - c.ui.em * 0.45F}, 1.0F,
-              formatted(percent, "%g %%"));
+void draw_grid(const PanelContext& c, const GraphFrame& axis) {
+    draw_list().AddRectFilled(on_screen(axis.left, axis.top),
+                              on_screen(axis.right(), axis.bottom()), c.ui.theme.field);
+    for (const double share : {0.0, 0.5, 1.0}) {
+        const double y = axis.y(share);
+        draw_list().AddLine(on_screen(axis.left, y), on_screen(axis.right(), y), c.ui.theme.border);
+        label(c, on_screen(axis.left - c.ui.grid(0.5F), y - c.ui.em * 0.45F), 1.0F,
+              formatted(100.0 * share, "%g %%"));
     }
 }
 
-void draw_ends(const PanelContext& c, const QualityCurve& curve, const Axis& axis) {
-    const float y = axis.rect.y + axis.rect.height + c.ui.grid(0.25F);
-    label(c, {axis.rect.x, y}, 0.0F, formatted(axis.from));
-    label(c, {axis.rect.x + axis.rect.width, y}, 1.0F, formatted(axis.to) + unit_of(curve));
+void draw_ends(const PanelContext& c, const QualityCurve& curve, const GraphFrame& axis) {
+    const double y = axis.bottom() + c.ui.grid(0.25F);
+    label(c, on_screen(axis.left, y), 0.0F, formatted(axis.from));
+    label(c, on_screen(axis.right(), y), 1.0F, formatted(axis.to) + unit_of(curve));
 }
 
 /// With the value of now, and the suggestion, which is seen to follow the target.
@@ -207,10 +180,11 @@ void draw_title(const PanelContext& c, const QualityCurve& curve, double now) {
     text(c.ui, value, c.ui.theme.text);
 }
 
-void draw_value_line(const PanelContext& c, const Axis& axis, double now) {
-    const float x = axis.x(now), low = axis.rect.y + axis.rect.height;
-    draw_list().AddLine({x, axis.rect.y}, {x, low}, c.ui.theme.text, std::max(1.0F, c.ui.em / 10));
-    draw_list().AddCircleFilled({x, axis.rect.y}, c.ui.em * 0.28F, c.ui.theme.text);
+void draw_value_line(const PanelContext& c, const GraphFrame& axis, double now) {
+    const ImVec2 top = on_screen(axis.x(now), axis.top);
+    draw_list().AddLine(top, on_screen(axis.x(now), axis.bottom()), c.ui.theme.text,
+                        std::max(1.0F, c.ui.em / 10));
+    draw_list().AddCircleFilled(top, c.ui.em * 0.28F, c.ui.theme.text);
 }
 
 /// The figures at the form's value, where no line over the view has them.
@@ -229,21 +203,21 @@ void draw_graph(PanelContext& c, const OperationForm& form, const SensitivityAna
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float left = c.ui.em * 3.1F, high = c.ui.em * 5.0F;
     const float wide = ImGui::GetContentRegionAvail().x - left - c.ui.grid(1);
-    const Axis axis = axis_of(curve, {from.x + left, from.y + c.ui.grid(0.5F), wide, high});
+    const GraphFrame axis = frame_of(curve, {from.x + left, from.y + c.ui.grid(0.5F), wide, high});
     draw_grid(c, axis);
-    for (const MeasureLook& look : looks_of(analysis.scale, form))
+    for (const MeasureLook& look : looks_in(analysis, form))
         draw_curve(c, analysis, curve, axis, look);
     draw_value_line(c, axis, now);
     draw_ends(c, curve, axis);
-    ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
+    ImGui::SetCursorScreenPos(on_screen(axis.left, axis.top));
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
     if (!ImGui::IsItemActive())
         help_on_hover(c.ui,
                       values_at(curve, axis.value(ImGui::GetIO().MousePos.x), analysis.scale));
     handle_press(c, form, curve, axis);
-    draw_suggestion(c, form, curve, {axis.x(curve.suggested), axis.rect.y + high});
-    ImGui::SetCursorScreenPos({from.x, axis.rect.y + high});
+    draw_suggestion(c, form, curve, on_screen(axis.x(curve.suggested), axis.bottom()));
+    ImGui::SetCursorScreenPos(on_screen(from.x, axis.bottom()));
     ImGui::Dummy({1, c.ui.em * 1.4F});
     draw_figures(c, curve, analysis.scale, now);
 }
@@ -251,40 +225,31 @@ void draw_graph(PanelContext& c, const OperationForm& form, const SensitivityAna
 void draw_legend(const PanelContext& c, const OperationForm& form,
                  const SensitivityAnalysis& analysis) {
     bool first = true;
-    for (const MeasureLook& look : looks_of(analysis.scale, form)) {
+    for (const MeasureLook& look : looks_in(analysis, form)) {
         if (!std::exchange(first, false)) ImGui::SameLine(0, c.ui.grid(1.5F));
         small_text(c.ui, measure_name(look.measure), colour_of(c.ui, look));
-        help_on_hover(c.ui, look.help + whole_words(analysis, look.measure));
+        help_on_hover(c.ui, whole_help(look.measure) + whole_words(analysis, look.measure));
     }
 }
 
 // --- bars
 
-void draw_fields(const QualityCurve& curve, const QualityBar& bar, const Axis& axis, const Ui& ui) {
-    const auto& points = curve.points;
-    const auto edge = [&](std::size_t i) {
-        if (i == 0) return axis.rect.x;
-        if (i == points.size()) return axis.rect.x + axis.rect.width;
-        return axis.x(0.5 * (points[i - 1].value + points[i].value));
-    };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        Paint colour = ui.theme.field;
-        if (!std::isnan(bar.goodness[i])) {
-            const PixelColour rgb = pixel_colour(heated_colour(bar.goodness[i]));
-            colour = IM_COL32(rgb[0], rgb[1], rgb[2], 255);
-        }
-        draw_list().AddRectFilled({edge(i), axis.rect.y},
-                                  {edge(i + 1), axis.rect.y + axis.rect.height}, colour);
+void draw_fields(const QualityCurve& curve, const QualityBar& bar, const GraphFrame& axis,
+                 const Ui& ui) {
+    for (const BarField& field : bar_fields(curve, bar, axis)) {
+        const PixelColour rgb = field.colour.value_or(PixelColour{});
+        draw_list().AddRectFilled(
+            on_screen(field.left, axis.top), on_screen(field.right, axis.bottom()),
+            field.colour ? IM_COL32(rgb[0], rgb[1], rgb[2], 255) : ui.theme.field);
     }
-    draw_list().AddRect({axis.rect.x, axis.rect.y},
-                        {axis.rect.x + axis.rect.width, axis.rect.y + axis.rect.height},
+    draw_list().AddRect(on_screen(axis.left, axis.top), on_screen(axis.right(), axis.bottom()),
                         ui.theme.border);
 }
 
-void draw_value_frame(const Ui& ui, const Axis& axis, double now) {
-    const float reach = ui.em * 0.25F, x = axis.x(now);
-    const ImVec2 from{x - reach, axis.rect.y - 2},
-        to{x + reach, axis.rect.y + axis.rect.height + 2};
+void draw_value_frame(const Ui& ui, const GraphFrame& axis, double now) {
+    const double reach = ui.em * 0.25, x = axis.x(now);
+    const ImVec2 from = on_screen(x - reach, axis.top - 2),
+                 to = on_screen(x + reach, axis.bottom() + 2);
     draw_list().AddRect(from, to, paint(0x000000), 0, 0, 3);
     draw_list().AddRect(from, to, paint(0xFFFFFF), 0, 0, 1);
 }
@@ -295,10 +260,10 @@ void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& cu
     const float left = c.ui.em * 5.2F, high = c.ui.em * 0.9F;
     small_text(c.ui, fitted(words, left), c.ui.theme.muted);
     const float wide = ImGui::GetContentRegionAvail().x - left - c.ui.grid(1);
-    const Axis axis = axis_of(curve, {from.x + left, from.y, wide, high});
+    const GraphFrame axis = frame_of(curve, {from.x + left, from.y, wide, high});
     draw_fields(curve, bar, axis, c.ui);
     draw_value_frame(c.ui, axis, value_now(c, form, curve));
-    ImGui::SetCursorScreenPos({axis.rect.x, axis.rect.y});
+    ImGui::SetCursorScreenPos(on_screen(axis.left, axis.top));
     const std::string name = curve.name + "." + measure_name(bar.measure);
     ImGui::InvisibleButton(("bar." + name).c_str(), {wide, high});
     c.ui.item("quality.bar." + name);
