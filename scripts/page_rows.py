@@ -1,7 +1,8 @@
 """Shared by the scripts that write pages of figures: the revision on the page, and rows that are measured again.
 
-A page goes stale when the program changes. Each script repeats one row of its page with --repeat: it measures the row again, prints
-it beside the page's, and exits with 1 if a figure differs by more than the page's tolerance. scripts/acceptance runs all of them.
+A page goes stale when the program changes. Each script repeats one row of its page with --repeat: it measures the row again,
+prints it beside the page's, and exits with 1 if a figure differs by more than the page's tolerance. scripts/acceptance.py runs
+all of them.
 """
 import os
 import re
@@ -12,7 +13,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 def revision():
     """The program's revision, for a page's head: "revision d63b44f", with "and changes" if the tree differs from it."""
-    done = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--exclude", "*", "--dirty= and changes"], capture_output=True,
+    done = subprocess.run(["git", "-C", ROOT, "describe", "--always", "--exclude", "*", "--dirty= and changes"],
+                          capture_output=True,
                           text=True)
     return "revision " + done.stdout.strip() if done.returncode == 0 else "an unknown revision"
 

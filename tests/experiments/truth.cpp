@@ -1,4 +1,4 @@
-// Phantoms with a known surface, for scripts/experiments_truth.
+// Phantoms with a known surface, for scripts/experiments_truth.py.
 //
 //   truth peers IMAGE LEVEL EDGE FOLDER   writes what two pipelines by hand make of the image:
 //                                         sinc.vtp (VTK's flying edges, windowed sinc, CGAL's
@@ -6,7 +6,7 @@
 //                                         with Taubin's filter)
 //   truth judge EXACT RESULT TRUTH.json   prints how near the result is to the exact surface
 //
-// and for scripts/experiments:
+// and for scripts/experiments.py:
 //
 //   truth smooth WAY SURFACE IMAGE OUT    writes what VTK's windowed sinc (sinc) or InVesalius's
 //                                         context-aware smoothing (context) make of the surface of

@@ -1,4 +1,4 @@
-// The reference of `scripts/experiments --only methods`, against what smoothing/ computes.
+// The reference of `scripts/experiments.py --only methods`, against what smoothing/ computes.
 
 #include "tests/bench/reference_context_smoothing.h"
 

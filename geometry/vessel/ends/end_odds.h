@@ -16,7 +16,7 @@ struct EndOdds {
 };
 
 /// A multinomial logistic model of `kEndFeatures`. Its weights are the table end_weights.csv, which
-/// scripts/fit_ends fits to labelled ends; the table states its origin.
+/// scripts/fit_ends.py fits to labelled ends; the table states its origin.
 [[nodiscard]] EndOdds odds_of(const EndProfile& profile);
 
 }  // namespace vesselbench

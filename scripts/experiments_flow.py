@@ -2,27 +2,26 @@
 """Solves the flow in the bundled aneurysm's exact, raw and smoothed surfaces, as thesis Table 5.8, and writes
 docs/experiments-flow.md.
 
-  scripts/experiments_flow [--seeds N] [--edge MM] [--out FOLDER] [--no-page] [--repeat]
+  scripts/experiments_flow.py [--seeds N] [--edge MM] [--out FOLDER] [--no-page] [--repeat]
 
-Every surface gets the same cuts, the same extensions and triangles and tetrahedra of the same size; simpleFoam solves the exported
-case. Wall shear stress and velocity on and in the sac are compared with those of the exact surface. FOLDER keeps what was solved:
-a second run goes on there. --repeat solves the exact surface and SA Laplace+HC of the first seed again, in a folder of its own, and
-compares with that row of the page, within 5 % of each error and 0.5 points; exit code 1 if they differ.
+Every surface gets the same cuts, the same extensions and triangles and tetrahedra of the same size; simpleFoam solves the
+exported case. Wall shear stress and velocity on and in the sac are compared with those of the exact surface. FOLDER keeps what
+was solved: a second run goes on there. --repeat solves the exact surface and SA Laplace+HC of the first seed again, in a folder
+of its own, and compares with that row of the page, within 5 % of each error and 0.5 points; exit code 1 if they differ.
 """
-import argparse
 import json
 import math
 import os
 import re
 import shutil
 import struct
-import subprocess
 import sys
+from statistics import fmean
 
+import common
 import page_rows
+from common import ROOT, new_project, row_line, run, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PROGRAM = os.path.join(ROOT, "build", "release", "vesselbench")
 BASE = ["iterations=20", "lambda=0.5", "caps=keep", "find_caps=false"]
 AWARE = ["staircase=true", "stack_axis=0,0,1", "tau_theta=0.7", "tau_max=0.6", "beta_min=0", "weight=tau-max"]
 LAPLACE, HC = BASE + ["filter=laplace"], BASE + ["filter=laplace-hc", "alpha=0", "beta=0.5"]
@@ -37,26 +36,15 @@ PARENT = [((-2.2, 0.8, 6.0), (0.2, 0.0, 12.0)), ((0.2, 0.0, 12.0), (2.0, 0.0, 18
 PARENT_RADIUS = 2.4  # [mm]
 
 
-def run(*arguments, folder=None):
-    done = subprocess.run(list(map(str, arguments)), capture_output=True, text=True, cwd=folder)
-    if done.returncode != 0:
-        raise RuntimeError(" ".join(map(str, arguments)) + "\n" + done.stdout[-500:] + done.stderr[-2000:])
-    return done.stdout
-
-
-def distance(a, b):
-    return math.dist(a, b)
-
-
 def from_segment(p, a, b):
     along = [y - x for x, y in zip(a, b)]
     share = sum((q - x) * d for q, x, d in zip(p, a, along)) / sum(d * d for d in along)
-    return distance(p, [x + min(1.0, max(0.0, share)) * d for x, d in zip(a, along)])
+    return math.dist(p, [x + min(1.0, max(0.0, share)) * d for x, d in zip(a, along)])
 
 
 def in_sac(p):
     """True for places [mm] in the sac or its daughter, outside the parent vessel."""
-    return any(distance(p, centre) < radius for centre, radius in SAC) and \
+    return any(math.dist(p, centre) < radius for centre, radius in SAC) and \
         all(from_segment(p, a, b) > PARENT_RADIUS for a, b in PARENT)
 
 
@@ -88,7 +76,7 @@ def dabs_at_steps(file, apart=1.2):
     places, stroke = [], []
     for vertex in vertices_of(file):
         place = [vertex[axis] for axis in "xyz"]
-        if vertex["staircase"] == 1 and all(distance(place, other) > apart for other in places):
+        if vertex["staircase"] == 1 and all(math.dist(place, other) > apart for other in places):
             places.append(place)
             stroke += [*place, *vertex["normal"], 2.0, 1.5, 0.5, 1.0]
     return "dabs=" + ",".join(f"{number:.6g}" for number in stroke)
@@ -111,21 +99,18 @@ class Case:
         os.makedirs(folder, exist_ok=True)
 
     def apply(self, operation, *arguments):
-        run(PROGRAM, "apply", self.project, operation, *arguments)
+        run("apply", self.project, operation, *arguments)
 
     def start(self, *source):
-        for suffix in ("", "-wal", "-shm"):
-            if os.path.exists(self.project + suffix):
-                os.remove(self.project + suffix)
-        run(PROGRAM, "new", self.project, *source)
+        new_project(self.project, *source)
 
     def export(self, name):
         file = os.path.join(self.folder, name)
-        run(PROGRAM, "export", self.project, file)
+        run("export", self.project, file)
         return file
 
     def last_arguments(self):
-        return json.loads(run(PROGRAM, "log", self.project, "--json"))["edits"][-1]["resolved"]
+        return json.loads(run("log", self.project, "--json"))["edits"][-1]["resolved"]
 
     def remove_stub(self, tip):
         """Uniform Laplace may have shrunk it to a bump, which stays."""
@@ -149,10 +134,10 @@ class Case:
         self.apply("remesh", "mode=uniform", f"edge={self.edge}")
         self.apply("tetrahedralize")
         openfoam = os.path.join(self.folder, "openfoam")
-        run(PROGRAM, "export", self.project, openfoam)
-        print("    " + run("./Allrun", folder=openfoam).splitlines()[0], flush=True)
+        run("export", self.project, openfoam)
+        print("    " + run(program="./Allrun", folder=openfoam).splitlines()[0], flush=True)
         tool = ". /usr/share/openfoam/etc/bashrc > /dev/null 2>&1; postProcess -latestTime -func writeCellCentres"
-        run("bash", "-c", tool, folder=openfoam)
+        run("-c", tool, program="bash", folder=openfoam)
         return cuts
 
     def density(self):
@@ -199,17 +184,13 @@ def nearest_values(places, values):
         box = [math.floor(x) for x in place]
         near = [entry for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)
                 for entry in boxes.get((box[0] + x, box[1] + y, box[2] + z), [])] or values
-        found.append(min(near, key=lambda entry: distance(entry[0], place))[1])
+        found.append(min(near, key=lambda entry: math.dist(entry[0], place))[1])
     return found
 
 
 def peak(values):
     """The 99th percentile: a single triangle's value says little."""
     return sorted(values)[int(0.99 * (len(values) - 1))]
-
-
-def mean(values):
-    return sum(values) / len(values)
 
 
 def errors(found, exact):
@@ -219,8 +200,8 @@ def errors(found, exact):
         right = [value for _, value in exact[key]]
         ours = [value for _, value in found[key]]
         there = nearest_values([place for place, _ in exact[key]], found[key])
-        result[key] = {"mean": 100 * (mean(ours) / mean(right) - 1), "peak": 100 * (peak(ours) / peak(right) - 1),
-                       "local": 100 * mean([abs(a - b) for a, b in zip(there, right)]) / mean(right)}
+        result[key] = {"mean": 100 * (fmean(ours) / fmean(right) - 1), "peak": 100 * (peak(ours) / peak(right) - 1),
+                       "local": 100 * fmean([abs(a - b) for a, b in zip(there, right)]) / fmean(right)}
     return result
 
 
@@ -266,14 +247,14 @@ def of_way(options, seed, name, folder=None):
     image = Case(os.path.join(own, "image"), options.edge)
     raw = os.path.join(image.folder, "raw.vtp")
     if not os.path.exists(raw):
-        run(PROGRAM, "phantom", "aneurysm", "--seed", seed, "--out", image.folder)
+        run("phantom", "aneurysm", "--seed", seed, "--out", image.folder)
         extracted(image, image.folder, recipe=False)
         image.export("raw.vtp")
     first = Case(os.path.join(folder, "exact"), options.edge)
 
     def exact_within():
         """The exact surface ends where the image does."""
-        bounds = json.loads(run(PROGRAM, "measure", raw, "--json"))["bounds"]
+        bounds = json.loads(run("measure", raw, "--json"))["bounds"]
         first.start(os.path.join(image.folder, "exact.vtp"), "--units", "mm")
         first.apply("crop", "box=" + ",".join(map(repr, [-1000, -1000, bounds[2], 1000, 1000, bounds[5]])))
         first.apply("fill-hole", "continuity=0")
@@ -296,7 +277,7 @@ def of_seed(options, seed):
 
 PAGE = """# Flow in the bundled aneurysm
 
-Written by `scripts/experiments_flow` with the program of %s. Thesis Table 5.8: the flow in the exact surface, in the surface
+Written by `scripts/experiments_flow.py` with the program of %s. Thesis Table 5.8: the flow in the exact surface, in the surface
 extracted from the image as it is (raw), and in surfaces smoothed by 20 iterations with lambda 0.5 of Laplace and of Laplace+HC
 (alpha 0, beta 0.5), uniformly and staircase-aware (SA; tau_theta 0.7, tau_max one slice, beta_min 0), by a smoothing brush drawn
 over the staircases alone (by hand), and as the case's own recipe extracts and smooths it (the recipe). All are cut at the same
@@ -310,11 +291,12 @@ the absolute differences place by place (local).
 
 %s
 
-What follows: a filter that shrinks, as Laplace does, needs staircase awareness. Laplace+HC does not shrink, and staircase awareness
-then keeps the rough wall between the few staircases: wall shear stress is nearer to the truth on the mean and in its peak, farther
-off place by place, and velocities are farther off. A brush at the staircases is among the best in means and velocities, but not in
-the peak of the wall shear stress. The case's recipe, staircase-aware Laplace+HC with a fifth of the smoothing elsewhere, is one of
-the two nearest place by place and has the least error of that peak; the peak of the velocity is its weakest figure.
+What follows: a filter that shrinks, as Laplace does, needs staircase awareness. Laplace+HC does not shrink, and staircase
+awareness then keeps the rough wall between the few staircases: wall shear stress is nearer to the truth on the mean and in its
+peak, farther off place by place, and velocities are farther off. A brush at the staircases is among the best in means and
+velocities, but not in the peak of the wall shear stress. The case's recipe, staircase-aware Laplace+HC with a fifth of the
+smoothing elsewhere, is one of the two nearest place by place and has the least error of that peak; the peak of the velocity is
+its weakest figure.
 
 ## The first seed
 
@@ -327,12 +309,12 @@ COLUMNS = [(key, figure) for key in ("wall", "inside") for figure in ("mean", "p
 FIRST = "## The first seed"
 
 
-def table(rows):
-    return "\n".join(["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD), *rows])
+def flow_table(rows):
+    return table(HEAD, rows).rstrip("\n")
 
 
 def row_of_seed(name, found):
-    return "| " + " | ".join([name, *(f"{found[key][figure]:+.1f}" for key, figure in COLUMNS)]) + " |"
+    return row_line([name, *(f"{found[key][figure]:+.1f}" for key, figure in COLUMNS)])
 
 
 def absolute(runs, name, column):
@@ -340,27 +322,27 @@ def absolute(runs, name, column):
 
 
 def row_of_all(name, runs):
-    cells = [f"{mean(values):.1f} ({max(values):.1f})" for values in (absolute(runs, name, column) for column in COLUMNS)]
-    return "| " + " | ".join([name, *cells]) + " |"
+    cells = [f"{fmean(values):.1f} ({max(values):.1f})" for values in (absolute(runs, name, column) for column in COLUMNS)]
+    return row_line([name, *cells])
 
 
 def what_follows(runs):
     """How much staircase awareness halves, by filter, and what is best."""
     lines = []
     for name in ("Laplace", "Laplace+HC"):
-        shares = [mean(absolute(runs, "SA " + name, column)) / mean(absolute(runs, name, column)) for column in COLUMNS]
+        shares = [fmean(absolute(runs, "SA " + name, column)) / fmean(absolute(runs, name, column)) for column in COLUMNS]
         halved = sum(share <= 0.5 for share in shares)
         lines.append(f"- SA {name}'s error is " + ", ".join(f"{share:.2f}" for share in shares)
                      + f" of {name}'s, column by column: at most half in {halved} of {len(shares)}.")
     for title, column in zip(HEAD[1:], COLUMNS):
-        ranked = sorted(WAYS, key=lambda name: mean(absolute(runs, name, column)))
+        ranked = sorted(WAYS, key=lambda name: fmean(absolute(runs, name, column)))
         lines.append(f"- {title}: least error {ranked[0]}, then {ranked[1]}.")
     return "\n".join(lines)
 
 
 def page_of(options, revision, runs):
-    return PAGE % (revision, options.edge, len(runs), table(row_of_all(name, runs) for name in WAYS), what_follows(runs),
-                   REPEATED, table(row_of_seed(name, runs[0][name]) for name in WAYS))
+    return PAGE % (revision, options.edge, len(runs), flow_table(row_of_all(name, runs) for name in WAYS), what_follows(runs),
+                   REPEATED, flow_table(row_of_seed(name, runs[0][name]) for name in WAYS))
 
 
 def repeat(options):
@@ -371,7 +353,7 @@ def repeat(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--edge", type=float, default=0.42)
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "experiments-flow"))

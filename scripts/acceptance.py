@@ -2,17 +2,16 @@
 """Prepares the bundled case and every surface and image of ../shared/data for flow simulation and for printing, checks
 the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/acceptance.md, with the forest's
 results from docs/forest.md beside it. A run of every case ends with one row of every page of figures measured again
-(`scripts/experiments --repeat` and so on), so that no page goes stale unseen.
+(`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen.
 
-  scripts/acceptance [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
-  scripts/acceptance --forest       only renews the forest's part of docs/acceptance.md
-  scripts/acceptance --rows         only measures the pages' rows again
+  scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
+  scripts/acceptance.py --forest       only renews the forest's part of docs/acceptance.md
+  scripts/acceptance.py --rows         only measures the pages' rows again
 
 --quick runs the bundled case and three small ones, and solves the bundled case's flow; without it, every case is run and
 the flow is solved on the bundled case's full mesh (minutes; --no-solve leaves that row out). Exit code 1 if a case that
 must succeed misses a limit or a row differs from its page; else 77 if something was skipped for lack of ../shared/data.
 """
-import argparse
 import json
 import math
 import os
@@ -22,11 +21,10 @@ import subprocess
 import sys
 import time
 
+import common
 import page_rows
+from common import DATA, PROGRAM, ROOT, cross, dot, length, row_line, skip, sub, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PROGRAM = os.path.join(ROOT, "build", "release", "vesselbench")
-DATA = os.path.join(os.path.dirname(ROOT), "shared", "data")
 
 # name, input, more arguments of prepare, goals, must succeed.
 CASES = [
@@ -70,27 +68,10 @@ OPENINGS = {"bundled aneurysm": 3, "v4a aneurysm": 3, "v4a healthy": 3, "aneuris
             "carotid capped": 3}
 QUICK = ("bundled aneurysm", "artery bifurcation", "vein", "small aneurysm (m)")
 # The scripts that write pages of figures and repeat one of their rows.
-PAGES = ("experiments", "experiments_decimate", "experiments_flow", "experiments_suggest", "experiments_thin",
-         "experiments_truth")
+PAGES = ("experiments.py", "experiments_decimate.py", "experiments_flow.py", "experiments_suggest.py", "experiments_thin.py",
+         "experiments_truth.py")
 # The bundled case's mesh for a flow to be interpreted, not only to converge.
 FULL_MESH = ["--set", "remesh.edge=0.3", "--set", "tetrahedralize.cells=320000"]
-
-
-# --- vectors ---------------------------------------------------------------------------------------------------------
-def sub(a, b):
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def length(a):
-    return math.sqrt(dot(a, a))
 
 
 # --- reading the exported files ----------------------------------------------------------------------------------------
@@ -331,7 +312,9 @@ def flow_failures(row, folder):
 
 
 def pressure_drop_failures(out):
-    """Hagen-Poiseuille on the tube phantom, from image to flow, at the described radius of 2 mm and at the exported lumen's mean radius."""
+    """Hagen-Poiseuille on the tube phantom, from image to flow, at the described radius of 2 mm and at the exported lumen's
+    mean radius.
+    """
     phantom, folder = os.path.join(out, "tube-phantom"), os.path.join(out, "tube-cfd")
     shutil.rmtree(folder, ignore_errors=True)
     subprocess.run([PROGRAM, "phantom", "tube", "--out", phantom], check=True, capture_output=True)
@@ -407,7 +390,7 @@ def table_line(row):
         cells += [f"{row['distance']:.3f} / {row['source_edge']:.2f}" if row["distance"] is not None else ""]
     else:
         cells += [""] * 7
-    return "| " + " | ".join(cells + [verdict(row)]) + " |"
+    return row_line(cells + [verdict(row)])
 
 
 FOREST_TITLE = "## The forest\n"
@@ -433,12 +416,10 @@ def write_table(rows, path, revision):
     head = ["case", "goal", "triangles", "tetrahedra", "wall skewness mean / max", "wall radius ratio mean / min",
             "worst tilt [deg]", "checkMesh skewness / mean non-orth. / % over 70", "to source mean / edge [mm]", "verdict"]
     with open(path, "w") as file:
-        file.write(f"# Acceptance\n\nWritten by `scripts/acceptance` with the program of {revision}: the bundled case and "
+        file.write(f"# Acceptance\n\nWritten by `scripts/acceptance.py` with the program of {revision}: the bundled case and "
                    "real data, prepared with the default recipe, checked by the script itself, OpenFOAM's `checkMesh` and "
                    "PrusaSlicer. The limits are in the script.\n\n")
-        file.write("| " + " | ".join(head) + " |\n|" + "---|" * len(head) + "\n")
-        for row in rows:
-            file.write(table_line(row) + "\n")
+        file.write(table(head, map(table_line, rows)))
     renew_forest(path)
 
 
@@ -454,14 +435,6 @@ def say(row):
     print(f"{row['seconds']:6.1f} s  {row['name']} {row['goal']}: {verdict(row)}", flush=True)
 
 
-def skip(reason):
-    """Reports what was skipped; the exit code is then 77, which ctest counts as skipped, unless a check fails."""
-    print("skipped: " + reason, flush=True)
-    if file := os.environ.get("VESSELBENCH_SKIPS"):
-        with open(file, "a") as lines:
-            lines.write(f"scripts/acceptance: {reason}\n")
-
-
 # --- the pages of figures --------------------------------------------------------------------------------------------
 def rows_code():
     """Repeats one row of every page. Exit code: 1 if one differs or cannot be measured, else 77 if one was skipped, else 0."""
@@ -475,7 +448,7 @@ def rows_code():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--only", action="append", default=[], help="part of a case's name")
     parser.add_argument("--goal", choices=("cfd", "rp"))
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "acceptance"))

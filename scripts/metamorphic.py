@@ -3,11 +3,10 @@
 other units, with triangles shuffled or turned, or their ends capped, flat or dented. Prints a table; exit code 1 if a variant
 disagrees that is not listed in KNOWN (docs/reliability.md).
 
-  scripts/metamorphic [--only NAME]... [--out FOLDER]
+  scripts/metamorphic.py [--only NAME]... [--out FOLDER]
 
 Edits up to clip-opening are made, as by prepare --for cfd. About 3 minutes of CPU time.
 """
-import argparse
 import json
 import math
 import os
@@ -17,9 +16,10 @@ import struct
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PROGRAM = os.path.join(ROOT, "build", "release", "vesselbench")
-DATA = os.path.join(os.path.dirname(ROOT), "shared", "data", "surfaces")
+import common
+from common import DATA, PROGRAM, ROOT, cross, read_off, sub
+
+SURFACES = os.path.join(DATA, "surfaces")
 RECIPE = os.path.join(ROOT, "workbench", "prepare", "recipes", "prepare.json")
 
 CASES = {"aneurysm": ("v4a_ideal_bifurcation_aneurysm.stl", "mm"), "siphon": ("vampy_aneurisk_C0015_artery.vtp", "mm"),
@@ -36,14 +36,6 @@ DENT = 0.3  # radii by which the middles of caps are pushed in or out
 FARTHEST = 1.0  # radii between an opening and its image
 SIZES = (0.75, 1.33)  # diameter over the original's
 VOLUME = 0.03
-
-
-def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def turned(p):
@@ -63,14 +55,12 @@ def same(p):
     return p
 
 
-def read_off(path):
-    with open(path) as file:
-        lines = [line for line in file if not line.startswith("#")]
-    count, triangles, _ = map(int, lines[1].split())
-    points = [tuple(map(float, line.split()[:3])) for line in lines[2:2 + count]]
+def read_welded(path):
+    """Points and triangles of an OFF file; equal points are one."""
+    points, triangles = read_off(path)
     ids = {}
     number = [ids.setdefault(p, len(ids)) for p in points]
-    corners = [tuple(number[int(v)] for v in line.split()[1:4]) for line in lines[2 + count:2 + count + triangles]]
+    corners = [tuple(number[v] for v in t) for t in triangles]
     return list(ids), [t for t in corners if len(set(t)) == 3]
 
 
@@ -161,6 +151,7 @@ def write_recipe(path):
     """The default recipe for flow up to clip-opening, for surfaces."""
     with open(RECIPE) as file:
         entries = json.load(file)
+
     def wanted(entry):
         when = entry.get("when", [])
         return not {"image", "rp", "planning", "simulation"} & set([when] if isinstance(when, str) else when)
@@ -172,12 +163,12 @@ def write_recipe(path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--only", action="append", choices=CASES)
     parser.add_argument("--out", default=os.path.join(ROOT, "build", "release", "metamorphic"))
     options = parser.parse_args()
-    if not os.path.isdir(DATA):
-        sys.exit("metamorphic: there is no " + DATA)
+    if not os.path.isdir(SURFACES):
+        sys.exit("metamorphic: there is no " + SURFACES)
     os.makedirs(options.out, exist_ok=True)
     write_recipe(os.path.join(options.out, "recipe.json"))
 
@@ -187,14 +178,14 @@ def main():
     wrong = 0
     for name in options.only or CASES:
         file, unit = CASES[name]
-        original = prepared(os.path.join(DATA, file), unit, at("original"))
+        original = prepared(os.path.join(SURFACES, file), unit, at("original"))
         for stale in (at("source.vbench"), at("source.off")):
             if os.path.exists(stale):
                 os.remove(stale)
-        subprocess.run([PROGRAM, "new", at("source.vbench"), os.path.join(DATA, file), "--units", unit], check=True,
+        subprocess.run([PROGRAM, "new", at("source.vbench"), os.path.join(SURFACES, file), "--units", unit], check=True,
                        capture_output=True)
         subprocess.run([PROGRAM, "export", at("source.vbench"), at("source.off")], check=True, capture_output=True)
-        for kind, points, triangles, image, to in variants(*read_off(at("source.off"))):
+        for kind, points, triangles, image, to in variants(*read_welded(at("source.off"))):
             write_stl(at("variant.stl"), points, triangles, {"mm": 1.0, "cm": 0.1, "m": 0.001}[to])
             text = difference(original, prepared(at("variant.stl"), to, at("variant")), image)
             known = (name, kind) in KNOWN

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Grows random vessel trees with known truth, prepares them, and judges the products by the truth (docs/forest.md).
 
-  scripts/forest [--seeds A-B|A,B,...] [--goal cfd|rp|both] [--out FOLDER] [--jobs N] [--timeout S] [--coarse]
+  scripts/forest.py [--seeds A-B|A,B,...] [--goal cfd|rp|both] [--out FOLDER] [--jobs N] [--timeout S] [--coarse]
                  [--at-least N] [--at-most-wrong N] [--keep] [--table FILE] [--resume]
 
 The forest is seeds 1-200. A result is right, failed (prepare says so with exit code 1 to 3), slow (over --timeout of CPU
@@ -10,7 +10,6 @@ the truth asks for. Where the truth expects no product (too few ends can be open
 Results go to FOLDER/results.json; cases and products are removed unless --keep. Exit code 1 if fewer than --at-least results
 are right, if more than --at-most-wrong are wrong, or if a case cannot be grown.
 """
-import argparse
 import collections
 import concurrent.futures
 import json
@@ -24,8 +23,9 @@ import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-BUILD = os.path.join(ROOT, "build", "release")
+import common
+from common import BUILD, ROOT, row_line
+
 # The fast test: of each kind the two smallest cases, as `forest list 1 200` prints their sizes.
 QUICK = [17, 47, 85, 107, 122, 126, 152, 171, 181, 191]
 
@@ -164,13 +164,14 @@ def counts_table(rows, goal, name, key):
             for group in key(row):
                 groups[group][row["verdict"]] += 1
                 groups[group]["lesser"] += only_lesser(row)
-    lines = [f"| {goal}: {name} | cases | right | wrong with exit 0 | of these only by caps' angles or tubes | failed | crashed | slow |",
+    lines = [f"| {goal}: {name} | cases | right | wrong with exit 0 | of these only by caps' angles or tubes | failed | crashed "
+             f"| slow |",
              "|" + "---|" * 8]
     for group, counts in sorted(groups.items(), key=lambda g: (g[0] == "all", g[0])):
         total = sum(counts[v] for v in VERDICTS)
         cells = [f"{counts[v]} ({100 * counts[v] / total:.0f} %)" for v in VERDICTS[:2]]
         cells += [str(counts[v]) for v in ("lesser",) + VERDICTS[2:]]
-        lines.append("| " + " | ".join([group, str(total)] + cells) + " |")
+        lines.append(row_line([group, total] + cells))
     return lines
 
 
@@ -211,7 +212,7 @@ def caps_table(rows):
         tilted = [o for o in caps if o["tilt_deg"] > 2]
         warned = sum(o["told_sd_deg"] > WARNED for o in tilted)
         counts = (len(caps), len(caps) - len(tilted), sum(o["tilt_deg"] <= 5 for o in caps), warned, len(tilted) - warned)
-        lines.append("| " + " | ".join([kind, *map(str, counts)]) + " |")
+        lines.append(row_line([kind, *counts]))
     return lines
 
 
@@ -239,7 +240,7 @@ def seeds_of(text):
 
 
 def parsed():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--seeds", default="1-200", help="as 1-200 or 3,7,20-30; quick: the ten of the fast test")
     parser.add_argument("--goal", choices=("cfd", "rp", "both"), default="both")
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "forest"))

@@ -3,62 +3,42 @@
 decimate`, which include an unweighted run to the same number of triangles, checks their limits, and writes
 docs/experiments-decimate.md.
 
-  scripts/experiments_decimate [--out FOLDER] [--no-page] [--repeat]
+  scripts/experiments_decimate.py [--out FOLDER] [--no-page] [--repeat]
 
 Exit code 1 if a limit is not met. --repeat measures the first row of the ball at 10 % of its triangles again, in a folder of its
 own, and compares it with the page's, within 5 % of each figure or 0.02; the second is for the skewness, whose last digit is 0.01.
 Exit code 1 if they differ.
 """
-import argparse
 import gzip
-import json
 import math
 import os
 import shutil
 import struct
-import subprocess
 import sys
 
+import common
 import page_rows
+from common import DATA, ROOT, Project, row_line, run, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PROGRAM = os.path.join(ROOT, "build", "release", "vesselbench")
-DATA = os.path.join(os.path.dirname(ROOT), "shared", "data", "images")
 SHARES = [0.5, 0.25, 0.1]
 LEAST_CHECKED = 0.1  # share: below it, the freed part is too small to pay for the kept one
 SLICE = 3.0  # of the half-sliced ball [mm]
 
 
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit("vesselbench " + " ".join(map(str, arguments)) + "\n" + done.stderr)
-    return done.stdout
-
-
-class Model:
+class Model(Project):
     """A project whose surface is decimated in different ways, each time from the same state."""
-
-    def __init__(self, folder, name, *source):
-        self.project = os.path.join(folder, name + ".vbench")
-        for suffix in ("", "-wal", "-shm"):
-            if os.path.exists(self.project + suffix):
-                os.remove(self.project + suffix)
-        run("new", self.project, *source)
-
-    def apply(self, operation, *arguments):
-        run("apply", self.project, operation, *arguments)
-        return self
 
     def decimated(self, *arguments):
         self.apply("decimate", *arguments)
-        edit = json.loads(run("log", self.project, "--json"))["edits"][-1]
-        run("undo", self.project)
+        edit = self.newest()
+        self.undo()
         return {"triangles": edit["change"]["triangles_after"], **edit["report"]}
 
 
 def half_sliced_ball(path):
-    """A ball's signed distances as an image: above the equator, each slice of 3 mm is constant along z; below, the ball is smooth."""
+    """A ball's signed distances as an image: above the equator, each slice of 3 mm is constant along z;
+    below, the ball is smooth.
+    """
     size, spacing, radius = 64, 0.71, 20.03
     start = -0.5 * (size - 1) * spacing
     values = []
@@ -82,14 +62,6 @@ def half_sliced_ball(path):
     with gzip.open(path, "wb") as file:
         file.write(bytes(header) + struct.pack("<%df" % len(values), *values))
     return path
-
-
-def row_line(row):
-    return "| " + " | ".join(map(str, row)) + " |"
-
-
-def table(head, rows):
-    return "\n".join([row_line(head), "|" + "---|" * len(head), *map(row_line, rows)]) + "\n"
 
 
 def um(figures, part):
@@ -119,7 +91,9 @@ class Page:
                 print(("  met:     " if holds else "  NOT MET: " if checked else "  (not met): ") + text, flush=True)
                 if checked and not holds:
                     self.failed.append(text)
-        self.text += f"\n## {title}\n\n{words}\n\n" + table(("triangles", "number", "weights", "kept part: mean distance [um]", "unweighted", "freed part [um]", "unweighted", "mean skewness"), rows)
+        self.text += f"\n## {title}\n\n{words}\n\n" + table(("triangles", "number", "weights", "kept part: mean distance [um]",
+                                                             "unweighted", "freed part [um]", "unweighted", "mean skewness"),
+                                                            rows)
 
 
 BALL_TITLE = "Staircases: a ball of 20 mm, in slices of 3 mm above its equator, smooth below"
@@ -143,7 +117,7 @@ def repeat(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "experiments-decimate"))
     parser.add_argument("--no-page", action="store_true")
     parser.add_argument("--repeat", action="store_true")
@@ -156,30 +130,40 @@ def main():
              "the rest is kept.", ball_model(options.out), BALL_WAYS)
     tumour = os.path.join(options.out, "tumour")
     run("phantom", "tumour", "--out", tumour)
-    near = Model(options.out, "tumour", os.path.join(tumour, "image.nii.gz")).apply("extract-surface", "method=threshold", "threshold=500")
+    near = Model(options.out, "tumour", os.path.join(tumour, "image.nii.gz")).apply("extract-surface", "method=threshold",
+                                                                                    "threshold=500")
     near.apply("load-neighbour", "name=neighbour", "file=" + os.path.join(tumour, "neighbour.vtp"))
     ways = [["distance=linear"], ["distance=margin", "margin=5"], ["distance=exponential"]]
-    page.add("Neighbours: the phantom of thesis Table 5.1", "The kept part is where the weight is at most one half: near the neighbour.", near, ways)
-    labels = os.path.join(DATA, "totalseg_example_labels_117.nii.gz")
+    page.add("Neighbours: the phantom of thesis Table 5.1", "The kept part is where the weight is at most one half: near the "
+                                                            "neighbour.", near, ways)
+    labels = os.path.join(DATA, "images", "totalseg_example_labels_117.nii.gz")
     if os.path.exists(labels):
         liver = Model(options.out, "liver", labels).apply("extract-surface", "method=labels", "mask_surface=midway", "labels=5")
         liver.apply("load-neighbour", "name=near", "labels=52,7")
         few = liver.decimated("share=0.05", "distance=exponential")
         idle = liver.decimated("share=0.25", "distance=exponential")
-        page.add("Neighbours: a liver beside aorta and pancreas", "totalseg_example_labels_117.nii.gz, label 5 beside 52 and 7. Three in four of its triangles lie in flat faces of voxels and can be removed at no distance, with or without weights: "
-                 "only counts below a quarter show the effect of weights. Above that, weights can cost without a gain: at 25 % distance=exponential leaves the kept part at "
+        page.add("Neighbours: a liver beside aorta and pancreas", "totalseg_example_labels_117.nii.gz, label 5 beside 52 and 7. "
+                                                                  "Three in four of its triangles lie in flat faces of voxels "
+                                                                  "and can be removed at no distance, with or without weights: "
+                 "only counts below a quarter show the effect of weights. Above that, weights can cost without a gain: at 25 % "
+                 "distance=exponential leaves the kept part at "
                  f"{um(idle, 'outside')} um ({um(idle['unweighted'], 'outside')} without weights), and the freed part at "
                  f"{um(idle, 'inside')} um ({um(idle['unweighted'], 'inside')}). "
-                 f"At 5 %, which is not checked any more, it leaves the kept part at {um(few, 'outside')} um ({um(few['unweighted'], 'outside')}): "
+                 f"At 5 %, which is not checked any more, it leaves the kept part at {um(few, 'outside')} um "
+                 f"({um(few['unweighted'], 'outside')}): "
                  "the freed part is too small to pay for it.", liver, ways, [0.15, 0.1, 0.05])
     else:
         print("skipped: no ../shared/data")
     if not options.no_page:
         with open(os.path.join(ROOT, "docs", "experiments-decimate.md"), "w") as file:
-            file.write(f"# Context-aware decimation\n\nWritten by `scripts/experiments_decimate` with the program of {revision}; "
+            file.write(f"# Context-aware decimation\n\nWritten by `scripts/experiments_decimate.py` with the program of "
+                       f"{revision}; "
                        "every row is a report of `vesselbench apply P decimate ...`, "
-                       "which also decimates to the same number of triangles without weights. Distances are two-sided, to the surface before decimation. At 10 % of the triangles and more, the script fails unless the kept part is closer than without weights. "
-                       "`tests/bench/bench --only decimation` prints the decimations of CGAL, OpenMesh and VTK beside ours.\n" + page.text)
+                       "which also decimates to the same number of triangles without weights. Distances are two-sided, to the "
+                       "surface before decimation. At 10 % of the triangles and more, the script fails unless the kept part is "
+                       "closer than without weights. "
+                       "`tests/bench/bench --only decimation` prints the decimations of CGAL, OpenMesh and VTK beside ours.\n" +
+                       page.text)
     for text in page.failed:
         print("NOT MET: " + text)
     sys.exit(1 if page.failed else 0)

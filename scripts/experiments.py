@@ -2,8 +2,8 @@
 """Repeats the experiments of the thesis' chapter 5 with the program's own commands, checks their limits, and
 writes docs/experiments.md with our figures beside the thesis's.
 
-  scripts/experiments [--only NAME]... [--out FOLDER] [--quick] [--no-page] [--assemble]
-  scripts/experiments --repeat [--out FOLDER]
+  scripts/experiments.py [--only NAME]... [--out FOLDER] [--quick] [--no-page] [--assemble]
+  scripts/experiments.py --repeat [--out FOLDER]
 
 NAME is one of sphere, distance, aorta, real, stack, caps, flow, methods. A run without --only measures everything and writes the
 page. --only keeps its parts in FOLDER and puts them in the place of the page's, with the command that printed them and the
@@ -15,7 +15,6 @@ and fewer seeds, has a folder of its own and writes no page; scripts/test runs i
 with the page's, within 5 % of each figure or 0.003; the second is for the mean distance [mm], whose last digit is 0.001. Exit
 code 1 if they differ.
 """
-import argparse
 import functools
 import gzip
 import hashlib
@@ -28,11 +27,10 @@ import subprocess
 import sys
 import zlib
 
+import common
 import page_rows
+from common import BUILD, DATA, PROGRAM, ROOT, Checks, Project, row_line, run, skip, skipped, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PROGRAM = os.path.join(ROOT, "build", "release", "vesselbench")
-DATA = os.path.join(os.path.dirname(ROOT), "shared", "data")
 
 RESAMPLED = 0.6  # cubes of the references of Tables 5.3 to 5.5 [mm]
 
@@ -46,45 +44,21 @@ FILTERS = [
 ]
 
 
-def run(*arguments, program=PROGRAM):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(os.path.basename(program) + " " + " ".join(map(str, arguments)) + "\n" + done.stderr)
-    return done.stdout
-
-
 def measured(surface, reference=None):
     return json.loads(run("measure", surface, *([reference] if reference else []), "--json"))
 
 
-class Model:
+class Model(Project):
     """A project whose surface is smoothed in different ways, each time from the same state."""
 
-    def __init__(self, folder, name, *source):
-        self.folder, self.name = folder, name
-        self.project = os.path.join(folder, name + ".vbench")
-        for suffix in ("", "-wal", "-shm"):
-            if os.path.exists(self.project + suffix):
-                os.remove(self.project + suffix)
-        run("new", self.project, *source)
-
-    def apply(self, operation, *arguments):
-        run("apply", self.project, operation, *arguments)
-        return self
-
     def report(self):
-        return json.loads(run("log", self.project, "--json"))["edits"][-1]["report"]
-
-    def surface(self, name):
-        file = os.path.join(self.folder, f"{self.name}-{name}.vtp")
-        run("export", self.project, file)
-        return file
+        return self.newest()["report"]
 
     def smoothed(self, name, arguments, find_caps=False):
         """Smooths, exports and goes back. Returns the surface's file."""
         self.apply("smooth", f"find_caps={str(find_caps).lower()}", *arguments)
         file = self.surface(name)
-        run("undo", self.project)
+        self.undo()
         return file
 
 
@@ -92,38 +66,8 @@ def staircase_vertices(model, *arguments):
     """How many vertices of the model's surface count as staircases."""
     model.apply("smooth", "iterations=0", "staircase=true", "find_caps=false", "tau_max=3", *arguments)
     found = model.report()["staircase_vertices"]
-    run("undo", model.project)
+    model.undo()
     return found
-
-
-class Checks:
-    def __init__(self):
-        self.failed, self.explained = [], []
-
-    def expect(self, holds, text, unless=None):
-        """`unless`: the reason if it is known not to hold; then it is listed on the page and not counted as a failure."""
-        if not holds and unless:
-            self.explained.append(f"{text}. {unless}")
-        elif not holds:
-            self.failed.append(text)
-        print(("  met:     " if holds else "  not met, as known: " if unless else "  NOT MET: ") + text, flush=True)
-
-
-def row_line(row):
-    return "| " + " | ".join(map(str, row)) + " |"
-
-
-def table(head, rows):
-    return "\n".join([row_line(head), "|" + "---|" * len(head), *map(row_line, rows)]) + "\n"
-
-
-def skip(reason):
-    """Reports what was skipped; the exit code is then 77, which ctest counts as skipped, unless a check fails."""
-    print("skipped: " + reason, flush=True)
-    skipped.append(reason)
-    if file := os.environ.get("VESSELBENCH_SKIPS"):
-        with open(file, "a") as lines:
-            lines.write(f"scripts/experiments: {reason}\n")
 
 
 def picture(options, name, surface, reference, full_colour, view, size=400):
@@ -160,7 +104,8 @@ def shown_rows(rows, default, high):
              ("Default MC", f"{default['hausdorff']:.2f}", "", f"{default['mean']:.3f}", "", f"{default['volume']:+.2f}", "",
               f"{default['curvature']:.2f}", "")]
     lines += [filter_cells(name, rows) for name, _ in FILTERS]
-    head = ("", "Hausdorff [mm] uniform", "SA", "mean [mm] uniform", "SA", "volume [%] uniform", "SA", "normal curv. [deg] uniform",
+    head = ("", "Hausdorff [mm] uniform", "SA", "mean [mm] uniform", "SA", "volume [%] uniform", "SA",
+            "normal curv. [deg] uniform",
             "SA")
     return table(head, lines)
 
@@ -171,8 +116,9 @@ def figures(file, reference):
             "volume": found["reference"]["volume_change_percent"], "curvature": found["normal_curvature_deg"]}
 
 
-THESIS_55 = """| thesis | Hausdorff [mm] uniform | SA | mean [mm] uniform | SA | volume [%] uniform | SA | normal curv. [deg] uniform | SA |
-|---|---|---|---|---|---|---|---|---|
+THESIS_HEAD = ("| Hausdorff [mm] uniform | SA | mean [mm] uniform | SA | volume [%] uniform | SA "
+               "| normal curv. [deg] uniform | SA |\n")
+THESIS_55 = "| thesis " + THESIS_HEAD + """|---|---|---|---|---|---|---|---|---|
 | High resolution | 0 | | 0 | | 0.00 | | 0.44 | |
 | Default MC | 2.73 | | 0.04 | | -0.01 | | 1.72 | |
 | Laplace | 1.96 | 1.51 | 0.57 | 0.06 | -4.02 | -0.48 | 1.37 | 1.49 |
@@ -185,11 +131,11 @@ THESIS_55 = """| thesis | Hausdorff [mm] uniform | SA | mean [mm] uniform | SA |
 
 SPHERE_WORDS = """
 Ours. Without the deletions the normal curvature of the unfiltered sphere is {intact:.2f} degrees, the thesis's sphere of high
-resolution has 0.44. Both middle slices lose what lies beyond one chord; chord and blur (1.3 voxels along every axis) were fitted to
-the row of the unfiltered surface alone, before any filter ran. The volume of that row, -0.01 %, cannot be reached together with the
-mean distance: a notch takes away what it measures. Reference: the sphere without deletions, resampled to {resample:g} mm (the thesis:
-0.3). After such a blur the notch bends little: as staircase vertices, tau_theta {found} (0.2 is the value of Fig. 5.13), and the
-program's own choice {own}.
+resolution has 0.44. Both middle slices lose what lies beyond one chord; chord and blur (1.3 voxels along every axis) were fitted
+to the row of the unfiltered surface alone, before any filter ran. The volume of that row, -0.01 %, cannot be reached together
+with the mean distance: a notch takes away what it measures. Reference: the sphere without deletions, resampled to {resample:g} mm
+(the thesis: 0.3). After such a blur the notch bends little: as staircase vertices, tau_theta {found} (0.2 is the value of Fig.
+5.13), and the program's own choice {own}.
 
 """
 
@@ -213,22 +159,29 @@ def sphere_checks(checks, rows, default):
     for name in ("Laplace", "Laplace with NPC", "Mean curvature flow"):
         u, s = rows[name, "uniform"], rows[name, "SA"]
         checks.expect(abs(s["volume"] - default["volume"]) <= 0.2 * abs(u["volume"] - default["volume"]),
-                      f"5.5 {name}: SA loses at most a fifth of the volume: {s['volume'] - default['volume']:+.3f} / {u['volume'] - default['volume']:+.3f}")
-        checks.expect(s["mean"] <= 0.2 * u["mean"], f"5.5 {name}: SA mean distance at most a fifth: {s['mean']:.3f} / {u['mean']:.3f}")
+                      f"5.5 {name}: SA loses at most a fifth of the volume: {s['volume'] - default['volume']:+.3f} / "
+                      f"{u['volume'] - default['volume']:+.3f}")
+        checks.expect(s["mean"] <= 0.2 * u["mean"], f"5.5 {name}: SA mean distance at most a fifth: {s['mean']:.3f} / "
+                                                    f"{u['mean']:.3f}")
         checks.expect(s["hausdorff"] <= 0.7 * default["hausdorff"],
-                      f"5.5 {name}: SA Hausdorff at most 0.7 of the raw surface's: {s['hausdorff']:.2f} / {default['hausdorff']:.2f}",
+                      f"5.5 {name}: SA Hausdorff at most 0.7 of the raw surface's: {s['hausdorff']:.2f} / "
+                      f"{default['hausdorff']:.2f}",
                       UNIFORM_NEITHER if u["hausdorff"] > 0.7 * default["hausdorff"] else None)
     for name in ("Laplace+HC", "Taubin"):
         u, s = rows[name, "uniform"], rows[name, "SA"]
-        checks.expect(abs(s["volume"] - default["volume"]) < 0.05, f"5.5 {name}: SA volume change below 0.05 %: {s['volume'] - default['volume']:+.3f}")
+        checks.expect(abs(s["volume"] - default["volume"]) < 0.05, f"5.5 {name}: SA volume change below 0.05 %: "
+                                                                   f"{s['volume'] - default['volume']:+.3f}")
         checks.expect(s["hausdorff"] <= 0.85 * default["hausdorff"],
-                      f"5.5 {name}: SA Hausdorff at most 0.85 of the raw surface's: {s['hausdorff']:.2f} / {default['hausdorff']:.2f}",
+                      f"5.5 {name}: SA Hausdorff at most 0.85 of the raw surface's: {s['hausdorff']:.2f} / "
+                      f"{default['hausdorff']:.2f}",
                       UNIFORM_NEITHER if u["hausdorff"] > 0.85 * default["hausdorff"] else None)
     for name, _ in FILTERS:
         checks.expect(rows[name, "SA"]["hausdorff"] < 0.95 * default["hausdorff"],
-                      f"5.5 {name}: SA Hausdorff below 0.95 of the raw surface's: {rows[name, 'SA']['hausdorff']:.2f} / {default['hausdorff']:.2f}")
+                      f"5.5 {name}: SA Hausdorff below 0.95 of the raw surface's: {rows[name, 'SA']['hausdorff']:.2f} / "
+                      f"{default['hausdorff']:.2f}")
         checks.expect(rows[name, "SA"]["curvature"] < default["curvature"],
-                      f"5.5 {name}: SA normal curvature below the raw surface's: {rows[name, 'SA']['curvature']:.2f} / {default['curvature']:.2f}")
+                      f"5.5 {name}: SA normal curvature below the raw surface's: {rows[name, 'SA']['curvature']:.2f} / "
+                      f"{default['curvature']:.2f}")
 
 
 SPHERE_EXTRACTION = ["method=threshold", "threshold=500"]
@@ -288,7 +241,7 @@ def distance_table(title, model, base):
     def gap():
         model.apply("smooth", "iterations=0", "distance=linear", "caps=smooth", "find_caps=false")
         found = model.report()["smallest_neighbour_distance_mm"]
-        run("undo", model.project)
+        model.undo()
         return found
 
     files = {"Original": model.surface("raw")}
@@ -298,16 +251,18 @@ def distance_table(title, model, base):
         model.apply("smooth", "find_caps=false", *arguments, *base)
         files[name] = model.surface(name.replace(" ", "-").replace(",", ""))
         rows[name] = figures(files[name], raw) | {"gap": gap()}
-        run("undo", model.project)
-    shown = table((title, "Hausdorff to the raw surface [mm]", "distance to the neighbour [mm]", "volume [%]", "normal curvature [deg]"),
-                  [(n, f"{r['hausdorff']:.2f}", f"{r['gap']:.2f}", f"{r['volume']:+.2f}", f"{r['curvature']:.2f}") for n, r in rows.items()])
+        model.undo()
+    shown = table((title, "Hausdorff to the raw surface [mm]", "distance to the neighbour [mm]", "volume [%]",
+                   "normal curvature [deg]"),
+                  [(n, f"{r['hausdorff']:.2f}", f"{r['gap']:.2f}", f"{r['volume']:+.2f}", f"{r['curvature']:.2f}")
+                   for n, r in rows.items()])
     print(shown)
     return rows, shown, files
 
 
-DISTANCE_WORDS = """The thesis: the tumour's gap of 0.35 mm becomes 2.17 with Laplace and 0.39 with DA Laplace, its volume -11.09 and -6.54 %; the
-vein's gap of 0.35 mm becomes 1.82 and 0.35, its volume -18.62 and -9.82 %. Our vessel leans 45 degrees against the slices, so
-that its terraces face the neighbour, and its contours jitter by 0.3 mm.
+DISTANCE_WORDS = """The thesis: the tumour's gap of 0.35 mm becomes 2.17 with Laplace and 0.39 with DA Laplace, its volume -11.09
+and -6.54 %; the vein's gap of 0.35 mm becomes 1.82 and 0.35, its volume -18.62 and -9.82 %. Our vessel leans 45 degrees against
+the slices, so that its terraces face the neighbour, and its contours jitter by 0.3 mm.
 
 """
 
@@ -321,12 +276,16 @@ def distance(options, checks):
         model = Model(folder, "raw", os.path.join(folder, "mask.nii.gz"))
         model.apply("extract-surface", "method=labels", "mask_surface=midway")
         model.apply("load-neighbour", "name=neighbour", "file=" + os.path.join(folder, "neighbour.vtp"))
-        rows, shown, _ = distance_table(f"Analogue of Table {title}", model, [f"iterations={iterations}", "lambda=1", "caps=smooth"])
+        rows, shown, _ = distance_table(f"Analogue of Table {title}", model, [f"iterations={iterations}", "lambda=1",
+                                                                              "caps=smooth"])
         page += shown + "\n"
         start, uniform, aware = rows["Original"], rows["Laplace"], rows["DA Laplace"]
-        checks.expect(abs(aware["gap"] - start["gap"]) <= 0.05, f"{title}: DA Laplace keeps the distance: {start['gap']:.2f} -> {aware['gap']:.2f} mm")
-        checks.expect(abs(uniform["gap"] - start["gap"]) > 1.0, f"{title}: uniform Laplace moves it: {start['gap']:.2f} -> {uniform['gap']:.2f} mm")
-        checks.expect(abs(aware["volume"]) <= 0.7 * abs(uniform["volume"]), f"{title}: DA loses at most 70 % of the volume uniform loses")
+        checks.expect(abs(aware["gap"] - start["gap"]) <= 0.05, f"{title}: DA Laplace keeps the distance: {start['gap']:.2f} -> "
+                                                                f"{aware['gap']:.2f} mm")
+        checks.expect(abs(uniform["gap"] - start["gap"]) > 1.0, f"{title}: uniform Laplace moves it: {start['gap']:.2f} -> "
+                                                                f"{uniform['gap']:.2f} mm")
+        checks.expect(abs(aware["volume"]) <= 0.7 * abs(uniform["volume"]), f"{title}: DA loses at most 70 % of the volume "
+                                                                            f"uniform loses")
         checks.expect(aware["curvature"] <= 0.5 * start["curvature"],
                       f"{title}: DA at least halves the normal curvature: {start['curvature']:.2f} -> {aware['curvature']:.2f}")
     return page
@@ -339,10 +298,8 @@ THICK = [
     ("carotid", "topcow_mr_roi_003_labels.nii.gz", "6", 2),
 ]
 SKIPPED = "skipped: no ../shared/data\n"
-skipped = []  # reasons, filled by skip()
 
-THESIS_53_54 = """| thesis, lambda 1 (5.3), 0.5 (5.4) | Hausdorff [mm] uniform | SA | mean [mm] uniform | SA | volume [%] uniform | SA | normal curv. [deg] uniform | SA |
-|---|---|---|---|---|---|---|---|---|
+THESIS_53_54 = "| thesis, lambda 1 (5.3), 0.5 (5.4) " + THESIS_HEAD + """|---|---|---|---|---|---|---|---|---|
 | 5.3, muscle: Default MC | 3.14 | | 0.20 | | -1.05 | | 26.03 | |
 | Laplace | 5.17 | 4.09 | 0.29 | 0.22 | -7.05 | -4.57 | 6.46 | 9.72 |
 | Laplace+HC | 3.08 | 3.08 | 0.18 | 0.18 | -1.71 | -1.56 | 12.68 | 16.15 |
@@ -452,18 +409,21 @@ def aorta(options, checks):
     folder = os.path.join(options.out, "aorta")
     os.makedirs(folder, exist_ok=True)
     resample = 1.0 if options.quick else RESAMPLED
-    high = aorta_model(folder, "reference", 1)[0].apply("extract-surface", *AORTA_EXTRACTION, f"resample={resample}").surface("raw")
+    high = aorta_model(folder, "reference", 1)[0].apply("extract-surface", *AORTA_EXTRACTION,
+                                                        f"resample={resample}").surface("raw")
     high_figures = {"curvature": measured(high)["normal_curvature_deg"]}
     for step, factor in ([(3, 0.5)] if options.quick else [(2, 0.5), (3, 0.5), (3, 1.0)]):
         model, tall = aorta_model(folder, f"every-{step}", step)
         raw = model.apply("extract-surface", *AORTA_EXTRACTION).surface("raw")
         default = figures(raw, high)
         staircase = ["staircase=true", "stack_axis=0,0,1", "tau_theta=0.7", f"tau_max={tall:.6g}", "beta_min=0", "weight=tau-max"]
-        rows = filters_table(model, high, ["iterations=20", f"lambda={factor}", "caps=keep"], staircase, f"-{factor}", find_caps=True)
+        rows = filters_table(model, high, ["iterations=20", f"lambda={factor}", "caps=keep"], staircase, f"-{factor}",
+                             find_caps=True)
         shown = shown_rows(rows, default, high_figures)
         title = f"slices of {tall:.2g} mm, lambda {factor}"
         print(f"aorta, {title}\n{shown}\n{compared(rows, default)}")
-        page += f"{title[0].upper()}{title[1:]} (cap detection finds {caps_found(model, staircase)}):\n\n{shown}\n{compared(rows, default)}"
+        page += (f"{title[0].upper()}{title[1:]} (cap detection finds {caps_found(model, staircase)}):\n\n"
+                 f"{shown}\n{compared(rows, default)}")
         if factor == 0.5:
             aorta_checks(checks, rows, default, f"5.4 aorta, {title}")
         if (step, factor) == (3, 0.5) and not options.quick:
@@ -475,7 +435,7 @@ def caps_found(model, staircase):
     """How many caps the cap detection of these tables finds, in words."""
     model.apply("smooth", "iterations=0", "find_caps=true", "caps=keep", *staircase)
     count = model.report()["caps"]
-    run("undo", model.project)
+    model.undo()
     return f"{count or 'no'} cap{'s' if count != 1 else ''}"
 
 
@@ -484,19 +444,23 @@ def histogram_svg(counts, width, path):
     bins, largest = max(len(c) for _, _, c in counts), max(max(c[1:], default=1) for _, _, c in counts)
     step, high, parts = 26, 220, []
     for index, (name, colour, bars) in enumerate(counts):
-        parts.append(f'<rect x="{430}" y="{20 + 20 * index}" width="12" height="12" fill="{colour}"/><text x="{448}" y="{31 + 20 * index}">{name}</text>')
+        parts.append(f'<rect x="{430}" y="{20 + 20 * index}" width="12" height="12" fill="{colour}"/><text x="{448}" '
+                     f'y="{31 + 20 * index}">{name}</text>')
         for i, count in enumerate(bars[1:]):
             tall = high * count / largest
-            parts.append(f'<rect x="{50 + step * i + 11 * index}" y="{20 + high - tall:.1f}" width="10" height="{tall:.1f}" fill="{colour}"/>')
+            parts.append(f'<rect x="{50 + step * i + 11 * index}" y="{20 + high - tall:.1f}" width="10" height="{tall:.1f}" '
+                         f'fill="{colour}"/>')
     for i in range(bins - 1):
         parts.append(f'<text x="{50 + step * i + 11}" y="{high + 36}" text-anchor="middle">{width * (i + 1):g}</text>')
     for share in (0, 0.5, 1):
         parts.append(f'<text x="44" y="{24 + high - high * share:.0f}" text-anchor="end">{largest * share:.0f}</text>')
     wide = max(620, 70 + step * (bins - 1))
     with open(path, "w") as file:
-        file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high + 70}" font-family="sans-serif" font-size="12">'
+        file.write(f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high + 70}" font-family="sans-serif" '
+                   f'font-size="12">'
                    f'<rect width="100%" height="100%" fill="white"/>{"".join(parts)}'
-                   f'<text x="{wide / 2}" y="{high + 58}" text-anchor="middle">distance from the raw surface, from [mm]</text></svg>\n')
+                   f'<text x="{wide / 2}" y="{high + 58}" text-anchor="middle">distance from the raw surface, from '
+                   f'[mm]</text></svg>\n')
 
 
 def aorta_sights(options, model, raw, base, staircase):
@@ -505,7 +469,8 @@ def aorta_sights(options, model, raw, base, staircase):
     shots = []
     for name in ("staircase", "smoothing_weight", "local_error", "mean_curvature"):
         shown = os.path.join(options.pictures, f"aorta-{name}.png")
-        done = subprocess.run([PROGRAM, "picture", file, shown, "--colour", name, "--size", "400", "--view", "0.3,0,-1"], capture_output=True, text=True)
+        done = subprocess.run([PROGRAM, "picture", file, shown, "--colour", name, "--size", "400", "--view", "0.3,0,-1"],
+                              capture_output=True, text=True)
         if "no pictures" in done.stderr:
             skip(done.stderr.strip())
             return ""
@@ -528,10 +493,13 @@ def aorta_sights(options, model, raw, base, staircase):
 def aorta_checks(checks, rows, default, title):
     for name, _ in FILTERS:
         u, s = rows[name, "uniform"], rows[name, "SA"]
-        checks.expect(s["mean"] < u["mean"], f"{title}, {name}: SA mean distance below uniform: {s['mean']:.3f} / {u['mean']:.3f}")
-        checks.expect(s["mean"] < default["mean"], f"{title}, {name}: SA mean distance below the raw surface's: {s['mean']:.3f} / {default['mean']:.3f}")
+        checks.expect(s["mean"] < u["mean"],
+                      f"{title}, {name}: SA mean distance below uniform: {s['mean']:.3f} / {u['mean']:.3f}")
+        checks.expect(s["mean"] < default["mean"], f"{title}, {name}: SA mean distance below the raw surface's: {s['mean']:.3f} "
+                                                   f"/ {default['mean']:.3f}")
         checks.expect(s["curvature"] < default["curvature"],
-                      f"{title}, {name}: SA normal curvature below the raw surface's: {s['curvature']:.2f} / {default['curvature']:.2f}")
+                      f"{title}, {name}: SA normal curvature below the raw surface's: {s['curvature']:.2f} / "
+                      f"{default['curvature']:.2f}")
 
 
 def thick_model(folder, name, file, labels, step):
@@ -562,15 +530,18 @@ def thick_slices(options, checks, name, file, labels, step):
         for filter_name in ("Laplace", "Laplace with NPC", "Mean curvature flow"):
             u, s = rows[filter_name, "uniform"], rows[filter_name, "SA"]
             text = f"{name}, lambda {factor}, {filter_name}: "
-            checks.expect(abs(s["volume"] - default["volume"]) < abs(u["volume"] - default["volume"]), text + "SA changes the volume less")
+            checks.expect(abs(s["volume"] - default["volume"]) < abs(u["volume"] - default["volume"]), text +
+                          "SA changes the volume less")
             checks.expect(s["mean"] < u["mean"], text + f"SA is closer on the mean: {s['mean']:.3f} / {u['mean']:.3f} mm")
         for filter_name, _ in FILTERS:
             checks.expect(rows[filter_name, "SA"]["curvature"] < default["curvature"],
                           f"{name}, lambda {factor}, {filter_name}: SA normal curvature below the raw surface's")
     if name == "aorta" and not options.quick:
-        shots = [picture(options, "aorta-" + kind, os.path.join(model.folder, f"aorta-Laplace-{label}-0.5.vtp"), high, 2, "-1,0.6,0")
+        shots = [picture(options, "aorta-" + kind, os.path.join(model.folder, f"aorta-Laplace-{label}-0.5.vtp"), high, 2,
+                         "-1,0.6,0")
                  for kind, label in (("uniform-laplace", "uniform"), ("staircase-aware-laplace", "SA"))]
-        page += "Laplace, lambda 0.5, uniform and staircase-aware: deviation from the isotropic surface, blue 2 mm inside, red outside.\n\n" + " ".join(shots) + "\n\n"
+        page += ("Laplace, lambda 0.5, uniform and staircase-aware: deviation from the isotropic surface, blue 2 mm inside, red "
+                 "outside.\n\n" + " ".join(shots) + "\n\n")
     return page
 
 
@@ -585,18 +556,22 @@ the second table cannot distinguish the filters; the pictures show the beds of k
 """
     for title, labels in (("aorta and pancreas, apart", "52,7"), ("right kidney, gallbladder, stomach, touching", "2,4,6")):
         model = Model(folder, "liver-near", os.path.join(DATA, "images", "totalseg_example_labels_117.nii.gz"))
-        model.apply("extract-surface", "method=labels", "mask_surface=midway", "labels=5").apply("load-neighbour", "name=near", "labels=" + labels)
+        model.apply("extract-surface", "method=labels", "mask_surface=midway", "labels=5").apply("load-neighbour", "name=near",
+                                                                                                 "labels=" + labels)
         rows, shown, files = distance_table(title, model, ["iterations=30", "lambda=1", "caps=keep"])
         page += shown + "\n"
         start, uniform, aware = rows["Original"], rows["Laplace"], rows["DA Laplace"]
         if start["gap"] > 0:
-            checks.expect(abs(uniform["gap"] - start["gap"]) > 1.0, f"liver, {title}: uniform Laplace moves it: {start['gap']:.2f} -> {uniform['gap']:.2f} mm")
-            checks.expect(abs(aware["gap"] - start["gap"]) <= 0.05, f"liver, {title}: DA keeps the distance: {start['gap']:.2f} -> {aware['gap']:.2f} mm")
+            checks.expect(abs(uniform["gap"] - start["gap"]) > 1.0, f"liver, {title}: uniform Laplace moves it: "
+                                                                    f"{start['gap']:.2f} -> {uniform['gap']:.2f} mm")
+            checks.expect(abs(aware["gap"] - start["gap"]) <= 0.05, f"liver, {title}: DA keeps the distance: {start['gap']:.2f} "
+                                                                    f"-> {aware['gap']:.2f} mm")
         checks.expect(abs(aware["volume"]) < abs(uniform["volume"]), f"liver, {title}: DA changes the volume less")
     if not options.quick:
         shots = [picture(options, "liver-" + kind, files[way], files["Original"], 4, "-0.3,-1,0.6")
                  for kind, way in (("uniform-laplace", "Laplace"), ("distance-aware-laplace", "DA Laplace"))]
-        page += "The second table's Laplace, uniform and distance-aware: deviation from the raw surface, blue 4 mm inside, red outside.\n\n" + " ".join(shots) + "\n"
+        page += ("The second table's Laplace, uniform and distance-aware: deviation from the raw surface, blue 4 mm inside, red "
+                 "outside.\n\n" + " ".join(shots) + "\n")
     return page
 
 
@@ -615,36 +590,38 @@ def real(options, checks):
     if not os.path.isdir(DATA):
         skip("no ../shared/data")
         return page + SKIPPED
-    page += """Ours: only every k-th slice of a label map is kept; the reference is the surface of all slices. Unlike the thesis's reference,
-it does not come from an interpolated intensity image: it is a surface of labels with small staircases of its own, which every
-filter removes, so the mean distance to it cannot become small. Uniform Taubin with lambda 1 and mu -1.02 roughens the surface
-here (the program warns about such values); the thesis does not report that. At an aspect of 2 the labels' bevels bend too little
-across the slices for the thesis's tau_theta of 0.7: """ + flat_bevels(options) + ".\n\n"
+    page += """Ours: only every k-th slice of a label map is kept; the reference is the surface of all slices. Unlike the thesis's
+reference, it does not come from an interpolated intensity image: it is a surface of labels with small staircases of its own,
+which every filter removes, so the mean distance to it cannot become small. Uniform Taubin with lambda 1 and mu -1.02 roughens the
+surface here (the program warns about such values); the thesis does not report that. At an aspect of 2 the labels' bevels bend too
+little across the slices for the thesis's tau_theta of 0.7: """ + flat_bevels(options) + ".\n\n"
     for case in (THICK[-1:] if options.quick else THICK):
         page += thick_slices(options, checks, *case)
     return page + liver_and_neighbours(options, checks)
 
 
-TABLES_56_57 = """Errors of the estimated stack axis in degrees. The thesis: 0.83 (carotid artery), 0.48 (muscle) and 0.00 to 0.05 (liver)
-for all rotations; spheres with 1/16 to all of the topmost slice removed: 10.28, 1.63, 1.62, 1.17, 0.00.
+TABLES_56_57 = """Errors of the estimated stack axis in degrees. The thesis: 0.83 (carotid artery), 0.48 (muscle) and 0.00 to 0.05
+(liver) for all rotations; spheres with 1/16 to all of the topmost slice removed: 10.28, 1.63, 1.62, 1.17, 0.00.
 
 Ours: surfaces of masks, and of intensities inside the dilated mask; spheres of intensities, with noise in parts of the
 contrast. Interpolated intensities leave a vessel without any face across the stack axis, but the edges of its triangles lie in
 the sides of the voxels' cells, whatever the noise is, and their vertices on the grid's lines. A surface that was smoothed or
-remeshed before has lost both: there the peaks of the faces' normals remain. The second table smooths before it asks (Laplace, lambda
-0.5, turned by 30 degrees about x); where the program calls itself uncertain, `smooth` asks for the axis instead of taking it.
+remeshed before has lost both: there the peaks of the faces' normals remain. The second table smooths before it asks (Laplace,
+lambda 0.5, turned by 30 degrees about x); where the program calls itself uncertain, `smooth` asks for the axis instead of taking
+it.
 
 """
 
 
-REAL_MASKS_56 = """Real masks: label maps of TopCoW (slices 1.7 to 2 times as thick as voxels) and TotalSegmentator (3 mm cubes) label by label, the latter
-also as intensities of the CT inside each label; two lumina of an aorta (1.5 mm cubes); `vmtk_aorta.mha` inside its level set; vessels
-of the TOF inside a thresholded mask. Each is turned twice at random; the thesis's method, transcribed literally, never says whether
-it is certain. Ends are those that the image's first and last slice cut off; "patches lost" must find them. Thicker slices are certain
-with and without ends. Cubic voxels show no stack axis: there the ends are all the evidence. Of our certain answers with ends, {wrong}
-of {certain} are off by more than 5 degrees. With two or more ends, {two_certain} of {two_all} are certain ({two_without} of {two_all} without
-the ends); with one end of cubic voxels {one_certain} of {one_all}, because one flat side may be any side of a region of interest (the
-literal method is right in {one_literal} of {one_all}).
+REAL_MASKS_56 = """Real masks: label maps of TopCoW (slices 1.7 to 2 times as thick as voxels) and TotalSegmentator (3 mm cubes)
+label by label, the latter also as intensities of the CT inside each label; two lumina of an aorta (1.5 mm cubes);
+`vmtk_aorta.mha` inside its level set; vessels of the TOF inside a thresholded mask. Each is turned twice at random; the thesis's
+method, transcribed literally, never says whether it is certain. Ends are those that the image's first and last slice cut off;
+"patches lost" must find them. Thicker slices are certain with and without ends. Cubic voxels show no stack axis: there the ends
+are all the evidence. Of our certain answers with ends, {wrong} of {certain} are off by more than 5 degrees. With two or more
+ends, {two_certain} of {two_all} are certain ({two_without} of {two_all} without the ends); with one end of cubic voxels
+{one_certain} of {one_all}, because one flat side may be any side of a region of interest (the literal method is right in
+{one_literal} of {one_all}).
 
 """
 
@@ -657,7 +634,8 @@ def real_mask_counts(shown):
         kinds[voxels, ends, method, with_ends] = dict(zip(("all", "near", "certain", "wrong"), map(int, counts)))
 
     def total(key, **wanted):
-        return sum(row[key] for kind, row in kinds.items() if all(dict(zip(("voxels", "ends", "method", "given"), kind))[k] == v for k, v in wanted.items()))
+        return sum(row[key] for kind, row in kinds.items() if all(dict(zip(("voxels", "ends", "method", "given"), kind))[k] == v
+                                                                  for k, v in wanted.items()))
     ours, two, one = {"method": "ours", "given": "with"}, {"ends": "two or more"}, {"ends": "one", "voxels": "cubic voxels"}
     return {"wrong": total("wrong", **ours), "certain": total("certain", **ours), "all": total("all", **ours),
             "two_certain": total("certain", **ours, **two), "two_all": total("all", **ours, **two),
@@ -668,7 +646,7 @@ def real_mask_counts(shown):
 
 def stack(options, checks):
     """Tables 5.6 and 5.7; tests/smoothing/stack_orientation_test.cpp checks their limits."""
-    shown = subprocess.run([os.path.join(ROOT, "build", "release", "stack_tables")], capture_output=True, text=True, check=True).stdout
+    shown = subprocess.run([os.path.join(BUILD, "stack_tables")], capture_output=True, text=True, check=True).stdout
     print(shown)
     at, counts = shown.find("| voxels |"), real_mask_counts(shown)
     page = "## Tables 5.6 and 5.7: orientation of the image stack\n\n" + TABLES_56_57 + shown[:at]
@@ -676,13 +654,16 @@ def stack(options, checks):
         skip("no ../shared/data")
         return page + SKIPPED
     certain, every = counts["two_certain"], counts["two_all"]
-    checks.expect(200 * counts["wrong"] <= counts["certain"], f"5.6: at most 1 in 200 certain answers on real masks is wrong: {counts['wrong']} of {counts['certain']}")
-    checks.expect(certain >= 0.8 * every, f"5.6: with two or more cut ends at least 80 % of the estimates on real masks are certain: {certain} of {every}")
+    checks.expect(200 * counts["wrong"] <= counts["certain"], f"5.6: at most 1 in 200 certain answers on real masks is wrong: "
+                                                              f"{counts['wrong']} of {counts['certain']}")
+    checks.expect(certain >= 0.8 * every, f"5.6: with two or more cut ends at least 80 % of the estimates on real masks are "
+                                          f"certain: {certain} of {every}")
     return page + REAL_MASKS_56.format(**counts) + shown[at:]
 
 
-CAPS_WORDS = """lambda 0.5. The thesis finds both ends after 0 to 50 iterations, at tau_theta 0.2. After 40 iterations few of our rims bend by that
-(first table). At 0.15 more bends are found beside the ends, from which detection takes weight away (second table).
+CAPS_WORDS = """lambda 0.5. The thesis finds both ends after 0 to 50 iterations, at tau_theta 0.2. After 40 iterations few of our
+rims bend by that (first table). At 0.15 more bends are found beside the ends, from which detection takes weight away (second
+table).
 
 """
 
@@ -691,25 +672,28 @@ def caps(options, checks):
     """Fig. 5.13."""
     folder = os.path.join(options.out, "caps")
     run("phantom", os.path.join(ROOT, "cases", "phantoms", "cylinder-with-cuboid.json"), "--out", folder)
-    model = Model(folder, "raw", os.path.join(folder, "image.nii.gz")).apply("extract-surface", "method=threshold", "threshold=500")
+    model = Model(folder, "raw", os.path.join(folder, "image.nii.gz")).apply("extract-surface", "method=threshold",
+                                                                             "threshold=500")
     rows = {0.2: [], 0.15: []}
     for iterations in ((0, 40) if options.quick else range(0, 51, 10)):
         model.apply("smooth", "filter=laplace", "lambda=0.5", f"iterations={iterations}", "caps=smooth", "find_caps=false")
         for tau in rows:
             found = {}
             for kind in ("smooth", "keep"):
-                model.apply("smooth", "iterations=0", "staircase=true", "stack_axis=0,0,1", f"tau_theta={tau}", "tau_max=3", "beta_min=0",
+                model.apply("smooth", "iterations=0", "staircase=true", "stack_axis=0,0,1", f"tau_theta={tau}", "tau_max=3",
+                            "beta_min=0",
                             "weight=tau-max", "find_caps=true", "caps=" + kind)
                 found[kind] = model.report()
-                run("undo", model.project)
+                model.undo()
             kept, weight = found["keep"], {kind: report["mean_weight"] for kind, report in found.items()}
             rows[tau].append((iterations, kept["caps"], kept["cap_vertices_kept"], found["smooth"]["staircase_vertices"],
                               f"{weight['smooth']:.4f}", f"{weight['keep']:.4f}"))
             checks.expect(kept["caps"] == 2, f"5.13: two ends after {iterations} iterations: {kept['caps']}")
             if tau == 0.15 and iterations <= 40:
-                checks.expect(weight["keep"] < 0.99 * weight["smooth"], f"5.13, tau_theta {tau}: cap detection takes weight away after {iterations} "
+                checks.expect(weight["keep"] < 0.99 * weight["smooth"], f"5.13, tau_theta {tau}: cap detection takes weight away "
+                                                                        f"after {iterations} "
                               f"iterations: {weight['smooth']:.4f} -> {weight['keep']:.4f}")
-        run("undo", model.project)
+        model.undo()
     page = "## Fig. 5.13: ends of a cylinder merged with a cuboid\n\n" + CAPS_WORDS
     for tau, lines in rows.items():
         shown = table(("Laplace iterations before", "ends found", "their vertices", "vertices at steep bends",
@@ -720,7 +704,8 @@ def caps(options, checks):
 
 
 FLOW_WAYS = [("Original MC", None), ("Laplace", ["filter=laplace"]), ("SA Laplace", ["filter=laplace"]),
-             ("Laplace+HC", ["filter=laplace-hc", "alpha=0", "beta=0.5"]), ("SA Laplace+HC", ["filter=laplace-hc", "alpha=0", "beta=0.5"])]
+             ("Laplace+HC", ["filter=laplace-hc", "alpha=0", "beta=0.5"]), ("SA Laplace+HC", ["filter=laplace-hc", "alpha=0",
+                                                                                              "beta=0.5"])]
 FLOW_BASE = ["iterations=20", "lambda=0.5", "caps=keep"]
 FLOW_STAIRCASE = ["staircase=true", "stack_axis=0,0,1", "tau_theta=0.7", "tau_max=0.6", "beta_min=0", "weight=tau-max"]
 
@@ -757,8 +742,10 @@ def flow(options, checks):
                 name.replace(" ", "-"), arguments + FLOW_BASE + (FLOW_STAIRCASE if "SA" in name else []))
             found[name].append(figures(file, exact) | {"loss": 100 * (measured(file)["volume"] / volume - 1)})
     mean = {name: {key: sum(run[key] for run in runs) / len(runs) for key in runs[0]} for name, runs in found.items()}
-    shown = table(("", "Hausdorff [mm]", "mean distance [mm]", "volume [%]", "volume against the raw surface [%]", "normal curvature [deg]"),
-                  [(n, f"{m['hausdorff']:.3f}", f"{m['mean']:.4f}", f"{m['volume']:+.2f}", f"{m['loss']:+.2f}", f"{m['curvature']:.2f}")
+    shown = table(("", "Hausdorff [mm]", "mean distance [mm]", "volume [%]", "volume against the raw surface [%]",
+                   "normal curvature [deg]"),
+                  [(n, f"{m['hausdorff']:.3f}", f"{m['mean']:.4f}", f"{m['volume']:+.2f}", f"{m['loss']:+.2f}",
+                    f"{m['curvature']:.2f}")
                    for n, m in mean.items()])
     print(shown)
     flow_checks(checks, found)
@@ -769,25 +756,29 @@ def flow_checks(checks, found):
     raw, count = found["Original MC"], len(found["Original MC"])
     pairs = list(zip(found["Laplace"], found["SA Laplace"], raw))
     lost = sum(abs(aware["loss"]) <= 0.1 * abs(uniform["loss"]) for uniform, aware, _ in pairs)
-    checks.expect(lost == count, f"5.5 flow: SA Laplace loses at most a tenth of the volume uniform loses on {lost} of {count} seeds")
+    checks.expect(lost == count, f"5.5 flow: SA Laplace loses at most a tenth of the volume uniform loses on {lost} of {count} "
+                                 f"seeds")
     added = sum(aware["mean"] - r["mean"] <= 0.1 * (uniform["mean"] - r["mean"]) for uniform, aware, r in pairs)
-    checks.expect(added == count, f"5.5 flow: SA Laplace adds at most a tenth of the error uniform adds on {added} of {count} seeds")
+    checks.expect(added == count, f"5.5 flow: SA Laplace adds at most a tenth of the error uniform adds on {added} of {count} "
+                                  f"seeds")
     for name in ("Laplace", "Laplace+HC"):
         smoother = sum(aware["curvature"] < r["curvature"] for aware, r in zip(found["SA " + name], raw))
         checks.expect(smoother == count, f"5.5 flow: SA {name} is smoother than the raw surface on {smoother} of {count} seeds")
         nearer = sum(aware["mean"] <= r["mean"] for aware, r in zip(found["SA " + name], raw))
-        checks.expect(nearer == count, f"5.5 flow: SA {name} as near to the exact surface as the raw one on {nearer} of {count} seeds",
+        checks.expect(nearer == count, f"5.5 flow: SA {name} as near to the exact surface as the raw one on {nearer} of {count} "
+                                       f"seeds",
                       NOT_NEARER)
 
 
-NOT_NEARER = "The raw surface lies inside the exact one, and smoothing moves it further in; the thesis's SA Laplace is not nearer either."
+NOT_NEARER = ("The raw surface lies inside the exact one, and smoothing moves it further in; the thesis's SA Laplace is not "
+              "nearer either.")
 
 
 METHODS_WORDS = """The same raw surface by four methods. Taubin: ours, uniform, lambda 0.5, mu -0.51, 20 pairs. Windowed sinc:
 vtkWindowedSincPolyDataFilter, 20 iterations, pass band 0.1. InVesalius: its context-aware smoothing (Moench et al. 2010), written
-from its description (tests/bench/reference_context_smoothing.h), with the defaults of its dialog: staircases where the orientation
-to one of the image's three axes changes by 0.7, weights from 1 there to 0.5 at 3 mm, 10 pairs of 0.5 and -0.53. Ours: `smooth
-preset=cfd staircase=true find_caps=false`, as the default recipe for images. No parameter was chosen on these cases.
+from its description (tests/bench/reference_context_smoothing.h), with the defaults of its dialog: staircases where the
+orientation to one of the image's three axes changes by 0.7, weights from 1 there to 0.5 at 3 mm, 10 pairs of 0.5 and -0.53. Ours:
+`smooth preset=cfd staircase=true find_caps=false`, as the default recipe for images. No parameter was chosen on these cases.
 
 Truth of the masks: the labels' surface of all slices, which has small staircases of its own; the input keeps every 2nd (carotid)
 or 3rd slice (aorta). Truth of the phantom: the exact surface of the bundled aneurysm, clipped where its image ends; the input is
@@ -800,7 +791,7 @@ OURS = ["preset=cfd", "staircase=true"]
 PHANTOM_ENDS = os.path.join(ROOT, "tests", "experiments", "truth", "aneurysm.json")  # places near them are left out
 METHODS_MASKS = ("carotid", "aorta")
 METHODS_VIEWS = {"carotid": "0,-1,0", "aorta": "-1,0.6,0", "aneurysm": "0,-1,0"}
-TRUTH = os.path.join(os.path.dirname(PROGRAM), "truth")
+TRUTH = os.path.join(BUILD, "truth")
 
 
 def thick_phantom(folder, times):
@@ -816,12 +807,15 @@ def thick_phantom(folder, times):
     with open(description, "w") as file:
         json.dump(phantom, file)
     run("phantom", description, "--out", folder)
-    model = Model(folder, "aneurysm", os.path.join(folder, "mask.nii.gz")).apply("extract-surface", "method=labels", "mask_surface=midway")
+    model = Model(folder, "aneurysm", os.path.join(folder, "mask.nii.gz")).apply("extract-surface", "method=labels",
+                                                                                 "mask_surface=midway")
     return model, exact_within(folder, model.surface("raw"))
 
 
 def methods_table(model, image, truth, *ends):
-    """What the methods make of a model's surface: rows of figures, the table and the files. `ends`: a file of places to leave out."""
+    """What the methods make of a model's surface: rows of figures, the table and the files. `ends`:
+    a file of places to leave out.
+    """
     files = {"Raw": model.surface("raw"), "Taubin": model.smoothed("taubin", ["filter=taubin", "lambda=0.5", "iterations=20"])}
     for name, way in (("Windowed sinc (VTK)", "sinc"), ("InVesalius", "context")):
         files[name] = os.path.join(model.folder, f"{model.name}-{way}.vtp")
@@ -840,7 +834,8 @@ def methods_table(model, image, truth, *ends):
 def method_pictures(options, name, files, truth, full_colour):
     """The deviation of each method's surface from the truth, side by side."""
     return " ".join(picture(options, f"methods-{name}-{way}", files[title], truth, full_colour, METHODS_VIEWS[name], 260)
-                    for way, title in (("raw", "Raw"), ("taubin", "Taubin"), ("sinc", "Windowed sinc (VTK)"), ("invesalius", "InVesalius"),
+                    for way, title in (("raw", "Raw"), ("taubin", "Taubin"), ("sinc", "Windowed sinc (VTK)"),
+                                       ("invesalius", "InVesalius"),
                                        ("ours", "Ours")))
 
 
@@ -866,7 +861,8 @@ def methods(options, checks):
         skip("no ../shared/data")
         page += SKIPPED
     model, exact = thick_phantom(os.path.join(folder, "phantom"), 3)
-    cases.append(("aneurysm", "the bundled phantom, slices of 1.2 mm", model, os.path.join(model.folder, "mask.nii.gz"), exact, (PHANTOM_ENDS,)))
+    cases.append(("aneurysm", "the bundled phantom, slices of 1.2 mm", model, os.path.join(model.folder, "mask.nii.gz"), exact,
+                  (PHANTOM_ENDS,)))
     for name, title, case, image, truth, ends in cases:
         rows, shown, files = methods_table(case, image, truth, *ends)
         print(f"{name}\n{shown}", flush=True)
@@ -877,28 +873,31 @@ def methods(options, checks):
         if not options.quick:
             scale = float(f"{rows['Raw']['p95']:.1g}")
             shots = method_pictures(options, name, files, truth, scale)
-            page += f"Raw, Taubin, windowed sinc, InVesalius, ours: deviation from the truth, blue {scale:g} mm inside, red outside.\n\n{shots}\n\n"
+            page += (f"Raw, Taubin, windowed sinc, InVesalius, ours: deviation from the truth, blue {scale:g} mm inside, red "
+                     f"outside.\n\n{shots}\n\n")
     return page + methods_verdict(model, exact)
 
 
-METHODS_VERDICT = """Why. On the phantom the vessels run almost along the stack's axis, so that much of the roughness is the steps of the voxels within
-a slice, and staircase weights ({weight:.2f} on the mean) leave these. The same filter without weights ends at {mean:.4f} mm and
-{curvature:.2f} degrees there. Laplace+HC pulls in what is thin, so that ours loses volume on thin vessels. InVesalius's step of -0.53 inflates
-more than Taubin's -0.51 (without weights and with 20 pairs: {strong:+.2f} instead of {weak:+.2f} % on the phantom), which keeps its volume; its
-10 pairs smooth less than 20.
+METHODS_VERDICT = """Why. On the phantom the vessels run almost along the stack's axis, so that much of the roughness is the steps
+of the voxels within a slice, and staircase weights ({weight:.2f} on the mean) leave these. The same filter without weights ends
+at {mean:.4f} mm and {curvature:.2f} degrees there. Laplace+HC pulls in what is thin, so that ours loses volume on thin vessels.
+InVesalius's step of -0.53 inflates more than Taubin's -0.51 (without weights and with 20 pairs: {strong:+.2f} instead of
+{weak:+.2f} % on the phantom), which keeps its volume; its 10 pairs smooth less than 20.
 """
 
 
 def methods_verdict(model, exact):
     """What explains the ranks on the phantom, measured there."""
     plain = figures(model.smoothed("plain", ["preset=cfd"]), exact)
-    plain["mean"] = json.loads(run("distance", exact, os.path.join(model.folder, f"{model.name}-plain.vtp"), PHANTOM_ENDS, program=TRUTH))["mean"]
+    plain["mean"] = json.loads(run("distance", exact, os.path.join(model.folder, f"{model.name}-plain.vtp"), PHANTOM_ENDS,
+                                   program=TRUTH))["mean"]
     model.apply("smooth", *OURS, "find_caps=false")
     weight = model.report()["mean_weight"]
-    run("undo", model.project)
+    model.undo()
     volumes = {}
     for name, mu in (("strong", -0.53), ("weak", -0.51)):
-        volumes[name] = figures(model.smoothed(f"mu{mu}", ["filter=taubin", "lambda=0.5", f"mu={mu}", "iterations=20"]), exact)["volume"]
+        volumes[name] = figures(model.smoothed(f"mu{mu}", ["filter=taubin", "lambda=0.5", f"mu={mu}", "iterations=20"]),
+                                exact)["volume"]
     return METHODS_VERDICT.format(weight=weight, mean=plain["mean"], curvature=plain["curvature"], **volumes)
 
 
@@ -910,7 +909,7 @@ EXPERIMENTS = {"sphere": sphere, "distance": distance, "aorta": aorta, "real": r
 def program_key():
     """A short name of the exact programs and of this script."""
     key = hashlib.sha256()
-    for path in (PROGRAM, TRUTH, os.path.join(ROOT, "build", "release", "stack_tables"), os.path.abspath(__file__)):
+    for path in (PROGRAM, TRUTH, os.path.join(BUILD, "stack_tables"), os.path.abspath(__file__), common.__file__):
         if os.path.exists(path):
             with open(path, "rb") as file:
                 key.update(file.read())
@@ -940,14 +939,15 @@ def full_parts(options, names):
         with open(os.path.join(options.out, name + ".json")) as file:
             parts.append(json.load(file))
         if parts[-1].get("quick", True):
-            sys.exit(f"{options.out}: {name} is not of a full run: scripts/experiments --only {name} --out {options.out}")
+            sys.exit(f"{options.out}: {name} is not of a full run: scripts/experiments.py --only {name} --out {options.out}")
     return parts
 
 
 PAGE = os.path.join(ROOT, "docs", "experiments.md")
 LAST_HEADING = "\n## What does not come out\n\n"
 # How the lines of the last section begin, by experiment.
-OWN_LINES = {"sphere": r"5\.5 (?!flow)", "distance": r"5\.[12]:", "aorta": r"5\.4 aorta", "real": "(aorta|liver|carotid),", "stack": r"5\.6:",
+OWN_LINES = {"sphere": r"5\.5 (?!flow)", "distance": r"5\.[12]:", "aorta": r"5\.4 aorta", "real": "(aorta|liver|carotid),",
+             "stack": r"5\.6:",
              "caps": r"5\.13", "flow": r"5\.5 flow", "methods": "methods,"}
 
 
@@ -975,7 +975,8 @@ def assemble(options):
     parts = full_parts(options, EXPERIMENTS)
     known = [text for part in parts for text in part["explained"] + part["failed"]]
     with open(PAGE, "w") as page:
-        page.write("# The thesis's experiments\n\nWritten by `scripts/experiments`; every row is a run of `vesselbench apply P smooth ...`. "
+        page.write("# The thesis's experiments\n\nWritten by `scripts/experiments.py`; every row is a run of `vesselbench apply "
+                   "P smooth ...`. "
                    + printed_by(parts) + "\n\n")
         page.write("\n".join(part["page"].rstrip("\n") + "\n" for part in parts))
         page.write(LAST_HEADING + "".join(f"- {text}\n" for text in NOT_OUT + known))
@@ -984,7 +985,8 @@ def assemble(options):
 NOT_OUT = [
     "5.5: the unfiltered row's volume of -0.01 %, and anything at tau_theta 0.7: see the text there.",
     "5.3 and 5.4: with most filters the Hausdorff distance is larger with staircase awareness than without; see the tables.",
-    "5.8: velocities and wall shear stress are not here: `scripts/experiments_flow` solves the flow (docs/experiments-flow.md).",
+    "5.8: velocities and wall shear stress are not here: `scripts/experiments_flow.py` solves the flow "
+    "(docs/experiments-flow.md).",
 ]
 
 
@@ -992,7 +994,7 @@ def measure_part(options, name, checks):
     """Runs one experiment and keeps its part of the page, with the command that prints it and the program's revision."""
     part = Checks()
     page = EXPERIMENTS[name](options, part)
-    command = "scripts/experiments" + (f" --only {name}" if options.only else "") + (" --quick" if options.quick else "")
+    command = "scripts/experiments.py" + (f" --only {name}" if options.only else "") + (" --quick" if options.quick else "")
     with open(os.path.join(options.out, name + ".json"), "w") as file:
         json.dump({"name": name, "command": command, "key": program_key(), "revision": options.revision, "quick": options.quick,
                    "page": page, "explained": part.explained, "failed": part.failed}, file)
@@ -1010,7 +1012,7 @@ def repeat(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--only", action="append", choices=list(EXPERIMENTS))
     parser.add_argument("--out")
     parser.add_argument("--quick", action="store_true")

@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
 """Fits the weights by which vessel ends are judged (geometry/vessel/ends/end_weights.csv) to labelled ends.
 
-  scripts/fit_ends [--cases FOLDER] [--forest A-B[/STEP]] [--out FOLDER] [--program FILE] [--jobs N] [--ridge R] [--write]
+  scripts/fit_ends.py [--cases FOLDER] [--forest A-B[/STEP]] [--out FOLDER] [--program FILE] [--jobs N] [--ridge R] [--write]
 
 Labelled are real and synthetic cases with true ends (FOLDER/truth and FOLDER/repro; default ../shared/data/ends) and trees
 of the forest; `vesselbench ends` measures the features of every candidate. An opening is a true end that has to be open; a
 sac, one that stays closed; a bump, a candidate that is no true end. Optional ends, and candidates beside a true end, are
 left out. Trunks that a dome closes, the bundled aneurysm, whose largest end is its sac, and an aorta whose largest end is
 round, count twice. An end with at most 5 % of the flow counts less than one that decides over a model. Multinomial logistic
-regression, cases and forest with the same weight in sum. Without --ridge, the one with the least log loss on patients left out is taken; a
-smaller one makes odds that decide more often. Prints the errors on patients left out. --write replaces the table.
+regression, cases and forest with the same weight in sum. Without --ridge, the one with the least log loss on patients left out is
+taken; a smaller one makes odds that decide more often. Prints the errors on patients left out. --write replaces the table.
 Needs python3-numpy; results of `vesselbench ends` stay in FOLDER (default out/fit_ends) and are used again.
 """
-import argparse
 import concurrent.futures
 import glob
 import json
@@ -22,7 +21,9 @@ import re
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+import common
+from common import ROOT
+
 TABLE = os.path.join(ROOT, "geometry", "vessel", "ends", "end_weights.csv")
 CLASSES = ("opening", "sac", "bump")
 RIDGES = (3e-3, 1e-3, 5e-4, 2e-4, 1e-4)
@@ -32,10 +33,6 @@ DOMED = (2.0, 2.5)  # [mm], of a trunk of 2 mm radius
 # Several cases show one patient.
 PATIENTS = {"m_frayds": "frayds", "m_frayds05": "frayds", "m_neck": "neck_obj", "mov_atrium_mm": "mov_atrium",
             "cow023_45": "cow023", "hep002_2": "hep002_1", "hep010_2": "hep010_1", "tsaorta_mask": "tsaorta_ct"}
-
-
-def distance(a, b):
-    return math.dist(a, b)
 
 
 def measured(command, file):
@@ -52,10 +49,10 @@ def measured(command, file):
 
 def matched(truths, ends, reach):
     """Index of the true end that each candidate is; the nearest pairs first."""
-    pairs = sorted((distance(t["place_mm"], e["place_mm"]) / reach(t, e) +
+    pairs = sorted((math.dist(t["place_mm"], e["place_mm"]) / reach(t, e) +
                     0.4 * abs(math.log(max(e["diameter_mm"], 1e-3) / t["diameter_mm"])), i, j)
                    for i, t in enumerate(truths) for j, e in enumerate(ends)
-                   if distance(t["place_mm"], e["place_mm"]) < reach(t, e))
+                   if math.dist(t["place_mm"], e["place_mm"]) < reach(t, e))
     of = {}
     for _, i, j in pairs:
         if i not in of.values() and j not in of:
@@ -82,7 +79,7 @@ def case_rows(truth, ends):
         if j in of:
             label = {"inlet": 0, "open": 0, "closed": 1}.get(truth["ends"][of[j]]["role"])
         elif truth.get("others") == "optional" or any(
-                distance(t["place_mm"], end["place_mm"]) < max(t["diameter_mm"], 3 * edge) for t in truth["ends"]):
+                math.dist(t["place_mm"], end["place_mm"]) < max(t["diameter_mm"], 3 * edge) for t in truth["ends"]):
             label = None
         else:
             label = 2
@@ -95,13 +92,13 @@ def forest_rows(truth, ends):
     of = matched(truth["ends"], ends, lambda t, e: 1.2 * t["diameter_mm"] + 2 * truth["resolution_mm"])
     rows = []
     for j, end in enumerate(ends):
-        near = [t for t in truth["ends"] if distance(t["place_mm"], end["place_mm"]) < 1.5 * t["diameter_mm"]]
+        near = [t for t in truth["ends"] if math.dist(t["place_mm"], end["place_mm"]) < 1.5 * t["diameter_mm"]]
         if j in of:
             label = 0 if truth["ends"][of[j]]["openable"] == "yes" else None
         elif near:
             label = None
         else:
-            label = 1 if any(distance(s["centre_mm"], end["place_mm"]) < 1.3 * s["radius_mm"]
+            label = 1 if any(math.dist(s["centre_mm"], end["place_mm"]) < 1.3 * s["radius_mm"]
                              for s in truth.get("sacs", [])) else 2
         if label is not None:
             rows.append(row(end, label))
@@ -253,7 +250,7 @@ def table_text(weights, origin):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--cases", default=os.path.join(ROOT, "..", "shared", "data", "ends"))
     parser.add_argument("--forest", default="1-200")
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "fit_ends"))
@@ -279,8 +276,9 @@ def main():
     seen = {name: int(((probabilities(d[0], weights)[:, 0] > 0.5) != (d[1] == 0)).sum())
             for name, d in (("cases", real), ("forest", forest))}
     origin = ["Weights of odds_of (end_odds.h): a multinomial logistic model of a candidate for a vessel's end.",
-              f"Made by scripts/fit_ends --forest {options.forest} --ridge {best[2]:g}; not to be edited by hand.",
-              f"Ends of real, synthetic and bundled cases {len(real[1])}, of the forest {len(forest[1])}; wrong: {seen['cases']} and "
+              f"Made by scripts/fit_ends.py --forest {options.forest} --ridge {best[2]:g}; not to be edited by hand.",
+              f"Ends of real, synthetic and bundled cases {len(real[1])}, of the forest {len(forest[1])}; wrong: {seen['cases']} "
+              f"and "
               f"{seen['forest']} of these, and {best[1]} of patients left out."]
     text = table_text(weights, origin)
     print(text)

@@ -2,29 +2,29 @@
 """Compares prepared surfaces with exact ones, beside two pipelines by hand on the same images, and writes
 docs/experiments-truth.md.
 
-  scripts/experiments_truth [--only PHANTOM]... [--slices N]... [--out FOLDER] [--quick] [--no-page] [--assemble] [--jobs N] [--necks]
+  scripts/experiments_truth.py [--only PHANTOM]... [--slices N]... [--out FOLDER] [--quick] [--no-page] [--assemble] [--jobs N]
+                              [--necks]
                             [--repeat]
 
 Six phantoms; slices once, twice and three times as thick as the voxels; masks and intensities. Ours: the default recipe for cfd
 up to its remeshing. By hand: VTK's flying edges, windowed sinc (20 iterations, pass band 0.1) or Taubin (20 pairs, lambda 0.5),
-CGAL's isotropic remeshing to the mean edge of ours; of intensities at half the contrast and at the threshold that ours starts from.
-Then the necks of four phantoms at three blurs, with one threshold and with local ones. --quick: one phantom and slices of two voxels,
-no page; exit code 1 if ours is not the nearest, its mean is not below 0.25 voxels, or the mask's radius bias not below 0.1.
---assemble writes the page from what the folder holds, --necks only measures the necks. --repeat measures one row of the page again
-and compares, within 5 % or 0.02; exit code 1 if they differ.
+CGAL's isotropic remeshing to the mean edge of ours; of intensities at half the contrast and at the threshold that ours starts
+from. Then the necks of four phantoms at three blurs, with one threshold and with local ones. --quick: one phantom and slices of
+two voxels, no page; exit code 1 if ours is not the nearest, its mean is not below 0.25 voxels, or the mask's radius bias not
+below 0.1.
+--assemble writes the page from what the folder holds, --necks only measures the necks. --repeat measures one row of the page
+again and compares, within 5 % or 0.02; exit code 1 if they differ.
 """
-import argparse
 import concurrent.futures
 import json
 import math
 import os
-import subprocess
 import sys
 
+import common
 import page_rows
+from common import BUILD, ROOT, row_line, table
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-BUILD = os.path.join(ROOT, "build", "release")
 SHAPES = os.path.join(ROOT, "tests", "experiments", "truth")
 PHANTOMS = ["aneurysm", "apex", "siphon", "fusiform", "carotid", "aorta"]
 PEERS = ["sinc", "taubin"]
@@ -35,10 +35,7 @@ REPEATED = ("siphon", 2, "mask")
 
 
 def run(program, *arguments):
-    done = subprocess.run([os.path.join(BUILD, program), *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{program} {' '.join(map(str, arguments))}\n{done.stderr}")
-    return done.stdout
+    return common.run(*arguments, program=os.path.join(BUILD, program))
 
 
 def description(name, thick, blur=1.0):
@@ -60,7 +57,9 @@ def description(name, thick, blur=1.0):
 
 
 def recipe(folder, sac):
-    """The default recipe for the flow in an image's vessel, up to its remeshing, as a file. sac: a place that stays closed, or none."""
+    """The default recipe for the flow in an image's vessel, up to its remeshing, as a file. sac:
+    a place that stays closed, or none.
+    """
     used = {"image", "cfd", "no-planning", "no-simulation", "no-rp"}
     with open(os.path.join(ROOT, "workbench", "prepare", "recipes", "prepare.json")) as file:
         entries = json.load(file)
@@ -78,7 +77,9 @@ def recipe(folder, sac):
 
 
 def add_opened_ends(facts, report):
-    """Ends that the program opens and the phantom's file does not name, side branches, count as ends: their extrusions are wanted."""
+    """Ends that the program opens and the phantom's file does not name, side branches, count as ends:
+    their extrusions are wanted.
+    """
     with open(facts) as file:
         truth = json.load(file)
     with open(report) as file:
@@ -120,7 +121,8 @@ def judged_ours(folder, image, facts, *settings):
     with open(report) as file:
         steps = json.load(file)["steps"]
     threshold = next(step["report"]["threshold"] for step in steps if step["operation"] == "extract-surface")
-    return json.loads(run("truth", "judge", os.path.join(folder, "exact.vtp"), os.path.join(product, "surface.vtp"), facts)), threshold
+    return json.loads(run("truth", "judge", os.path.join(folder, "exact.vtp"), os.path.join(product, "surface.vtp"),
+                          facts)), threshold
 
 
 def judged_peers(folder, image, facts, level, edge):
@@ -159,7 +161,8 @@ def judged_neck(case):
         folder = os.path.join(out, f"neck-{name}-{blur:g}-{level}")
         _, facts = planted(folder, name, 1, blur)
         try:
-            ours, _ = judged_ours(folder, os.path.join(folder, "image.nii.gz"), facts, "--set", f"extract-surface.threshold={level}")
+            ours, _ = judged_ours(folder, os.path.join(folder, "image.nii.gz"), facts, "--set",
+                                  f"extract-surface.threshold={level}")
             found[level] = {key: sac_error(ours, key) for key in ("neck", "volume")}
         except RuntimeError as error:
             found[level], found["error"] = None, str(error)
@@ -187,7 +190,7 @@ def row(figures):
             cells.append(format(found[part][key] / voxel, sign + ".3f") if found else "-")
     for key in ("volume", "neck"):
         cells += [per_cent(sac_error(figures[way], key)) for way in WAYS]
-    return "| " + " | ".join(cells) + " |"
+    return row_line(cells)
 
 
 def row_at_ours(figures):
@@ -197,18 +200,14 @@ def row_at_ours(figures):
     for key, part in (("mean", "distance"), ("section_bias", "radius")):
         cells += [format(by_way[way][part][key] / voxel, ("+" if part == "radius" else "") + ".3f") for way in WAYS]
     cells += [per_cent(sac_error(by_way[way], "neck")) for way in WAYS]
-    return "| " + " | ".join(cells) + " |"
+    return row_line(cells)
 
 
 def neck_row(found):
     cells = [found["case"], f"{found['blur']:g}"]
     for key in ("neck", "volume"):
         cells += [per_cent(found[level] and found[level][key]) for level in LEVELS]
-    return "| " + " | ".join(cells) + " |"
-
-
-def table(head, rows):
-    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *rows]) + "\n"
+    return row_line(cells)
 
 
 def by_way(titles):
@@ -225,7 +224,8 @@ def at_ours_part(results):
     both = [f for f in results if f.get("at_ours")]
     head = ["phantom, slices, image", "half the contrast", "our threshold"] + by_way(["mean", "radius bias", "neck's area [%]"])
     nearer = sum(f["ours"]["distance"]["mean"] < min(f["at_ours"][way]["distance"]["mean"] for way in PEERS) for f in both)
-    gains = [[f[way]["distance"]["mean"] - f["ours"]["distance"]["mean"], f[way]["distance"]["mean"] - f["at_ours"][way]["distance"]["mean"]]
+    gains = [[f[way]["distance"]["mean"] - f["ours"]["distance"]["mean"],
+              f[way]["distance"]["mean"] - f["at_ours"][way]["distance"]["mean"]]
              for f in both for way in PEERS]
     lead, threshold = (sum(gain) for gain in zip(*gains))
     return (AT_OURS + table(head, map(row_at_ours, both))
@@ -234,11 +234,13 @@ def at_ours_part(results):
 
 
 def neck_part(necks):
-    head = ["phantom", "times its blur"] + [f"{title}, {level}" for title in ("neck's area [%]", "sac's volume [%]") for level in LEVELS]
+    head = ["phantom", "times its blur"] + [f"{title}, {level}" for title in ("neck's area [%]", "sac's volume [%]")
+                                            for level in LEVELS]
     pairs = [[abs(found[level]["neck"]) for level in LEVELS] for found in necks if all(found[level] for level in LEVELS)]
     halved = sum(local <= 0.5 * one for one, local in pairs)
     means = [sum(errors) / len(errors) for errors in zip(*pairs)]
-    return (NECKS_WORDS + table(head, map(neck_row, necks)) + f"\n- Local thresholds at least halve the neck's error in {halved} of {len(pairs)}; "
+    return (NECKS_WORDS + table(head, map(neck_row, necks)) + f"\n- Local thresholds at least halve the neck's error in {halved} "
+                                                              f"of {len(pairs)}; "
             f"mean {means[0]:.1f} % with one threshold, {means[1]:.1f} % with local ones.\n")
 
 
@@ -271,14 +273,14 @@ def verdicts(results):
 
 WORDS = """# Nearer to the truth
 
-Written by `scripts/experiments_truth` with the program of %s. Prepared surfaces (ours) against exact ones, beside the same
+Written by `scripts/experiments_truth.py` with the program of %s. Prepared surfaces (ours) against exact ones, beside the same
 images taken through two pipelines by hand: VTK's flying edges, windowed sinc or Taubin, CGAL's remeshing. Intensities: ours finds
-its own thresholds, the pipelines get half the contrast. Away from the ends, that is where the exact surface's point is outside the
-balls that the phantom's file gives for them: mean and 95th percentile of the distance both ways; radius bias, the change of the
-wall's mean distance from the exact centerlines within sections; the same of the nearest wall, which roughness alone makes negative;
-all in voxels (in the slice's plane). Volume of the sac beyond the neck's plane and area of the neck, relative to the exact
-surface's. The phantoms (tests/experiments/truth) were fixed before the first run; the clearance of masks' voxels and the way to the
-threshold of intensities were chosen on them later (docs/decisions.md).
+its own thresholds, the pipelines get half the contrast. Away from the ends, that is where the exact surface's point is outside
+the balls that the phantom's file gives for them: mean and 95th percentile of the distance both ways; radius bias, the change of
+the wall's mean distance from the exact centerlines within sections; the same of the nearest wall, which roughness alone makes
+negative; all in voxels (in the slice's plane). Volume of the sac beyond the neck's plane and area of the neck, relative to the
+exact surface's. The phantoms (tests/experiments/truth) were fixed before the first run; the clearance of masks' voxels and the
+way to the threshold of intensities were chosen on them later (docs/decisions.md).
 
 """
 
@@ -350,7 +352,7 @@ def repeat(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--only", action="append", choices=PHANTOMS)
     parser.add_argument("--slices", action="append", type=int, choices=[1, 2, 3])
     parser.add_argument("--out", default=os.path.join(ROOT, "out", "truth"))

@@ -1,21 +1,22 @@
 #!/usr/bin/python3
 """Measures how wide thin vessels come out of intensities with one threshold and with local ones, on phantoms of known radius.
 
-  scripts/experiments_thin [--only SHAPE]... [--slices N]... [--radii R]... [--fall SHARE] [--out FOLDER] [--jobs N] [--program FILE]
+  scripts/experiments_thin.py [--only SHAPE]... [--slices N]... [--radii R]... [--fall SHARE] [--out FOLDER] [--jobs N]
+                             [--program FILE]
                            [--no-page]
-  scripts/experiments_thin --repeat [--out FOLDER] [--jobs N] [--program FILE]
+  scripts/experiments_thin.py --repeat [--out FOLDER] [--jobs N] [--program FILE]
 
-Oblique and flat tubes, helices, furcations (their thinner branch) and vessels with a sac (vessel and sac apart); radii of 1.5 to 3
-voxels of the coarsest axis; slices 1 to 3 times as thick as the voxels of 0.4 mm; blur of 0.5 and 1 voxel along each axis; noise of
-0 and 5 % of the contrast. The error of the volume is that of the mean squared distance of the wall from the vessel's axis (of a sac,
-the mean cube), away from ends and furcations. --fall: the contrast varies over the image by that share. Without --only, --slices,
---radii, --fall and --no-page it writes docs/experiments-thin.md. Exit code 1 if an error with local levels is above 3 % for radii of
-3 voxels or more, or above 8 % for 2. Needs Debian's python3-numpy, hence /usr/bin/python3.
+Oblique and flat tubes, helices, furcations (their thinner branch) and vessels with a sac (vessel and sac apart); radii of 1.5 to
+3 voxels of the coarsest axis; slices 1 to 3 times as thick as the voxels of 0.4 mm; blur of 0.5 and 1 voxel along each axis;
+noise of 0 and 5 % of the contrast. The error of the volume is that of the mean squared distance of the wall from the vessel's
+axis (of a sac, the mean cube), away from ends and furcations. --fall: the contrast varies over the image by that share. Without
+--only, --slices,
+--radii, --fall and --no-page it writes docs/experiments-thin.md. Exit code 1 if an error with local levels is above 3 % for radii
+of 3 voxels or more, or above 8 % for 2. Needs Debian's python3-numpy, hence /usr/bin/python3.
 
---repeat measures the row of the tube with a radius of 2 voxels and slices of 1 again, in a folder of its own, and compares it with
-the page's, within 5 % of each error or 0.3 points (their last digit is 0.1). Exit code 1 if they differ.
+--repeat measures the row of the tube with a radius of 2 voxels and slices of 1 again, in a folder of its own, and compares it
+with the page's, within 5 % of each error or 0.3 points (their last digit is 0.1). Exit code 1 if they differ.
 """
-import argparse
 import concurrent.futures
 import itertools
 import json
@@ -27,9 +28,10 @@ import sys
 
 import numpy
 
+import common
 import page_rows
+from common import ROOT
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 VOXEL = 0.4  # [mm]
 INSIDE, OUTSIDE = 600.0, 100.0
 SHAPES = ["tube", "flat", "helix", "tree", "sac"]
@@ -75,7 +77,8 @@ def shape(name, r):
     line = straight(o, scaled((0.3, 0.9, 0.3), 30 * r))
     side = numpy.cross(scaled((0.3, 0.9, 0.3), 1), scaled((1, 0, 0.2), 1))
     centre = tuple(numpy.array(line[100]) + 3.2 * r * side / numpy.linalg.norm(side))
-    return ([vessel("vessel", line[::20], r), {"name": "sac", "sphere": {"centre": list(centre), "radius": 2.5 * r}, "blend": 0.4 * r}],
+    return ([vessel("vessel", line[::20], r), {"name": "sac", "sphere": {"centre": list(centre), "radius": 2.5 * r},
+                                               "blend": 0.4 * r}],
             [("vessel with a sac", line[:70], r, 4 * r, 0.0), ("sac", [centre], 2.5 * r, side, line)])
 
 
@@ -132,7 +135,8 @@ def measure(case, options):
     with open(os.path.join(folder, "thin.json"), "w") as file:
         json.dump({"name": "thin", "about": "A vessel of known radius.", "seed": 3, "surface_edge": 1.0, "parts": parts,
                    "imaging": {"spacing": spacing, "margin": 5 * slices * VOXEL, "inside": INSIDE, "outside": OUTSIDE,
-                               "blur": [blur * s for s in spacing], "noise": noise * (INSIDE - OUTSIDE), "inhomogeneity": options.fall}}, file)
+                               "blur": [blur * s for s in spacing], "noise": noise * (INSIDE - OUTSIDE),
+                               "inhomogeneity": options.fall}}, file)
 
     def program(*arguments):
         done = subprocess.run([options.program, *arguments], capture_output=True, text=True, cwd=folder)
@@ -147,7 +151,8 @@ def measure(case, options):
             if os.path.exists(os.path.join(folder, name_of)):
                 os.remove(os.path.join(folder, name_of))
         failure = failure or program("new", "p.vbench", image)
-        said = failure or program("apply", "p.vbench", "extract-surface", f"threshold={LEVELS[level]}") or program("export", "p.vbench", "p.stl")
+        said = failure or program("apply", "p.vbench", "extract-surface",
+                                  f"threshold={LEVELS[level]}") or program("export", "p.vbench", "p.stl")
         if said:
             print(case, level, said.strip().splitlines()[-1], file=sys.stderr)
         else:
@@ -167,16 +172,22 @@ def row_line(key, errors):
 def page(table, revision):
     """docs/experiments-thin.md of {key: errors}, as row_line takes them."""
     lines = ["# Thin vessels: one threshold and local levels", "",
-             f"Written by `scripts/experiments_thin` with the program of {revision}:",
+             f"Written by `scripts/experiments_thin.py` with the program of {revision}:",
              "the error of a vessel's volume in phantoms of known radius,",
-             "in percent, with one threshold (midway between the medians inside and outside the wall) / with local levels (the default).",
-             "Radii in voxels of the coarsest axis; slices as thick as 1 to 3 voxels of 0.4 mm; blur in voxels of each axis; noise in percent of",
-             "the contrast. The goal is 3 % for 3 voxels, 8 % for 2; where the core does not reach 95 % of the contrast, half the error.", "",
-             "| vessel | radius | slices | " + " | ".join(f"blur {b}, noise {100 * n:.0f} %" for b in BLURS for n in NOISES) + " |",
+             "in percent, with one threshold (midway between the medians inside and outside the wall) / with local levels (the "
+             "default).",
+             "Radii in voxels of the coarsest axis; slices as thick as 1 to 3 voxels of 0.4 mm; blur in voxels of each axis; "
+             "noise in percent of",
+             "the contrast. The goal is 3 % for 3 voxels, 8 % for 2; where the core does not reach 95 % of the contrast, half "
+             "the error.", "",
+             "| vessel | radius | slices | " + " | ".join(f"blur {b}, noise {100 * n:.0f} %" for b in BLURS for n in NOISES) +
+             " |",
              "|---" * (3 + len(BLURS) * len(NOISES)) + "|"]
     lines += itertools.starmap(row_line, table.items())
-    lines += ["", "What the blur takes from a thin vessel it takes from the image's peak, not from the integral: levels that follow the blurred shape",
-              "keep the volume. Flat vessels under thick, blurred slices keep the largest error, since their sections are no circles in the image."]
+    lines += ["", "What the blur takes from a thin vessel it takes from the image's peak, not from the integral: levels that "
+                  "follow the blurred shape",
+              "keep the volume. Flat vessels under thick, blurred slices keep the largest error, since their sections are no "
+              "circles in the image."]
     with open(os.path.join(ROOT, "docs", "experiments-thin.md"), "w") as file:
         file.write("\n".join(lines) + "\n")
 
@@ -209,7 +220,7 @@ def repeat(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = common.parser(__doc__)
     parser.add_argument("--only", action="append", choices=SHAPES)
     parser.add_argument("--slices", action="append", type=int)
     parser.add_argument("--radii", action="append", type=float)

@@ -5,7 +5,7 @@ Lengths are those of clang-tidy's readability-function-size: lines from the open
 brace, of which one counts; at least 1. A lambda belongs to the function around it. Fails if a
 function is longer than --limit.
 
-    scripts/function_lengths [--longest 20] [--limit 60] [FOLDER...]
+    scripts/function_lengths.py [--longest 20] [--limit 60] [FOLDER...]
 """
 import argparse
 import pathlib
