@@ -1,4 +1,5 @@
-// Prints Tables 5.6 and 5.7 of the thesis with our figures, as Markdown, for scripts/experiments.py.
+// Prints Tables 5.6 and 5.7 of the thesis with our figures, as Markdown, for
+// scripts/experiments.py.
 
 #include <algorithm>
 #include <array>
