@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "tests/support/operation_examples.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/case/arguments_json.h"
@@ -230,4 +231,24 @@ SCENARIO("Nobody but the operations asks for an operation by its name", "[workbe
                 CHECK(text.find(before + '"' + operation.name + '"') == std::string::npos);
     }
     CHECK(files > 50);
+}
+
+SCENARIO("Every operation declares an example that its parameters allow", "[workbench]") {
+    const test::ExampleGround ground{.radius = 2.0,
+                                     .files = {{InputKind::Surface, "surface.stl"},
+                                               {InputKind::Image, "image.nii"},
+                                               {InputKind::Neighbour, "neighbour.stl"}}};
+    for (const Operation& operation : operation_table()) {
+        CAPTURE(operation.name);
+        Arguments arguments = test::example_arguments(operation, ground);
+        const Arguments changes = test::example_changes(operation, ground);
+        CHECK_NOTHROW(checked_arguments(operation, arguments));
+        const Arguments given = arguments;
+        for (const auto& [name, value] : changes.values()) arguments.set(name, value);
+        CHECK(arguments != given);
+        CHECK_NOTHROW(checked_arguments(operation, arguments));
+    }
+    THEN("lengths are in radii of the vessel at hand") {
+        CHECK(test::example_arguments(find_operation("crop"), ground).real("radius") == 6.0);
+    }
 }
